@@ -1,0 +1,70 @@
+//! The one public error: what was wrong, with which value, and what is allowed.
+
+/// Everything that this crate refuses.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A quantity lies outside its allowed range; NaN always does.
+    #[error("{quantity} = {value} is not allowed: it must be {allowed}")]
+    Range {
+        /// Name of the quantity, with its unit.
+        quantity: String,
+        /// The value that was given.
+        value: f64,
+        /// The allowed range in words.
+        allowed: String,
+    },
+    /// A list has the wrong number of entries.
+    #[error("{quantity} has {given} entries, expected {expected}")]
+    Count {
+        /// Name of the list.
+        quantity: String,
+        /// Number of entries given.
+        given: usize,
+        /// Number of entries expected, in words.
+        expected: String,
+    },
+    /// The field was asked for at a point where it is singular: on the edge of a magnet.
+    #[error("the field at ({x} m, {y} m, {z} m) is singular: the point lies on an edge of a magnet")]
+    OnEdge {
+        /// Position of the point in the magnet's own frame, m.
+        x: f64,
+        /// See `x`.
+        y: f64,
+        /// See `x`.
+        z: f64,
+    },
+    /// A scene or resource could not be understood.
+    #[error("{what}: {reason}")]
+    Syntax {
+        /// Which text or file.
+        what: String,
+        /// Why it was refused.
+        reason: String,
+    },
+    /// A combination of choices that does not exist.
+    #[error("{0}")]
+    Unsupported(String),
+}
+
+impl Error {
+    /// An [`Error::Range`] for `quantity`.
+    pub fn range(quantity: impl Into<String>, value: f64, allowed: impl Into<String>) -> Self {
+        Self::Range { quantity: quantity.into(), value, allowed: allowed.into() }
+    }
+}
+
+/// Returns `value` when it is finite and `holds`, else an [`Error::Range`].
+///
+/// ```
+/// use mcm::error::check;
+/// assert_eq!(check("length (m)", 0.004, |v| v > 0.0, "> 0"), Ok(0.004));
+/// let refused = check("length (m)", f64::NAN, |v| v > 0.0, "> 0").unwrap_err();
+/// assert_eq!(refused.to_string(), "length (m) = NaN is not allowed: it must be > 0");
+/// ```
+///
+/// # Errors
+/// [`Error::Range`] for NaN, an infinity, or a value that does not hold.
+pub fn check(quantity: &str, value: f64, holds: impl Fn(f64) -> bool, allowed: &str) -> Result<f64, Error> {
+    if value.is_finite() && holds(value) { Ok(value) } else { Err(Error::range(quantity, value, allowed)) }
+}

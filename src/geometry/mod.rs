@@ -1,0 +1,5 @@
+//! Rotations and poses.
+
+mod pose;
+
+pub use pose::Pose;

@@ -1,0 +1,84 @@
+//! A rigid body's pose: where it is and how it is turned.
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+use crate::error::{Error, check};
+
+/// Position and orientation of a frame, body to world.
+///
+/// ```
+/// use mcm::geometry::Pose;
+/// let turned = Pose::new([0.0, 0.0, 0.1], [0.0, 1.0, 0.0, 0.0])?;
+/// assert!((turned.axis().z + 1.0).abs() < 1e-15);
+/// assert!(Pose::new([0.0; 3], [0.0; 4]).is_err());
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// Origin of the frame, m.
+    pub position: Vector3<f64>,
+    /// Rotation matrix `R`; its columns are the directors `d1`, `d2`, `d3`.
+    pub rotation: Matrix3<f64>,
+}
+
+impl Pose {
+    /// How far a given quaternion's norm may be from one.
+    const NORM_SLACK: f64 = 1e-3;
+
+    /// The pose at the origin, unturned.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { position: Vector3::zeros(), rotation: Matrix3::identity() }
+    }
+
+    /// Pose from a position (m) and a unit quaternion, scalar first.
+    ///
+    /// A quaternion within 1e-3 of unit norm is normalised: it describes the same rotation, rounded.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Range`] if an entry is not finite or the quaternion is not of unit norm.
+    pub fn new(position: [f64; 3], orientation_wxyz: [f64; 4]) -> Result<Self, Error> {
+        for value in position {
+            check("position (m)", value, |_| true, "finite")?;
+        }
+        for value in orientation_wxyz {
+            check("orientation (quaternion)", value, |_| true, "finite")?;
+        }
+        let [w, x, y, z] = orientation_wxyz;
+        let quaternion = Quaternion::new(w, x, y, z);
+        check(
+            "norm of the orientation quaternion",
+            quaternion.norm(),
+            |n| (n - 1.0).abs() <= Self::NORM_SLACK,
+            "1 within 1e-3",
+        )?;
+        let rotation = UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix().into_inner();
+        Ok(Self { position: position.into(), rotation })
+    }
+
+    /// The frame's third director `d3`: a rod's tangent, a magnet's axis.
+    #[must_use]
+    pub fn axis(&self) -> Vector3<f64> {
+        self.rotation.column(2).into()
+    }
+
+    /// The unit quaternion (w, x, y, z) with `w >= 0`.
+    #[must_use]
+    pub fn quaternion(&self) -> [f64; 4] {
+        let q = UnitQuaternion::from_matrix(&self.rotation);
+        let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
+        [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
+    }
+
+    /// The world coordinates of a point given in this frame.
+    #[must_use]
+    pub fn transform(&self, local: &Vector3<f64>) -> Vector3<f64> {
+        self.position + self.rotation * local
+    }
+
+    /// The frame moved by `distance` (m) along its own axis.
+    #[must_use]
+    pub fn advanced(&self, distance: f64) -> Self {
+        Self { position: self.position + self.axis() * distance, rotation: self.rotation }
+    }
+}

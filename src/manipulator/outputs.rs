@@ -1,0 +1,66 @@
+//! What the manipulator answers, world frame, SI units.
+
+use nalgebra::Vector3;
+
+use crate::equilibrium::Interaction;
+use crate::geometry::Pose;
+
+/// How the last solve ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Solved, on the branch that was followed.
+    Solved,
+    /// Solved, close to a fold: a little more load and the shape will snap.
+    NearFold,
+    /// Solved, after a jump to another branch in this solve.
+    Snapped,
+    /// Not solved: the other outputs are the last good ones.
+    NotSolved,
+}
+
+/// The answer of one solve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outputs {
+    /// Angle between the tip's and the base's `d3`, rad, in `[0, pi]`.
+    pub tip_angle: f64,
+    /// Pose of the tip (distal face of the last body).
+    pub tip: Pose,
+    /// Total external magnetic force on the manipulator, N.
+    pub magnetic_force: Vector3<f64>,
+    /// Total external magnetic torque about the base position, N m.
+    pub magnetic_torque: Vector3<f64>,
+    /// Force that the clamp exerts on the manipulator, N.
+    pub base_reaction_force: Vector3<f64>,
+    /// Moment that the clamp exerts on the manipulator, about the base position, N m.
+    pub base_reaction_moment: Vector3<f64>,
+    /// Force on the external magnet, N.
+    pub magnet_reaction_force: Vector3<f64>,
+    /// Torque on the external magnet about its centre, N m.
+    pub magnet_reaction_torque: Vector3<f64>,
+    /// External field at the tip, T.
+    pub tip_field: Vector3<f64>,
+    /// Unstrained arc length of the shape points, m; first at the base, last at the tip.
+    pub shape_arc_length: Vec<f64>,
+    /// Centreline points at those arc lengths, m.
+    pub shape: Vec<Vector3<f64>>,
+    /// Pose of each ring's centre, base to tip.
+    pub rings: Vec<Pose>,
+    /// Bending angle of each core (of each element of a plain cylinder), rad.
+    pub core_angles: Vec<f64>,
+    /// Whether the equilibrium is stable; `None` when the model has no potential to tell.
+    pub stable: Option<bool>,
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
+    pub stability_margin: f64,
+    /// Jumps to another branch since the first solve.
+    pub snaps: u32,
+    /// How the solve ended.
+    pub status: Status,
+    /// Newton iterations of the last solve.
+    pub iterations: u32,
+    /// Residual relative to the elastic forces of the chain, in the norm of the elastic energy.
+    pub residual: f64,
+    /// Potential energy, J.
+    pub energy: f64,
+    /// Level of local interaction that was used.
+    pub interaction: Interaction,
+}
