@@ -1,0 +1,1 @@
+//! A room of `src` uses only the rooms before it.

@@ -1,0 +1,25 @@
+//! Every Rust test of the project in one binary, in the order of the rooms of `src`.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "a test that meets something unexpected must stop"
+)]
+
+mod tolerance;
+
+mod design;
+
+mod magnetics;
+
+mod rod;
+
+mod equilibrium;
+
+mod manipulator;
+
+mod fmi;
+
+mod cli;
+
+mod layers;
