@@ -2,6 +2,7 @@
 
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
+use crate::error::Error;
 use crate::magnetics::AxialSource;
 use crate::rod::{Element, Piece};
 
@@ -21,13 +22,13 @@ pub(super) struct RingBody {
 }
 
 impl RingBody {
-    fn new(ring: &Ring, node: usize) -> Self {
-        Self {
+    fn new(ring: &Ring, node: usize) -> Result<Self, Error> {
+        Ok(Self {
             ring: *ring,
             node,
-            source: AxialSource::new(ring.outer_radius, ring.inner_radius, ring.length, ring.remanence),
+            source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
             magnetisation: ring.remanence / VACUUM_PERMEABILITY,
-        }
+        })
     }
 }
 
@@ -50,8 +51,11 @@ pub(super) struct Chain {
 }
 
 impl Chain {
-    pub(super) fn new(design: &Design, settings: &Settings) -> Self {
-        let mut rings: Vec<RingBody> = design.base_ring().map(|ring| RingBody::new(ring, 0)).into_iter().collect();
+    pub(super) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
+        let mut rings = Vec::new();
+        if let Some(ring) = design.base_ring() {
+            rings.push(RingBody::new(ring, 0)?);
+        }
         let mut offset = design.base_ring().map_or(0.0, |ring| ring.length);
         let (mut elements, mut cores) = (Vec::new(), Vec::new());
         for segment in design.segments() {
@@ -66,7 +70,7 @@ impl Chain {
             }
             cores.push((first, elements.len() - 1));
             if let Some(ring) = &segment.ring {
-                rings.push(RingBody::new(ring, elements.len()));
+                rings.push(RingBody::new(ring, elements.len())?);
                 offset = ring.length;
             }
         }
@@ -75,7 +79,7 @@ impl Chain {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
-        Self { elements, rings, tip_offset: offset, first, metric, cores }
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores })
     }
 
     /// Number of unknowns.

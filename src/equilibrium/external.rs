@@ -48,7 +48,7 @@ impl<'a> ExternalField<'a> {
     }
 
     /// Distance from `point` to the nearest external magnet, m; infinite without one.
-    fn distance(&self, point: &Vector3<f64>) -> f64 {
+    pub(super) fn distance(&self, point: &Vector3<f64>) -> f64 {
         self.magnet.map_or(f64::INFINITY, |(assembly, pose, _)| {
             assembly.distance(&pose.rotation.tr_mul(&(point - pose.position)))
         })
@@ -59,12 +59,9 @@ impl<'a> ExternalField<'a> {
     }
 
     /// Energy of a ring whose node is at `node`; `None` where it touches a magnet.
-    pub(super) fn on_ring(&self, body: &RingBody, node: &Pose, accuracy: f64) -> Option<Load> {
+    pub(super) fn on_ring(&self, body: &RingBody, node: &Pose, rule: &AxialRule) -> Option<Load> {
         let axis = node.axis();
         let centre = 0.5 * body.ring.length;
-        let middle = node.advanced(centre).position;
-        let (inner, outer, length) = (body.ring.inner_radius, body.ring.outer_radius, body.ring.length);
-        let rule = AxialRule::for_accuracy(inner, outer, length, self.distance(&middle), accuracy)?;
         let mut load = Load::zero();
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);

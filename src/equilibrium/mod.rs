@@ -2,10 +2,12 @@
 
 mod chain;
 mod external;
+mod follow;
 mod inputs;
 mod pair;
 mod potential;
 mod reduction;
+mod rules;
 mod settings;
 
 pub use inputs::Inputs;

@@ -7,9 +7,9 @@ use super::external::{ExternalField, weight};
 use super::inputs::Inputs;
 use super::pair::{PairLoad, blocks, overlap};
 use super::reduction::{Reduction, turn_nodes};
+use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use crate::geometry::Pose;
-use crate::magnetics::AxialRule;
 use crate::numerics::cholesky;
 use crate::numerics::trust_region::Objective;
 use crate::rod::{Configuration, Load, Tangent};
@@ -70,8 +70,7 @@ pub(super) struct Potential<'a> {
     pub(super) settings: &'a Settings,
     pub(super) inputs: &'a Inputs,
     pub(super) field: ExternalField<'a>,
-    /// Quadrature for each pair of rings, row by row of the upper triangle.
-    pub(super) rules: &'a [AxialRule],
+    pub(super) rules: &'a PairRules,
     pub(super) work: &'a mut Workspace,
 }
 
@@ -129,12 +128,14 @@ impl Potential<'_> {
     }
 
     fn load_rings(&mut self) -> Option<()> {
-        for (body, force) in self.chain.rings.iter().zip(&self.inputs.ring_forces) {
+        for (index, (body, force)) in self.chain.rings.iter().zip(&self.inputs.ring_forces).enumerate() {
             let node = self.work.nodes[body.node];
             let arm = node.axis() * (0.5 * body.ring.length);
             let dead = force + self.inputs.gravity * body.ring.mass;
             let load = &mut self.work.node_loads[body.node];
-            *load += self.field.on_ring(body, &node, self.settings.pair_accuracy)?;
+            let reach = self.field.distance(&(node.position + arm));
+            let rule = self.rules.external(index, reach, self.settings.pair_accuracy);
+            *load += self.field.on_ring(body, &node, rule)?;
             *load += Load::dead_force(&dead, &node.position, &arm);
         }
         Some(())
@@ -145,12 +146,13 @@ impl Potential<'_> {
             return Some(0.0);
         }
         let mut energy = 0.0;
-        let mut rules = self.rules.iter();
+        let mut number = 0;
         let count = self.chain.elements.len();
         for (i, first) in self.chain.rings.iter().enumerate() {
-            for second in &self.chain.rings[i + 1..] {
+            for (j, second) in self.chain.rings.iter().enumerate().skip(i + 1) {
                 let (from, to) = (&self.work.nodes[first.node], &self.work.nodes[second.node]);
-                let rule = rules.next()?;
+                let rule = self.rules.pair(number, j);
+                number += 1;
                 if overlap(first, from, second, to) {
                     return None;
                 }
