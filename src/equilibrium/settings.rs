@@ -19,7 +19,7 @@ pub enum Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 4.
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 3.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
@@ -41,7 +41,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
-            degree: 4,
+            degree: 3,
             cylinder_elements: 8,
             pair_accuracy: 1e-8,
             tolerance: 1e-11,

@@ -121,6 +121,12 @@ impl Equilibrium {
         &self.branch.unknowns
     }
 
+    /// Diagonal elastic stiffness `K` by the unknowns, about the straight shape.
+    #[must_use]
+    pub fn metric(&self) -> &[f64] {
+        &self.chain.metric
+    }
+
     /// Energy (J) and its gradient by the unknowns at any shape; `None` where bodies touch.
     pub fn gradient(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<(f64, Vec<f64>)> {
         let mut potential = self.potential(inputs, unknowns);
