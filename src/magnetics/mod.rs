@@ -11,6 +11,8 @@ mod jet;
 mod lanes;
 mod linear;
 mod multipole;
+mod overlap;
+mod wrench;
 
 pub use assembly::{Assembly, AxialMagnet};
 pub use axial_rule::AxialRule;
@@ -18,3 +20,4 @@ pub use axial_source::AxialSource;
 pub use dipole::Dipole;
 pub use jet::{FieldHessian, Jet};
 pub use linear::LinearField;
+pub use wrench::Wrench;
