@@ -1,5 +1,17 @@
 //! The potential of the whole chain, its minimum, its stability.
 
+mod chain;
+mod external;
+mod follow;
+mod inputs;
+mod pair;
+mod potential;
+mod reduction;
+mod rules;
 mod settings;
+mod solver;
 
+pub use follow::Report;
+pub use inputs::Inputs;
 pub use settings::{Interaction, Settings};
+pub use solver::{Equilibrium, Wrench};

@@ -1,7 +1,8 @@
 //! A rigid body's pose: where it is and how it is turned.
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
+use super::rotation::{RotationVector, rotation_log};
 use crate::error::{Error, check};
 
 /// Position and orientation of a frame, body to world.
@@ -65,7 +66,7 @@ impl Pose {
     /// The unit quaternion (w, x, y, z) with `w >= 0`.
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
-        let q = UnitQuaternion::from_matrix(&self.rotation);
+        let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation));
         let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
         [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
     }
@@ -80,5 +81,15 @@ impl Pose {
     #[must_use]
     pub fn advanced(&self, distance: f64) -> Self {
         Self { position: self.position + self.axis() * distance, rotation: self.rotation }
+    }
+
+    /// The pose a fraction `t` of the way to `other`, turned along the shortest arc.
+    #[must_use]
+    pub fn between(&self, other: &Self, t: f64) -> Self {
+        let turn = rotation_log(&self.rotation.tr_mul(&other.rotation)) * t;
+        Self {
+            position: self.position.lerp(&other.position, t),
+            rotation: self.rotation * RotationVector::new(turn).matrix(),
+        }
     }
 }

@@ -1,9 +1,8 @@
 //! The device as its user sees it: inputs in, shape and forces out; it keeps its last shape.
 
 mod device;
-mod inputs;
 mod outputs;
 
+pub use crate::equilibrium::Inputs;
 pub use device::Manipulator;
-pub use inputs::Inputs;
 pub use outputs::{Outputs, Status};
