@@ -64,8 +64,7 @@ impl AxialRule {
         let squares: Vec<f64> = half.iter().map(|z| z * z).collect();
         let moments = (0..half.len()).map(|i| moment(&shape, 2 * i)).collect();
         let shares = vandermonde(&squares, moments);
-        let mut rule =
-            Self { nodes: Vec::with_capacity(nodes), weights: Vec::with_capacity(nodes), extent, shape };
+        let mut points = Vec::with_capacity(nodes);
         let volume = extent * extent * extent;
         for (&z, &share) in half.iter().zip(&shares).rev().filter(|(z, _)| **z > 0.0) {
             points.push((-z * extent, 0.5 * share * volume));
