@@ -22,12 +22,12 @@ fn first_key_is_followed_for_every_other() {
     let rows = table(&here.join("sweep.csv"));
     assert_eq!(rows.len(), 10);
     let number = |row: usize, key: &str| rows[row][key].parse::<f64>().unwrap();
-    for row in 0..10 {
+    for (row, cells) in rows.iter().enumerate() {
         let expected = 5.0 * (row % 5) as f64;
         assert!((number(row, "field.uniform_mt[2]") - expected).abs() < 1e-12);
-        assert_eq!(rows[row]["converged"], "true");
-        assert_eq!(rows[row]["stable"], "true");
-        assert_eq!(rows[row]["snaps"], "0");
+        assert_eq!(cells["converged"], "true");
+        assert_eq!(cells["stable"], "true");
+        assert_eq!(cells["snaps"], "0");
     }
     assert!((number(9, "design.helix.length_mm") - 4.0).abs() < 1e-12);
     assert!(number(0, "alpha_deg").abs() < 1e-6);
