@@ -6,4 +6,6 @@ mod specification;
 
 pub use chain::{Design, Segment};
 pub use section::{Ring, Span, SpanKind, Spiral, SpiralKind, Stiffness};
-pub use specification::{Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification};
+pub use specification::{
+    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification,
+};
