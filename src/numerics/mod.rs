@@ -1,1 +1,3 @@
-//! (room)
+//! Numerical methods that know no physics.
+
+pub mod quadrature;
