@@ -1,7 +1,11 @@
 //! The chain of bodies from base to tip, checked once.
 
-use super::section::{Ring, Span};
-use super::specification::Specification;
+use super::helix::annulus_area;
+use super::limits;
+use super::material::{ELASTOMER_DENSITY, Moduli, composite_density};
+use super::section::{Ring, Span, SpanKind, Spiral, Stiffness};
+use super::specification::{Backbone, Cylinder, CylinderMaterial, Segmented, Specification};
+use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
 /// What lies between two rings (or between base and tip), and the ring at its end.
@@ -24,10 +28,23 @@ pub struct Design {
 impl Design {
     /// Checks a specification and derives its bodies.
     ///
+    /// A plain cylinder becomes one segment with one span and no rings.
+    ///
+    /// ```
+    /// use mcm::design::{Design, Segmented, Specification};
+    /// let Specification::Segmented(paper) = Specification::paper(1) else { unreachable!() };
+    /// let refused = Design::new(Specification::Segmented(Segmented { segments: 0, ..paper })).unwrap_err();
+    /// assert_eq!(refused.to_string(), "number of segments = 0 is not allowed: it must be from 1 to 64");
+    /// ```
+    ///
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
-    pub fn new(_specification: Specification) -> Result<Self, Error> {
-        Err(Error::Unsupported("unfinished".into()))
+    pub fn new(specification: Specification) -> Result<Self, Error> {
+        let (base_ring, segments) = match &specification {
+            Specification::Segmented(chain) => segmented(chain)?,
+            Specification::Cylinder(rod) => (None, vec![plain(rod)?]),
+        };
+        Ok(Self { specification, base_ring, segments })
     }
 
     /// What the design was made from.
@@ -58,5 +75,116 @@ impl Design {
     pub fn length(&self) -> f64 {
         let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(|span| span.length).sum();
         spans + self.rings().map(|ring| ring.length).sum::<f64>()
+    }
+
+    /// Mass of all bodies, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(Span::mass).sum();
+        spans + self.rings().map(|ring| ring.mass).sum::<f64>()
+    }
+
+    /// Magnetic moment along `d3` when straight, A m2.
+    #[must_use]
+    pub fn moment(&self) -> f64 {
+        let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(Span::moment).sum();
+        spans + self.rings().map(Ring::moment).sum::<f64>()
+    }
+}
+
+/// The base ring and the segments of a chain of rings and helices.
+fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
+    limits::segmented(chain)?;
+    let helix = &chain.helix;
+    let geometry = helix.geometry()?;
+    let tube = chain.backbone.as_ref().map(Tube::of).unwrap_or_default();
+    let ring = Ring {
+        inner_radius: helix.core_inner_radius,
+        outer_radius: helix.radius,
+        length: chain.ring.length,
+        remanence: chain.ring.remanence,
+        mass: (chain.ring.density * annulus_area(helix.core_inner_radius, helix.radius) + tube.line_density)
+            * chain.ring.length,
+    };
+    let moduli = Moduli::composite(helix.shore_a, helix.poisson, helix.volume_fraction);
+    let body = |kind, length, outer_radius, spiral| Span {
+        kind,
+        length,
+        inner_radius: helix.core_inner_radius,
+        outer_radius,
+        stiffness: Stiffness::annulus(helix.core_inner_radius, outer_radius, moduli) + tube.stiffness,
+        magnetisation: helix.volume_fraction * helix.particle_remanence / VACUUM_PERMEABILITY,
+        density: helix.density.unwrap_or_else(|| composite_density(helix.volume_fraction)),
+        line_density: tube.line_density,
+        spiral,
+    };
+    let spiral = Spiral {
+        inner_radius: helix.core_outer_radius,
+        outer_radius: helix.radius,
+        sector_angle: geometry.sector_angle,
+        windings: helix.windings,
+        kind: chain.spiral,
+    };
+    let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
+    let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, Some(spiral));
+    let segments = (1..=chain.segments)
+        .map(|index| Segment {
+            spans: vec![disc.clone(), core.clone(), disc.clone()],
+            ring: (index < chain.segments || chain.tip_magnet).then_some(ring),
+        })
+        .collect();
+    Ok((chain.base_magnet.then_some(ring), segments))
+}
+
+/// The one segment of a plain cylinder.
+fn plain(rod: &Cylinder) -> Result<Segment, Error> {
+    limits::cylinder(rod)?;
+    let (moduli, remanence, bulk_density) = match rod.material {
+        CylinderMaterial::Composite { shore_a, poisson, volume_fraction, particle_remanence } => (
+            Moduli::composite(shore_a, poisson, volume_fraction),
+            volume_fraction * particle_remanence,
+            composite_density(volume_fraction),
+        ),
+        CylinderMaterial::Bulk { elastic_modulus, poisson, remanence } => {
+            (Moduli::bulk(elastic_modulus, poisson), remanence, ELASTOMER_DENSITY)
+        }
+    };
+    let span = Span {
+        kind: SpanKind::Rod,
+        length: rod.length,
+        inner_radius: rod.inner_radius,
+        outer_radius: rod.radius,
+        stiffness: Stiffness::annulus(rod.inner_radius, rod.radius, moduli),
+        magnetisation: remanence / VACUUM_PERMEABILITY,
+        density: rod.density.unwrap_or(bulk_density),
+        line_density: 0.0,
+        spiral: None,
+    };
+    Ok(Segment { spans: vec![span], ring: None })
+}
+
+/// What a backbone adds to every section.
+struct Tube {
+    stiffness: Stiffness,
+    line_density: f64,
+}
+
+impl Tube {
+    fn of(backbone: &Backbone) -> Self {
+        let moduli = Moduli::bulk(backbone.modulus.elastic(), backbone.poisson);
+        Self {
+            stiffness: Stiffness::annulus(backbone.inner_radius, backbone.outer_radius, moduli),
+            line_density: backbone.density * annulus_area(backbone.inner_radius, backbone.outer_radius),
+        }
+    }
+}
+
+impl Default for Tube {
+    /// No backbone.
+    fn default() -> Self {
+        Self {
+            stiffness: Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 },
+            line_density: 0.0,
+        }
     }
 }

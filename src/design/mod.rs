@@ -1,10 +1,22 @@
 //! What is built: materials, bodies and the chain that they form.
 
 mod chain;
+mod helix;
+mod limits;
+mod material;
+mod moment;
+mod preset;
 mod section;
 mod specification;
 
 pub use chain::{Design, Segment};
+pub use helix::{HelixGeometry, HelixVolumes, SpiralVolume};
+pub use limits::MOST_SEGMENTS;
+pub use material::{
+    DENSEST_PACKING, ELASTOMER_DENSITY, PARTICLE_DENSITY, composite_density, composite_shear_modulus,
+    gent_modulus, shear_modulus,
+};
+pub use moment::RelativeMoment;
 pub use section::{Ring, Span, SpanKind, Spiral, SpiralKind, Stiffness};
 pub use specification::{
     Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification,

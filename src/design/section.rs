@@ -1,5 +1,12 @@
 //! The bodies of the chain, as rod and magnetics see them.
 
+use core::f64::consts::PI;
+use core::ops::Add;
+
+use super::helix::annulus_area;
+use super::material::Moduli;
+use crate::constants::VACUUM_PERMEABILITY;
+
 /// Stiffness of a span's section, the diagonals of `K_bt` and `K_se` (Eq. 12).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stiffness {
@@ -11,6 +18,34 @@ pub struct Stiffness {
     pub shear: f64,
     /// Axial stiffness `E A`, N.
     pub axial: f64,
+}
+
+impl Stiffness {
+    /// Stiffness of an annulus: `I = pi (r_o^4 - r_i^4) / 4`, `J = 2 I`, `A = pi (r_o^2 - r_i^2)` (Eq. 12, 13).
+    pub(super) fn annulus(inner_radius: f64, outer_radius: f64, moduli: Moduli) -> Self {
+        let inertia = PI * (outer_radius.powi(4) - inner_radius.powi(4)) / 4.0;
+        let area = annulus_area(inner_radius, outer_radius);
+        Self {
+            bending: moduli.elastic * inertia,
+            torsion: moduli.shear * 2.0 * inertia,
+            shear: moduli.shear * area,
+            axial: moduli.elastic * area,
+        }
+    }
+}
+
+impl Add for Stiffness {
+    type Output = Self;
+
+    /// Stiffness of two sections that bend together.
+    fn add(self, other: Self) -> Self {
+        Self {
+            bending: self.bending + other.bending,
+            torsion: self.torsion + other.torsion,
+            shear: self.shear + other.shear,
+            axial: self.axial + other.axial,
+        }
+    }
 }
 
 /// How the spiral's sector lies in the section.
@@ -85,4 +120,52 @@ pub struct Ring {
     pub remanence: f64,
     /// Mass, a backbone's part included, kg.
     pub mass: f64,
+}
+
+impl Spiral {
+    /// Area of the sector, m2.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.sector_angle / (2.0 * PI) * annulus_area(self.inner_radius, self.outer_radius)
+    }
+}
+
+impl Span {
+    /// Area of the annulus without the spiral, m2.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        annulus_area(self.inner_radius, self.outer_radius)
+    }
+
+    /// Volume of magnetised material, the spiral's included, m3.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        (self.area() + self.spiral.map_or(0.0, |spiral| spiral.area())) * self.length
+    }
+
+    /// Magnetic moment along `d3` when straight, A m2.
+    #[must_use]
+    pub fn moment(&self) -> f64 {
+        self.magnetisation * self.volume()
+    }
+
+    /// Mass, the backbone's part included, kg.
+    #[must_use]
+    pub fn mass(&self) -> f64 {
+        self.density * self.volume() + self.line_density * self.length
+    }
+}
+
+impl Ring {
+    /// Volume, m3.
+    #[must_use]
+    pub fn volume(&self) -> f64 {
+        annulus_area(self.inner_radius, self.outer_radius) * self.length
+    }
+
+    /// Magnetic moment `B_r V / mu_0` along the axis, A m2.
+    #[must_use]
+    pub fn moment(&self) -> f64 {
+        self.remanence * self.volume() / VACUUM_PERMEABILITY
+    }
 }

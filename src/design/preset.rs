@@ -1,0 +1,85 @@
+//! The devices of Richter et al. as specifications.
+
+use super::material::PARTICLE_DENSITY;
+use super::section::SpiralKind;
+use super::specification::{Backbone, Helix, Modulus, RingMagnet, Segmented, Specification};
+
+impl Helix {
+    /// The helix of Table 1.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            length: 4.0e-3,
+            boundary_angle: 40.0_f64.to_radians(),
+            radius: 2.0e-3,
+            windings: 2.0,
+            core_outer_radius: 0.95e-3,
+            core_inner_radius: 0.75e-3,
+            shore_a: 33.0,
+            poisson: 0.4,
+            volume_fraction: 0.25,
+            particle_remanence: 1.0,
+            density: None,
+        }
+    }
+}
+
+impl RingMagnet {
+    /// The ring magnets of Table 1.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self { length: 1.0e-3, remanence: 1.35, density: PARTICLE_DENSITY }
+    }
+}
+
+impl Specification {
+    /// The manipulator of Table 1 with `segments` segments, all rings, no backbone (as simulated there).
+    ///
+    /// ```
+    /// use mcm::design::{Design, Specification};
+    /// let design = Design::new(Specification::paper(9))?;
+    /// assert!((design.length() - 46.0e-3).abs() < 1e-15);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn paper(segments: usize) -> Self {
+        Self::Segmented(Segmented {
+            segments,
+            base_magnet: true,
+            tip_magnet: true,
+            spiral: SpiralKind::Helical,
+            helix: Helix::paper(),
+            ring: RingMagnet::paper(),
+            backbone: None,
+        })
+    }
+}
+
+impl Backbone {
+    /// The silicone tube: 1.5 mm by 0.5 mm, Shore A 50 by Eq. (14).
+    #[must_use]
+    pub fn silicone() -> Self {
+        Self {
+            outer_radius: 0.75e-3,
+            inner_radius: 0.25e-3,
+            modulus: Modulus::ShoreA(50.0),
+            poisson: 0.4,
+            density: 1000.0,
+        }
+    }
+
+    /// The PTFE tube of the guidewire demonstration: 1.48 mm by 1.40 mm.
+    ///
+    /// Modulus 5e8 Pa, Poisson's ratio 0.46 and density 2160 kg/m3 are typical values of the bulk; data
+    /// sheets give 3e8 to 8e8 Pa for unfilled PTFE at room temperature.
+    #[must_use]
+    pub fn ptfe() -> Self {
+        Self {
+            outer_radius: 0.74e-3,
+            inner_radius: 0.70e-3,
+            modulus: Modulus::Elastic(0.5e9),
+            poisson: 0.46,
+            density: 2160.0,
+        }
+    }
+}
