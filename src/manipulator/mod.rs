@@ -3,7 +3,9 @@
 mod device;
 mod inputs;
 mod outputs;
+mod scene;
 
 pub use device::Manipulator;
 pub use inputs::Inputs;
 pub use outputs::{Outputs, Status};
+pub use scene::{Scene, SceneFile};
