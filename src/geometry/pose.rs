@@ -1,6 +1,6 @@
 //! A rigid body's pose: where it is and how it is turned.
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use crate::error::{Error, check};
 
@@ -65,7 +65,7 @@ impl Pose {
     /// The unit quaternion (w, x, y, z) with `w >= 0`.
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
-        let q = UnitQuaternion::from_matrix(&self.rotation);
+        let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation));
         let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
         [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
     }

@@ -1,1 +1,187 @@
-//! Rotation vectors.
+//! The exponential of a rotation vector and its first and second derivatives, without singularity at zero.
+//!
+//! With `z = |theta|^2` and the Stumpff functions `c_k(z) = sum_j (-z)^j / (2j + k)!`,
+//!
+//! - rotation `exp = c0 1 + c1 hat + c2 theta theta^T`,
+//! - left Jacobian `J_l = c1 1 + c2 hat + c3 theta theta^T`, right Jacobian `J_r = J_l^T`,
+//! - `dc_k/dz = (k c_{k+2} - c_{k+1}) / 2`.
+//!
+//! Every scalar that is linear in one of these matrices has the form
+//! `a0(z) t + a1(z) theta.w + a2(z) theta^T M theta`, so that one function gives all second derivatives.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+/// Beyond this squared angle the Stumpff functions come from sine and cosine, below from their series.
+const SERIES_LIMIT: f64 = 12.0;
+
+/// Terms of the series: at `SERIES_LIMIT` the first one left out is below 1e-17 of the sum.
+const SERIES_TERMS: usize = 12;
+
+/// The matrix of the cross product, `hat(a) b = a x b`.
+#[must_use]
+pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::new(0.0, -a.z, a.y, a.z, 0.0, -a.x, -a.y, a.x, 0.0)
+}
+
+/// The vector `t` with `t.a = N : hat(a)` for every `a`: twice the axial vector of `N`.
+#[must_use]
+pub fn axial(n: &Matrix3<f64>) -> Vector3<f64> {
+    Vector3::new(n.m32 - n.m23, n.m13 - n.m31, n.m21 - n.m12)
+}
+
+/// Stumpff functions `c_0 .. c_7` of `z`.
+fn stumpff(z: f64) -> [f64; 8] {
+    let mut c = [0.0; 8];
+    if z > SERIES_LIMIT {
+        let angle = z.sqrt();
+        c[0] = angle.cos();
+        c[1] = angle.sin() / angle;
+        let mut factorial = 1.0;
+        for k in 0..6 {
+            factorial *= (k.max(1)) as f64;
+            c[k + 2] = (1.0 / factorial - c[k]) / z;
+        }
+        return c;
+    }
+    let (mut six, mut seven) = (1.0, 1.0);
+    for j in (1..SERIES_TERMS).rev() {
+        let n = (2 * j) as f64;
+        six = 1.0 - z * six / ((n + 5.0) * (n + 6.0));
+        seven = 1.0 - z * seven / ((n + 6.0) * (n + 7.0));
+    }
+    c[6] = six / 720.0;
+    c[7] = seven / 5040.0;
+    c[5] = 1.0 / 120.0 - z * c[7];
+    c[4] = 1.0 / 24.0 - z * c[6];
+    c[3] = 1.0 / 6.0 - z * c[5];
+    c[2] = 0.5 - z * c[4];
+    c[1] = 1.0 - z * c[3];
+    c[0] = 1.0 - z * c[2];
+    c
+}
+
+/// A rotation vector with everything that its derivatives need.
+#[derive(Debug, Clone, Copy)]
+pub struct RotationVector {
+    vector: Vector3<f64>,
+    c: [f64; 8],
+}
+
+impl RotationVector {
+    /// Prepares the rotation vector `vector` (rad).
+    #[must_use]
+    pub fn new(vector: Vector3<f64>) -> Self {
+        Self { vector, c: stumpff(vector.norm_squared()) }
+    }
+
+    /// The rotation matrix `exp(theta)`.
+    #[must_use]
+    pub fn matrix(&self) -> Matrix3<f64> {
+        self.combine(0, 1.0)
+    }
+
+    /// The left Jacobian: a change `d` of the vector turns the frame by `J_l d` in fixed axes.
+    #[must_use]
+    pub fn left_jacobian(&self) -> Matrix3<f64> {
+        self.combine(1, 1.0)
+    }
+
+    /// The right Jacobian: a change `d` of the vector turns the frame by `J_r d` in its own axes.
+    #[must_use]
+    pub fn right_jacobian(&self) -> Matrix3<f64> {
+        self.combine(1, -1.0)
+    }
+
+    /// Inverse of the left Jacobian; `None` near a full turn, where it does not exist.
+    #[must_use]
+    pub fn left_jacobian_inverse(&self) -> Option<Matrix3<f64>> {
+        self.left_jacobian().try_inverse().filter(|inverse| inverse.iter().all(|entry| entry.abs() < 1e6))
+    }
+
+    /// Gradient and Hessian, by the vector, of `N : exp(theta)`.
+    #[must_use]
+    pub fn contract_rotation(&self, n: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
+        self.contract(0, 1.0, n.trace(), &axial(n), n)
+    }
+
+    /// Hessian, by the vector, of `m . J_r(theta) rate`.
+    #[must_use]
+    pub fn contract_curvature(&self, m: &Vector3<f64>, rate: &Vector3<f64>) -> Matrix3<f64> {
+        self.contract(1, -1.0, m.dot(rate), &-m.cross(rate), &(m * rate.transpose())).1
+    }
+
+    /// Derivative of `J_l(theta) m` by the vector.
+    #[must_use]
+    pub fn left_product_derivative(&self, m: &Vector3<f64>) -> Matrix3<f64> {
+        self.product_derivative(m, 1.0)
+    }
+
+    /// Derivative of `J_r(theta) m` by the vector.
+    #[must_use]
+    pub fn right_product_derivative(&self, m: &Vector3<f64>) -> Matrix3<f64> {
+        self.product_derivative(m, -1.0)
+    }
+
+    fn combine(&self, k: usize, sign: f64) -> Matrix3<f64> {
+        let v = &self.vector;
+        let mut out = v * (v.transpose() * self.c[k + 2]) + hat(v) * (sign * self.c[k + 1]);
+        for i in 0..3 {
+            out[(i, i)] += self.c[k];
+        }
+        out
+    }
+
+    fn slope(&self, k: usize) -> f64 {
+        0.5 * (k as f64 * self.c[k + 2] - self.c[k + 1])
+    }
+
+    fn second_slope(&self, k: usize) -> f64 {
+        0.5 * (k as f64 * self.slope(k + 2) - self.slope(k + 1))
+    }
+
+    fn product_derivative(&self, m: &Vector3<f64>, sign: f64) -> Matrix3<f64> {
+        let v = &self.vector;
+        let along = v.dot(m);
+        let outer = m * (2.0 * self.slope(1))
+            + v.cross(m) * (2.0 * sign * self.slope(2))
+            + v * (2.0 * self.slope(3) * along);
+        let mut out = outer * v.transpose() - hat(m) * (sign * self.c[2]) + v * (m.transpose() * self.c[3]);
+        for i in 0..3 {
+            out[(i, i)] += self.c[3] * along;
+        }
+        out
+    }
+
+    /// Gradient and Hessian of `c_k t + sign c_{k+1} theta.w + c_{k+2} theta^T M theta`.
+    fn contract(
+        &self,
+        k: usize,
+        sign: f64,
+        t: f64,
+        w: &Vector3<f64>,
+        m: &Matrix3<f64>,
+    ) -> (Vector3<f64>, Matrix3<f64>) {
+        let v = &self.vector;
+        let symmetric = m + m.transpose();
+        let g = symmetric * v;
+        let along = sign * v.dot(w);
+        let quadratic = 0.5 * v.dot(&g);
+        let first = self.slope(k) * t + self.slope(k + 1) * along + self.slope(k + 2) * quadratic;
+        let second =
+            self.second_slope(k) * t + self.second_slope(k + 1) * along + self.second_slope(k + 2) * quadratic;
+        let linear = w * (sign * self.c[k + 1]) + g * self.c[k + 2];
+        let mixed = w * (2.0 * sign * self.slope(k + 1)) + g * (2.0 * self.slope(k + 2)) + v * (2.0 * second);
+        let product = v * mixed.transpose();
+        let mut hessian = product + product.transpose() + symmetric * self.c[k + 2];
+        for i in 0..3 {
+            hessian[(i, i)] += 2.0 * first;
+        }
+        (v * (2.0 * first) + linear, hessian)
+    }
+}
+
+/// The rotation vector of a rotation matrix, of norm at most pi.
+#[must_use]
+pub fn rotation_log(rotation: &Matrix3<f64>) -> Vector3<f64> {
+    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation)).scaled_axis()
+}
