@@ -1,14 +1,23 @@
 //! Magnetic fields and what they do to magnetised bodies.
 
 mod assembly;
+mod axial_rule;
 mod axial_source;
 mod axisymmetric;
+mod dipole;
 mod edge;
 mod integrals;
 mod jet;
 mod lanes;
+mod linear;
 mod multipole;
+mod overlap;
+mod wrench;
 
 pub use assembly::{Assembly, AxialMagnet};
+pub use axial_rule::AxialRule;
 pub use axial_source::AxialSource;
+pub use dipole::Dipole;
 pub use jet::{FieldHessian, Jet};
+pub use linear::LinearField;
+pub use wrench::Wrench;

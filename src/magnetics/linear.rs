@@ -1,0 +1,56 @@
+//! A uniform field, or one that varies linearly in space.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::jet::{FieldHessian, Jet};
+use crate::error::{Error, check};
+
+/// `B(x) = B_0 + G x` with a symmetric, traceless `G`: free of curl and divergence.
+///
+/// ```
+/// use mcm::magnetics::LinearField;
+/// use nalgebra::Vector3;
+/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, 0.25, 0.0])?;
+/// assert_eq!(field.at(&Vector3::new(0.1, 0.1, 0.1)), Vector3::new(0.05, 0.045, -0.075));
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearField {
+    origin: Vector3<f64>,
+    gradient: Matrix3<f64>,
+}
+
+impl LinearField {
+    /// From the field at the origin (T) and `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` (T/m).
+    ///
+    /// # Errors
+    /// [`Error::Range`] for an entry that is not finite.
+    pub fn new(origin: Vector3<f64>, gradient: [f64; 5]) -> Result<Self, Error> {
+        for component in &origin {
+            check("uniform field (T)", *component, |_| true, "finite")?;
+        }
+        for entry in gradient {
+            check("field gradient (T/m)", entry, |_| true, "finite")?;
+        }
+        let [xx, xy, xz, yy, yz] = gradient;
+        Ok(Self { origin, gradient: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy) })
+    }
+
+    /// The field at a point (m), T.
+    #[must_use]
+    pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.origin + self.gradient * point
+    }
+
+    /// The gradient `dB_i/dx_j`, T/m, everywhere the same.
+    #[must_use]
+    pub fn gradient(&self) -> Matrix3<f64> {
+        self.gradient
+    }
+
+    /// The field with its derivatives at a point (m).
+    #[must_use]
+    pub fn jet(&self, point: &Vector3<f64>) -> Jet {
+        Jet { field: self.at(point), gradient: self.gradient, hessian: FieldHessian::default() }
+    }
+}
