@@ -40,7 +40,8 @@ fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> boo
     (0..2 * POINTS).any(|k| {
         let (sine, cosine) = (core::f64::consts::TAU * (k / 2) as f64 / POINTS as f64).sin_cos();
         let height = if k % 2 == 0 { 0.5 } else { -0.5 } * rim.ring.length;
-        let point = to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
+        let point =
+            to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
         let local = from.rotation.tr_mul(&(point - from.position));
         local.z.abs() < 0.5 * outline.ring.length && local.x.hypot(local.y) < outline.ring.outer_radius
     })
@@ -64,9 +65,17 @@ impl PairLoad {
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
             let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
-            let jet = first.source.jet(&local).ok()?.rotated(&from.rotation);
-            let moment = second.magnetisation * volume;
-            load.add_dipole(moment, &axis, &arm, &jet.field, &jet.gradient, &jet.hessian_along(&axis));
+            let jet = first.source.jet(&local).ok()?;
+            let along = jet.hessian_along(&from.rotation.tr_mul(&axis));
+            let turn = |m: &Matrix3<f64>| from.rotation * m * from.rotation.transpose();
+            load.add_dipole(
+                second.magnetisation * volume,
+                &axis,
+                &arm,
+                &(from.rotation * jet.field),
+                &turn(&jet.gradient),
+                &turn(&along),
+            );
         }
         Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
     }

@@ -9,9 +9,9 @@ mod edge;
 mod integrals;
 mod jet;
 mod lanes;
-mod linear;
 mod multipole;
 mod overlap;
+mod uniform;
 mod wrench;
 
 pub use assembly::{Assembly, AxialMagnet};
@@ -19,5 +19,5 @@ pub use axial_rule::AxialRule;
 pub use axial_source::AxialSource;
 pub use dipole::Dipole;
 pub use jet::{FieldHessian, Jet};
-pub use linear::LinearField;
+pub use uniform::LinearField;
 pub use wrench::Wrench;

@@ -3,16 +3,14 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::jet::{FieldHessian, Jet};
-use crate::error::{Error, check};
 
 /// `B(x) = B_0 + G x` with a symmetric, traceless `G`: free of curl and divergence.
 ///
 /// ```
 /// use mcm::magnetics::LinearField;
 /// use nalgebra::Vector3;
-/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, 0.25, 0.0])?;
+/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, 0.25, 0.0]);
 /// assert_eq!(field.at(&Vector3::new(0.1, 0.1, 0.1)), Vector3::new(0.05, 0.045, -0.075));
-/// # Ok::<(), mcm::error::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearField {
@@ -23,17 +21,11 @@ pub struct LinearField {
 impl LinearField {
     /// From the field at the origin (T) and `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` (T/m).
     ///
-    /// # Errors
-    /// [`Error::Range`] for an entry that is not finite.
-    pub fn new(origin: Vector3<f64>, gradient: [f64; 5]) -> Result<Self, Error> {
-        for component in &origin {
-            check("uniform field (T)", *component, |_| true, "finite")?;
-        }
-        for entry in gradient {
-            check("field gradient (T/m)", entry, |_| true, "finite")?;
-        }
+    /// A plain value, not checked: whoever reads inputs refuses NaN.
+    #[must_use]
+    pub fn new(origin: Vector3<f64>, gradient: [f64; 5]) -> Self {
         let [xx, xy, xz, yy, yz] = gradient;
-        Ok(Self { origin, gradient: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy) })
+        Self { origin, gradient: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy) }
     }
 
     /// The field at a point (m), T.
