@@ -1,1 +1,4 @@
-//! (room)
+//! The device as an FMI 2.0 co-simulation FMU.
+
+#[rustfmt::skip]
+pub mod bindings; // types of the official headers
