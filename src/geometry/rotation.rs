@@ -167,8 +167,9 @@ impl RotationVector {
         let along = sign * v.dot(w);
         let quadratic = 0.5 * v.dot(&g);
         let first = self.slope(k) * t + self.slope(k + 1) * along + self.slope(k + 2) * quadratic;
-        let second =
-            self.second_slope(k) * t + self.second_slope(k + 1) * along + self.second_slope(k + 2) * quadratic;
+        let second = self.second_slope(k) * t
+            + self.second_slope(k + 1) * along
+            + self.second_slope(k + 2) * quadratic;
         let linear = w * (sign * self.c[k + 1]) + g * self.c[k + 2];
         let mixed = w * (2.0 * sign * self.slope(k + 1)) + g * (2.0 * self.slope(k + 2)) + v * (2.0 * second);
         let product = v * mixed.transpose();
