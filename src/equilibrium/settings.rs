@@ -1,5 +1,7 @@
 //! All knobs of the equilibrium, in one place.
 
+use crate::error::{Error, check};
+
 /// What acts on what inside the manipulator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interaction {
@@ -13,14 +15,64 @@ pub enum Interaction {
 }
 
 /// Settings of the model and its solver.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 4.
+    pub degree: usize,
+    /// Elements of a plain cylinder, 1 to 64; default 8.
+    pub cylinder_elements: usize,
+    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-8.
+    pub pair_accuracy: f64,
+    /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
+    pub tolerance: f64,
+    /// Largest first Newton step when a branch is followed, in the same measure; default 0.5.
+    pub follow_step: f64,
+    /// Smallest part of an input change that is tried before a fold is assumed; default 1/4096.
+    pub smallest_part: f64,
+    /// Stability margin below which a shape counts as close to a fold; default 0.05.
+    pub fold_margin: f64,
+    /// Iterations at most of one minimisation; default 200.
+    pub iterations: u32,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { interaction: Interaction::Rings }
+        Self {
+            interaction: Interaction::Rings,
+            degree: 4,
+            cylinder_elements: 8,
+            pair_accuracy: 1e-8,
+            tolerance: 1e-11,
+            follow_step: 0.5,
+            smallest_part: 1.0 / 4096.0,
+            fold_margin: 0.05,
+            iterations: 200,
+        }
+    }
+}
+
+impl Settings {
+    /// The settings, checked.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first knob out of range.
+    pub fn checked(self) -> Result<Self, Error> {
+        let positive = |value: f64| value > 0.0;
+        check("degree of the strain modes", self.degree as f64, |v| v <= 8.0, "from 0 to 8")?;
+        check(
+            "number of cylinder elements",
+            self.cylinder_elements as f64,
+            |v| (1.0..=64.0).contains(&v),
+            "from 1 to 64",
+        )?;
+        check("accuracy of the ring pairs", self.pair_accuracy, |v| (1e-14..0.1).contains(&v), "from 1e-14 to 0.1")?;
+        check("tolerance of the residual", self.tolerance, |v| (1e-13..1e-3).contains(&v), "from 1e-13 to 1e-3")?;
+        check("largest step of the branch following", self.follow_step, positive, "> 0")?;
+        check("smallest part of an input change", self.smallest_part, |v| v > 0.0 && v <= 1.0, "in (0, 1]")?;
+        check("margin that counts as close to a fold", self.fold_margin, |v| (0.0..1.0).contains(&v), "in [0, 1)")?;
+        check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
+        Ok(self)
     }
 }

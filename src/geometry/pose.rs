@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
+use super::rotation::{RotationVector, rotation_log};
 use crate::error::{Error, check};
 
 /// Position and orientation of a frame, body to world.
@@ -80,5 +81,15 @@ impl Pose {
     #[must_use]
     pub fn advanced(&self, distance: f64) -> Self {
         Self { position: self.position + self.axis() * distance, rotation: self.rotation }
+    }
+
+    /// The pose a fraction `t` of the way to `other`, turned along the shortest arc.
+    #[must_use]
+    pub fn between(&self, other: &Self, t: f64) -> Self {
+        let turn = rotation_log(&self.rotation.tr_mul(&other.rotation)) * t;
+        Self {
+            position: self.position.lerp(&other.position, t),
+            rotation: self.rotation * RotationVector::new(turn).matrix(),
+        }
     }
 }

@@ -1,5 +1,14 @@
 //! Magnetic fields and what they do to magnetised bodies.
 
 mod assembly;
+mod axial_source;
+mod axisymmetric;
+mod edge;
+mod integrals;
+mod jet;
+mod lanes;
+mod multipole;
 
 pub use assembly::{Assembly, AxialMagnet};
+pub use axial_source::AxialSource;
+pub use jet::{FieldHessian, Jet};

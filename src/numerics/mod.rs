@@ -1,3 +1,7 @@
 //! Numerical methods that know no physics.
 
+pub mod cholesky;
+pub mod eigenvalue;
+pub mod lagrange;
 pub mod quadrature;
+pub mod trust_region;

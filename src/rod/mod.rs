@@ -1,1 +1,14 @@
-//! (room)
+//! The elastic rod: strain modes, kinematics, stiffness, and loads as energies on moving frames.
+
+mod basis;
+mod element;
+mod kinematics;
+mod load;
+mod moments;
+mod tangent;
+
+pub use element::{COMPONENTS, Element, Piece, Row, Station};
+pub use kinematics::{Configuration, StationState};
+pub use load::{Load, turning};
+pub use moments::SectionMoments;
+pub use tangent::{START, Tangent};

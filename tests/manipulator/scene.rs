@@ -1,4 +1,5 @@
 //! The scene file: units, defaults, refusals.
+#![allow(clippy::float_cmp, reason = "what a file states arrives unrounded")]
 
 use mcm::design::{CylinderMaterial, Modulus, Specification, SpiralKind};
 use mcm::equilibrium::Interaction;
@@ -65,8 +66,7 @@ fn example_of_the_documentation_is_read_in_si() {
 #[test]
 fn empty_scene_is_table_1_with_nine_segments_unloaded() {
     let scene = Scene::parse("", "test").unwrap();
-    let Specification::Segmented(design) = &scene.specification else { panic!("not segmented") };
-    assert_eq!((design.segments, design.base_magnet, design.tip_magnet), (9, true, true));
+    assert_eq!(scene.specification, Specification::paper(9));
     assert_eq!(scene.inputs, mcm::manipulator::Inputs::unloaded(10));
     assert_eq!(scene.magnets, None);
     assert_eq!(scene.settings.interaction, Interaction::Rings);
@@ -75,7 +75,8 @@ fn empty_scene_is_table_1_with_nine_segments_unloaded() {
 #[test]
 fn magnet_without_position_stands_below_the_middle() {
     let scene = Scene::parse("[magnet]", "test").unwrap();
-    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.12, 0.023]);
+    let length = scene.design().unwrap().length();
+    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.12, length / 2.0]);
     assert_eq!(scene.inputs.magnet.axis().as_slice(), [0.0, 0.0, -1.0]);
     assert_eq!(scene.magnets.unwrap().len(), 2);
 }
@@ -153,7 +154,7 @@ fn refusals_name_line_path_and_remedy() {
         ("[design]\nkind = \"cylinder\"", "design.length_mm is missing"),
         (
             "[design]\nsegments = 2000000000",
-            "design.segments = 2000000000 is not allowed: it must be from 1 to 1000",
+            "number of segments = 2000000000 is not allowed: it must be from 1 to 64",
         ),
     ] {
         assert_eq!(refusal(text), expected, "{text}");
@@ -168,7 +169,7 @@ fn one_number_is_replaced_by_its_path() {
     let moved = file.with("magnet.position_mm[2]", -90.0).unwrap().scene().unwrap();
     assert_eq!(moved.inputs.magnet.position.as_slice(), [0.001, -0.09, 0.003]);
     let shorter = file.with("design.segments", 4.0).unwrap();
-    assert!(shorter.scene().is_err(), "ten ring loads do not fit five rings");
+    assert_eq!(shorter.scene().unwrap().inputs.ring_forces.len(), 5);
     let force = file.with("load.ring_force_n[10][3]", 0.5).unwrap().scene().unwrap();
     assert_eq!(force.inputs.ring_forces[9].z, 0.5);
     for (key, value, expected) in [
@@ -176,7 +177,7 @@ fn one_number_is_replaced_by_its_path() {
         ("field.uniform", 1.0, "unknown key `field.uniform`; did you mean `uniform_mt`?"),
         ("field.uniform_mt[0]", 1.0, "no entry `field.uniform_mt[0]`: indices go from 1 to 3 there"),
         ("field.uniform_mt[4]", 1.0, "no entry `field.uniform_mt[4]`: indices go from 1 to 3 there"),
-        ("magnet.strength.x", 1.0, "unknown key `magnet.strength.x`: nothing is below `strength`"),
+        ("magnet.strength.x", 1.0, "unknown key `magnet.strength.x`: `x` is not in a table"),
         ("design.segments", 1.5, "design.segments = 1.5 is not allowed: it must be a whole number"),
         ("magnet.strength", f64::NAN, "magnet.strength = NaN is not allowed: it must be finite"),
     ] {
@@ -190,7 +191,7 @@ proptest! {
     fn written_text_reads_back_the_same(
         field in proptest::array::uniform3(-1e3..1e3f64),
         position in proptest::array::uniform3(-1e3..1e3f64),
-        length in 1e-6..1e3f64,
+        length in 3.0..1e3f64,
         segments in 1usize..12,
     ) {
         let text = format!(

@@ -6,10 +6,11 @@ use super::file::{
     SceneFile, SpiralName,
 };
 use crate::design::{
-    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind,
+    Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
+    SpiralKind,
 };
 use crate::equilibrium::{Interaction, Settings};
-use crate::error::{Error, check};
+use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::AxialMagnet;
 use crate::manipulator::Inputs;
@@ -18,8 +19,12 @@ const MM_PER_M: f64 = 1e3;
 const MT_PER_T: f64 = 1e3;
 const PA_PER_MPA: f64 = 1e6;
 
-/// Where the pair stands when no position is given: its axis this far from the manipulator's, mm.
-const MAGNET_DISTANCE_MM: f64 = 120.0;
+/// Where the magnet stands when no position is given: below the manipulator's middle, its axis this far away, m.
+const MAGNET_DISTANCE: f64 = 0.12;
+
+fn beside(design: &Design) -> [f64; 3] {
+    [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
+}
 
 impl SceneFile {
     /// The scene in SI units.
@@ -27,29 +32,30 @@ impl SceneFile {
     /// # Errors
     /// See [`Scene::parse`].
     pub fn scene(&self) -> Result<Scene, Error> {
-        let (specification, rings) = self.design.specification()?;
-        Ok(Scene {
-            specification,
-            magnets: self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect()),
-            inputs: self.inputs(rings)?,
-            settings: Settings { interaction: self.interaction()?, ..Settings::default() },
-        })
+        let specification = self.design.specification()?;
+        let inputs = self.inputs(&Design::new(specification.clone())?)?;
+        let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
+        Ok(Scene { specification, magnets, inputs, settings: self.settings()? })
     }
 
-    /// Writes down what was left out because it follows from other entries.
-    pub(super) fn complete(&mut self) {
-        self.design.complete();
-        let middle = self.design.straight_length_mm() / 2.0;
-        if let Some(magnet) = &mut self.magnet {
-            magnet.position_mm.get_or_insert([0.0, -MAGNET_DISTANCE_MM, middle]);
+    /// Writes down what `key` names if it was left out because it follows from the design.
+    pub(super) fn complete_for(&mut self, key: &str) -> Result<(), Error> {
+        let design = || Design::new(self.design.specification()?);
+        if key.starts_with("load.ring_force_n") && self.load.ring_force_n.is_none() {
+            self.load.ring_force_n = Some(vec![[0.0; 3]; design()?.rings().count()]);
+        } else if let Some(magnet) = self.magnet.as_mut().filter(|m| m.position_mm.is_none())
+            && key.starts_with("magnet.position_mm")
+        {
+            magnet.position_mm = Some(beside(&design()?).map(|x| x * MM_PER_M));
         }
-        self.load.ring_force_n.get_or_insert_with(|| vec![[0.0; 3]; self.design.rings()]);
+        Ok(())
     }
 
-    fn inputs(&self, rings: usize) -> Result<Inputs, Error> {
+    fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
+        let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
         if let Some(MagnetTable { position_mm, orientation_wxyz, strength, .. }) = self.magnet {
-            let position = position_mm.unwrap_or_default().map(|x| x / MM_PER_M);
+            let position = position_mm.map_or(beside(design), |position| position.map(|x| x / MM_PER_M));
             inputs.magnet = Pose::new(position, orientation_wxyz)?;
             inputs.magnet_strength = strength;
         }
@@ -72,20 +78,21 @@ impl SceneFile {
         Ok(inputs)
     }
 
-    fn interaction(&self) -> Result<Interaction, Error> {
+    fn settings(&self) -> Result<Settings, Error> {
         if self.model.bending_stop {
             return Err(Error::Unsupported(
                 "model.bending_stop = true is not available in this version: leave it out or set it to false"
                     .into(),
             ));
         }
-        match self.model.interaction {
-            InteractionName::None => Ok(Interaction::None),
-            InteractionName::Preceding => Ok(Interaction::Preceding),
-            InteractionName::Rings => Ok(Interaction::Rings),
-            InteractionName::Full => Err(unavailable("full")),
-            InteractionName::Auto => Err(unavailable("auto")),
-        }
+        let interaction = match self.model.interaction {
+            InteractionName::None => Interaction::None,
+            InteractionName::Preceding => Interaction::Preceding,
+            InteractionName::Rings => Interaction::Rings,
+            InteractionName::Full => return Err(unavailable("full")),
+            InteractionName::Auto => return Err(unavailable("auto")),
+        };
+        Ok(Settings { interaction })
     }
 }
 
@@ -98,17 +105,8 @@ fn unavailable(level: &str) -> Error {
 impl DesignTable {
     const SEGMENTS: usize = 9;
 
-    /// Lists as long as the chain are made before the design itself is checked: this bounds them.
-    const MOST_SEGMENTS: usize = 1000;
-
-    pub(super) fn check_segments(&self) -> Result<(), Error> {
-        let within = |count| (1.0..=Self::MOST_SEGMENTS as f64).contains(&count);
-        let allowed = format!("from 1 to {}", Self::MOST_SEGMENTS);
-        check("design.segments", self.segments.unwrap_or(Self::SEGMENTS) as f64, within, &allowed)?;
-        Ok(())
-    }
-
-    fn complete(&mut self) {
+    /// Fills in what does not depend on other entries.
+    pub(super) fn complete(&mut self) {
         if self.kind == Kind::Segments {
             self.segments.get_or_insert(Self::SEGMENTS);
             self.base_magnet.get_or_insert(true);
@@ -121,30 +119,9 @@ impl DesignTable {
         }
     }
 
-    fn rings(&self) -> usize {
-        let end = |present: Option<bool>| usize::from(present.unwrap_or(true));
-        match self.kind {
-            Kind::Segments => (self.segments.unwrap_or(Self::SEGMENTS).saturating_sub(1))
-                .saturating_add(end(self.base_magnet) + end(self.tip_magnet)),
-            Kind::Cylinder => 0,
-        }
-    }
-
-    fn straight_length_mm(&self) -> f64 {
-        match self.kind {
-            Kind::Segments => {
-                self.segments.unwrap_or(Self::SEGMENTS) as f64 * self.helix.unwrap_or_default().length_mm
-                    + self.rings() as f64 * self.ring.unwrap_or_default().length_mm
-            }
-            Kind::Cylinder => self.length_mm.unwrap_or_default(),
-        }
-    }
-
-    /// What is built, and its number of rings.
-    fn specification(&self) -> Result<(Specification, usize), Error> {
-        self.check_segments()?;
+    fn specification(&self) -> Result<Specification, Error> {
         self.refuse_keys_of_other_kind()?;
-        let specification = match self.kind {
+        Ok(match self.kind {
             Kind::Segments => Specification::Segmented(Segmented {
                 segments: self.segments.unwrap_or(Self::SEGMENTS),
                 base_magnet: self.base_magnet.unwrap_or(true),
@@ -155,7 +132,7 @@ impl DesignTable {
                 },
                 helix: self.helix.unwrap_or_default().si(),
                 ring: self.ring.unwrap_or_default().si(),
-                backbone: self.backbone.map(|backbone| backbone.si()).transpose()?,
+                backbone: self.backbone.map(BackboneTable::si).transpose()?,
             }),
             Kind::Cylinder => Specification::Cylinder(Cylinder {
                 length: required("design.length_mm", self.length_mm)? / MM_PER_M,
@@ -164,8 +141,7 @@ impl DesignTable {
                 material: self.cylinder_material()?,
                 density: self.density_kg_m3,
             }),
-        };
-        Ok((specification, self.rings()))
+        })
     }
 
     /// A composite as in Table 1 unless said, or a bulk material when its modulus or remanence is given directly.

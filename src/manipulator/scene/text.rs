@@ -18,8 +18,7 @@ impl SceneFile {
     /// [`Error::Syntax`] with line and key, [`Error::Range`] for NaN or an infinity.
     pub fn parse(text: &str, what: &str) -> Result<Self, Error> {
         let mut file: Self = toml::from_str(text).map_err(|error| explain(text, what, &error))?;
-        file.design.check_segments()?;
-        file.complete();
+        file.design.complete();
         refuse_infinite(&file.table()?, "")?;
         Ok(file)
     }
@@ -40,7 +39,9 @@ impl SceneFile {
     /// [`Error::Unsupported`] for a key that does not exist (naming the nearest one) or holds no number,
     /// [`Error::Range`] for a number that is not finite, or not whole where a count is wanted.
     pub fn with(&self, key: &str, value: f64) -> Result<Self, Error> {
-        let mut root = Value::Table(self.table()?);
+        let mut file = self.clone();
+        file.complete_for(key)?;
+        let mut root = Value::Table(file.table()?);
         let entry = entry(&mut root, key)?;
         *entry = match entry {
             Value::Float(_) if value.is_finite() => Value::Float(value),
@@ -146,9 +147,8 @@ fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value, Error> {
     let mut here = root;
     for part in path.split('.') {
         let (key, indices) = part.split_once('[').map_or((part, None), |(key, rest)| (key, Some(rest)));
-        let table = match here {
-            Value::Table(table) => table,
-            _ => return Err(Error::Unsupported(format!("unknown key `{path}`: nothing is below `{key}`"))),
+        let Value::Table(table) = here else {
+            return Err(Error::Unsupported(format!("unknown key `{path}`: `{key}` is not in a table")));
         };
         if !table.contains_key(key) {
             let known: Vec<&str> = table.keys().map(String::as_str).collect();

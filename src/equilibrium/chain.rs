@@ -1,0 +1,99 @@
+//! The chain as the solver sees it: nodes joined by elements, rings on nodes.
+
+use crate::constants::VACUUM_PERMEABILITY;
+use crate::design::{Design, Ring, SpanKind};
+use crate::error::Error;
+use crate::magnetics::AxialSource;
+use crate::rod::{Element, Piece};
+
+use super::settings::Settings;
+
+/// A rigid ring with its proximal face at a node.
+#[derive(Debug, Clone)]
+pub(super) struct RingBody {
+    /// Dimensions and material.
+    pub(super) ring: Ring,
+    /// Its node; 0 is the clamped base.
+    pub(super) node: usize,
+    /// Its field, in its own frame.
+    pub(super) source: AxialSource,
+    /// Magnetisation, A/m.
+    pub(super) magnetisation: f64,
+}
+
+impl RingBody {
+    fn new(ring: &Ring, node: usize) -> Result<Self, Error> {
+        Ok(Self {
+            ring: *ring,
+            node,
+            source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
+            magnetisation: ring.remanence / VACUUM_PERMEABILITY,
+        })
+    }
+}
+
+/// Nodes, elements and rings of a design.
+///
+/// Node 0 is the base; element `k` leads from node `k` to node `k + 1`. A node's frame sits at the proximal
+/// face of its ring, or where two elements meet.
+#[derive(Debug, Clone)]
+pub(super) struct Chain {
+    pub(super) elements: Vec<Element>,
+    pub(super) rings: Vec<RingBody>,
+    /// Distance from the last node to the tip, m.
+    pub(super) tip_offset: f64,
+    /// First unknown of each element, and their total.
+    pub(super) first: Vec<usize>,
+    /// Diagonal elastic stiffness of all unknowns.
+    pub(super) metric: Vec<f64>,
+    /// Elements of each segment's core, first and last.
+    pub(super) cores: Vec<(usize, usize)>,
+}
+
+impl Chain {
+    pub(super) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
+        let mut rings = Vec::new();
+        if let Some(ring) = design.base_ring() {
+            rings.push(RingBody::new(ring, 0)?);
+        }
+        let mut offset = design.base_ring().map_or(0.0, |ring| ring.length);
+        let (mut elements, mut cores) = (Vec::new(), Vec::new());
+        for segment in design.segments() {
+            let first = elements.len();
+            let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
+            let parts = if plain { settings.cylinder_elements } else { 1 };
+            for _ in 0..parts {
+                let pieces: Vec<Piece<'_>> =
+                    segment.spans.iter().map(|span| Piece { span, length: span.length / parts as f64 }).collect();
+                elements.push(Element::new(offset, &pieces, settings.degree));
+                offset = 0.0;
+            }
+            cores.push((first, elements.len() - 1));
+            if let Some(ring) = &segment.ring {
+                rings.push(RingBody::new(ring, elements.len())?);
+                offset = ring.length;
+            }
+        }
+        let mut first = vec![0];
+        for element in &elements {
+            first.push(first[first.len() - 1] + element.freedoms());
+        }
+        let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores })
+    }
+
+    /// Number of unknowns.
+    pub(super) fn freedoms(&self) -> usize {
+        self.metric.len()
+    }
+
+    /// The unknowns of one element.
+    pub(super) fn part<'a>(&self, element: usize, unknowns: &'a [f64]) -> &'a [f64] {
+        &unknowns[self.first[element]..self.first[element + 1]]
+    }
+
+    /// Norm of a change that turns one element's end by a radian: the unit of steps and residuals.
+    pub(super) fn unit(&self) -> f64 {
+        self.metric.iter().step_by(6).copied().fold(0.0, f64::max).sqrt()
+    }
+}

@@ -1,0 +1,225 @@
+//! Following a stable branch while the inputs change, and falling to the next one past a fold.
+
+use super::chain::Chain;
+use super::external::ExternalField;
+use super::inputs::Inputs;
+use super::potential::{Potential, Workspace};
+use super::rules::PairRules;
+use super::settings::Settings;
+use crate::magnetics::Assembly;
+use crate::numerics::eigenvalue;
+use crate::numerics::trust_region::{self, Objective, Region, dual_norm, norm, spread};
+
+/// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
+const CONTRACTION: f64 = 0.5;
+
+/// Newton corrections at most for one part of an input change.
+const CORRECTIONS: u32 = 12;
+
+/// Where rounding, not Newton's method, decides the length of a step (in the chain's unit).
+const ROUNDING: f64 = 1e-9;
+
+/// First radius of the trust region past a fold, in the chain's unit: small, so that the fall is followed.
+const FALL_RADIUS: f64 = 0.1;
+
+/// A fall further than this (in the chain's unit) is a snap, a shorter one a bend in the branch.
+const SNAP: f64 = 0.25;
+
+/// Parts of one input change at most.
+const PARTS: u32 = 2000;
+
+/// The shape, and the inputs at which it is in equilibrium.
+#[derive(Debug, Clone)]
+pub(super) struct Branch {
+    pub(super) unknowns: Vec<f64>,
+    pub(super) inputs: Option<Inputs>,
+    /// Direction of least stiffness, the first guess for the next search.
+    softest: Vec<f64>,
+}
+
+impl Branch {
+    pub(super) fn new(chain: &Chain) -> Self {
+        let mut softest = vec![0.0; chain.freedoms()];
+        spread(&mut softest);
+        Self { unknowns: vec![0.0; chain.freedoms()], inputs: None, softest }
+    }
+}
+
+/// What a solve did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Report {
+    pub(super) solved: bool,
+    pub(super) iterations: u32,
+    pub(super) residual: f64,
+    pub(super) margin: f64,
+    pub(super) snaps: u32,
+    pub(super) energy: f64,
+}
+
+/// The parts that do not change from solve to solve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub(super) chain: &'a Chain,
+    pub(super) settings: &'a Settings,
+    pub(super) magnet: Option<&'a Assembly>,
+}
+
+impl Scene<'_> {
+    /// Moves `branch` to the equilibrium at `target`; on failure the branch stays where it was.
+    pub(super) fn follow(
+        &self,
+        branch: &mut Branch,
+        target: &Inputs,
+        work: &mut Workspace,
+        rules: &mut PairRules,
+    ) -> Report {
+        let mut walk = Walk { scene: *self, work, rules, report: Report::start() };
+        let mut unknowns = branch.unknowns.clone();
+        if walk.run(branch.inputs.as_ref(), target, &mut unknowns) {
+            branch.unknowns.copy_from_slice(&unknowns);
+            branch.inputs = Some(target.clone());
+            walk.judge(target, &unknowns, &mut branch.softest);
+        }
+        walk.report
+    }
+}
+
+impl Report {
+    fn start() -> Self {
+        Self { solved: false, iterations: 0, residual: f64::INFINITY, margin: f64::NAN, snaps: 0, energy: 0.0 }
+    }
+}
+
+/// One solve under way.
+struct Walk<'a> {
+    scene: Scene<'a>,
+    work: &'a mut Workspace,
+    rules: &'a mut PairRules,
+    report: Report,
+}
+
+impl Walk<'_> {
+    fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+        let start = if let Some(inputs) = from {
+            inputs.clone()
+        } else {
+            // The unloaded shape: its internal forces alone, found from straight.
+            let unloaded = target.without_loads();
+            if self.correct(&unloaded, unknowns).is_none() && !self.fall(&unloaded, unknowns) {
+                return false;
+            }
+            unloaded
+        };
+        let (mut done, mut part) = (0.0, 1.0);
+        for _ in 0..PARTS {
+            let next = f64::min(1.0, done + part);
+            let inputs = if next >= 1.0 { target.clone() } else { start.between(target, next) };
+            let mut trial = unknowns.clone();
+            if self.correct(&inputs, &mut trial).is_some() {
+                *unknowns = trial;
+            } else if part > self.scene.settings.smallest_part {
+                part *= 0.5;
+                continue;
+            } else if !self.fall(&inputs, unknowns) {
+                return false;
+            }
+            done = next;
+            part *= 2.0;
+            if done >= 1.0 {
+                return true;
+            }
+        }
+        false
+    }
+
+    fn potential<'b>(&'b mut self, inputs: &'b Inputs) -> Potential<'b> {
+        Potential {
+            chain: self.scene.chain,
+            settings: self.scene.settings,
+            inputs,
+            field: ExternalField::new(self.scene.magnet, inputs),
+            rules: self.rules,
+            work: self.work,
+        }
+    }
+
+    /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
+    fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64]) -> Option<()> {
+        let Scene { chain, settings, .. } = self.scene;
+        let unit = chain.unit();
+        self.choose_rules(inputs, unknowns);
+        let mut step = vec![0.0; unknowns.len()];
+        let mut previous = settings.follow_step / CONTRACTION;
+        for _ in 0..CORRECTIONS {
+            let mut potential = self.potential(inputs);
+            let energy = potential.linearise(unknowns)?;
+            let residual = dual_norm(potential.metric(), potential.gradient()) / unit;
+            if !potential.factorise(0.0) {
+                return None;
+            }
+            step.iter_mut().zip(potential.gradient()).for_each(|(s, g)| *s = -g);
+            let solved = residual <= settings.tolerance;
+            if !solved {
+                potential.solve(&mut step);
+            }
+            let length = norm(&chain.metric, &step) / unit;
+            self.report.residual = residual;
+            self.report.energy = energy;
+            if solved {
+                return Some(());
+            }
+            self.report.iterations += 1;
+            if length.is_nan() || length > CONTRACTION * previous {
+                return (length < ROUNDING).then_some(());
+            }
+            unknowns.iter_mut().zip(&step).for_each(|(x, s)| *x += s);
+            previous = length;
+        }
+        None
+    }
+
+    /// Downhill to the next minimum; counts a snap if it is far.
+    fn fall(&mut self, inputs: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+        let Scene { chain, settings, .. } = self.scene;
+        let unit = chain.unit();
+        self.choose_rules(inputs, unknowns);
+        let region = Region {
+            radius: FALL_RADIUS * unit,
+            largest: unit,
+            tolerance: settings.tolerance.max(ROUNDING) * unit,
+            iterations: settings.iterations,
+        };
+        let mut fallen = unknowns.clone();
+        let minimum = trust_region::minimise(&mut self.potential(inputs), &mut fallen, &region);
+        self.report.iterations += minimum.iterations;
+        self.report.residual = minimum.residual / unit;
+        if !minimum.converged || self.correct(inputs, &mut fallen).is_none() {
+            return false;
+        }
+        let moved: Vec<f64> = fallen.iter().zip(unknowns.iter()).map(|(a, b)| a - b).collect();
+        if norm(&chain.metric, &moved) / unit > SNAP {
+            self.report.snaps += 1;
+        }
+        *unknowns = fallen;
+        true
+    }
+
+    fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
+        self.work.place(self.scene.chain, &inputs.base, unknowns);
+        self.rules.choose(self.scene.chain, &self.work.nodes, self.scene.settings.pair_accuracy);
+    }
+
+    /// Verdict on stability at the shape that the last correction has left in the workspace.
+    fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64]) {
+        let chain = self.scene.chain;
+        let mut potential = self.potential(inputs);
+        // The last correction has factorised here; its factor serves the eigenvalue too.
+        debug_assert_eq!(unknowns.len(), chain.freedoms());
+        let margin = eigenvalue::smallest(&chain.metric, 0.0, softest, |x| potential.solve(x));
+        if margin.is_nan() {
+            spread(softest);
+        }
+        self.report.margin = margin;
+        self.report.solved = margin.is_finite();
+    }
+}

@@ -1,0 +1,105 @@
+//! The mutual energy of two rings, with its derivatives by the poses of both.
+
+use nalgebra::{Matrix3, Matrix6, Vector3};
+
+use super::chain::RingBody;
+use crate::geometry::{Pose, hat};
+use crate::magnetics::AxialRule;
+use crate::rod::{Load, turning};
+
+/// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
+#[derive(Debug, Clone)]
+pub(super) struct PairLoad {
+    /// The energy as a load on the second ring's node.
+    pub(super) on_second: Load,
+    /// The same energy as a load on the first ring's node: force and couple only.
+    pub(super) on_first: Load,
+    /// Second derivative by the first node.
+    pub(super) first_first: Matrix6<f64>,
+    /// Mixed second derivative, rows of the first node.
+    pub(super) first_second: Matrix6<f64>,
+    /// Second derivative by the second node.
+    pub(super) second_second: Matrix6<f64>,
+}
+
+/// Whether two rings are closer than their material allows.
+pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> bool {
+    let from = first_node.advanced(0.5 * first.ring.length);
+    let to = second_node.advanced(0.5 * second.ring.length);
+    let reach = |body: &RingBody| body.ring.outer_radius.hypot(0.5 * body.ring.length);
+    let distance = (to.position - from.position).norm();
+    if distance > reach(first) + reach(second) {
+        return false;
+    }
+    rim_inside(&from, first, &to, second) || rim_inside(&to, second, &from, first)
+}
+
+/// Whether a point of one ring's outer edges lies inside the other's outline.
+fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> bool {
+    const POINTS: usize = 24;
+    (0..2 * POINTS).any(|k| {
+        let (sine, cosine) = (core::f64::consts::TAU * (k / 2) as f64 / POINTS as f64).sin_cos();
+        let height = if k % 2 == 0 { 0.5 } else { -0.5 } * rim.ring.length;
+        let point = to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
+        let local = from.rotation.tr_mul(&(point - from.position));
+        local.z.abs() < 0.5 * outline.ring.length && local.x.hypot(local.y) < outline.ring.outer_radius
+    })
+}
+
+impl PairLoad {
+    /// Energy of `second` in the exact field of `first`; `None` where that is singular.
+    ///
+    /// The energy depends on the relative pose alone, so that forces and torques cancel to rounding.
+    pub(super) fn new(
+        first: &RingBody,
+        first_node: &Pose,
+        second: &RingBody,
+        second_node: &Pose,
+        rule: &AxialRule,
+    ) -> Option<Self> {
+        let from = first_node.advanced(0.5 * first.ring.length);
+        let axis = second_node.axis();
+        let centre = 0.5 * second.ring.length;
+        let mut load = Load::zero();
+        for (height, volume) in rule.points() {
+            let arm = axis * (centre + height);
+            let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
+            let jet = first.source.jet(&local).ok()?.rotated(&from.rotation);
+            let moment = second.magnetisation * volume;
+            load.add_dipole(moment, &axis, &arm, &jet.field, &jet.gradient, &jet.hessian_along(&axis));
+        }
+        Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
+    }
+
+    /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
+    pub(super) fn reciprocal(on_second: Load, between: &Vector3<f64>) -> Self {
+        let force = on_second.force;
+        let whole = on_second.couple + force * between.transpose();
+        let on_first = Load { force: -force, couple: -whole, ..Load::zero() };
+        let own = blocks(
+            &on_second.position_position,
+            &on_second.position_rotation,
+            &on_second.position_rotation.transpose(),
+            &on_second.rotation_rotation,
+        );
+        // A displacement of the first node acts like the opposite displacement of the second.
+        let carry = blocks(&-Matrix3::identity(), &hat(between), &Matrix3::zeros(), &-Matrix3::identity());
+        let zero = Matrix3::zeros();
+        let pull = hat(&force);
+        let swing = Matrix3::identity() * on_second.couple.trace() - on_second.couple.transpose();
+        let mixed = carry.transpose() * own + blocks(&zero, &zero, &pull, &swing);
+        let first_first = carry.transpose() * own * carry + blocks(&zero, &pull, &-pull, &turning(&whole));
+        let second_second = own + blocks(&zero, &zero, &zero, &turning(&on_second.couple));
+        Self { on_second, on_first, first_first, first_second: mixed, second_second }
+    }
+}
+
+/// A 6 x 6 matrix from its four blocks.
+pub(super) fn blocks(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
+    let mut out = Matrix6::zeros();
+    out.fixed_view_mut::<3, 3>(0, 0).copy_from(a);
+    out.fixed_view_mut::<3, 3>(0, 3).copy_from(b);
+    out.fixed_view_mut::<3, 3>(3, 0).copy_from(c);
+    out.fixed_view_mut::<3, 3>(3, 3).copy_from(d);
+    out
+}

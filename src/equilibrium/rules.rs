@@ -1,0 +1,48 @@
+//! The quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
+
+use super::chain::Chain;
+use crate::geometry::Pose;
+use crate::magnetics::AxialRule;
+
+/// One quadrature rule per pair, upper triangle row by row, out of a table made once.
+#[derive(Debug, Clone)]
+pub(super) struct PairRules {
+    /// Rules of each ring, by number of nodes.
+    tables: Vec<Vec<AxialRule>>,
+    chosen: Vec<usize>,
+}
+
+impl PairRules {
+    pub(super) fn new(chain: &Chain) -> Self {
+        let tables: Vec<Vec<AxialRule>> = chain.rings.iter().map(|body| AxialRule::table(&body.source)).collect();
+        let count = tables.len() * tables.len().saturating_sub(1) / 2;
+        Self { tables, chosen: vec![0; count] }
+    }
+
+    /// Chooses the rules for the present node poses.
+    pub(super) fn choose(&mut self, chain: &Chain, nodes: &[Pose], accuracy: f64) {
+        let mut chosen = self.chosen.iter_mut();
+        for (i, first) in chain.rings.iter().enumerate() {
+            for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
+                let from = nodes[first.node].advanced(0.5 * first.ring.length);
+                let to = nodes[second.node].advanced(0.5 * second.ring.length);
+                let local = from.rotation.tr_mul(&(to.position - from.position));
+                let reach = first.source.distance(&local);
+                if let Some(slot) = chosen.next() {
+                    *slot = AxialRule::choose(&self.tables[j], reach, accuracy);
+                }
+            }
+        }
+    }
+
+    /// The rule of pair number `pair`, whose second ring is number `second`.
+    pub(super) fn pair(&self, pair: usize, second: usize) -> &AxialRule {
+        &self.tables[second][self.chosen[pair]]
+    }
+
+    /// The rule of ring number `ring` in a field whose sources are `reach` (m) away.
+    pub(super) fn external(&self, ring: usize, reach: f64, accuracy: f64) -> &AxialRule {
+        let table = &self.tables[ring];
+        &table[AxialRule::choose(table, reach, accuracy)]
+    }
+}

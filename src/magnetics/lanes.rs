@@ -1,0 +1,73 @@
+//! A few numbers that go through the same arithmetic in lockstep: one per edge of a magnet.
+
+use core::array::from_fn;
+use core::ops::{Add, Div, Mul, Sub};
+
+/// `N` numbers side by side; the compiler turns each operation into packed instructions.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes<const N: usize>(pub(super) [f64; N]);
+
+impl<const N: usize> Lanes<N> {
+    #[inline]
+    pub(super) fn all(value: f64) -> Self {
+        Self([value; N])
+    }
+
+    #[inline]
+    pub(super) fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        Self(from_fn(|i| function(self.0[i])))
+    }
+
+    #[inline]
+    pub(super) fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    #[inline]
+    pub(super) fn squared(self) -> Self {
+        self * self
+    }
+
+    /// `sum_i self_i weights_i`.
+    #[inline]
+    pub(super) fn weighted_sum(self, weights: &[f64; N]) -> f64 {
+        self.0.iter().zip(weights).map(|(value, weight)| value * weight).sum()
+    }
+
+    /// Replaces the lanes where `chosen` holds.
+    #[inline]
+    pub(super) fn replaced(self, chosen: [bool; N], other: Self) -> Self {
+        Self(from_fn(|i| if chosen[i] { other.0[i] } else { self.0[i] }))
+    }
+}
+
+macro_rules! lanewise {
+    ($trait:ident, $method:ident, $operator:tt) => {
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: Self) -> Self {
+                Self(from_fn(|i| self.0[i] $operator other.0[i]))
+            }
+        }
+        impl<const N: usize> $trait<f64> for Lanes<N> {
+            type Output = Self;
+            #[inline]
+            fn $method(self, other: f64) -> Self {
+                Self(from_fn(|i| self.0[i] $operator other))
+            }
+        }
+        impl<const N: usize> $trait<Lanes<N>> for f64 {
+            type Output = Lanes<N>;
+            #[inline]
+            fn $method(self, other: Lanes<N>) -> Lanes<N> {
+                Lanes(from_fn(|i| self $operator other.0[i]))
+            }
+        }
+    };
+}
+
+lanewise!(Add, add, +);
+lanewise!(Sub, sub, -);
+lanewise!(Mul, mul, *);
+lanewise!(Div, div, /);

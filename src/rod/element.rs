@@ -1,0 +1,184 @@
+//! An element: the deformable spans between two nodes, with the tables of its modes and stations.
+
+use super::basis::{Compliance, Modes};
+use super::moments::SectionMoments;
+use crate::design::{Span, SpanKind, Stiffness};
+use crate::numerics::{lagrange, quadrature::gauss_legendre};
+
+/// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
+pub const COMPONENTS: usize = 6;
+
+/// Gauss points of a disc: its strain is some percent of the core's.
+const DISC_POINTS: usize = 2;
+
+/// Gauss points of a core or rod beyond the number of modes.
+const EXTRA_POINTS: usize = 1;
+
+/// Points that resolve the turns of the spiral when its moments are tabulated.
+const SPIRAL_POINTS: usize = 48;
+
+/// A span, or a part of one, inside an element.
+#[derive(Debug, Clone, Copy)]
+pub struct Piece<'a> {
+    /// The span.
+    pub span: &'a Span,
+    /// Length of the part, m.
+    pub length: f64,
+}
+
+/// The mode values at one arc length, and how positions are integrated up to there.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Arc length from the element's start, m.
+    pub arc_length: f64,
+    /// `psi`: mode values by degree of freedom, 1/m.
+    pub rate: Vec<f64>,
+    /// Integrals of `psi` up to here by degree of freedom.
+    pub integral: Vec<f64>,
+    /// Weight of each station's tangent in the position here, m.
+    pub position: Vec<f64>,
+}
+
+/// A Gauss point of an element.
+#[derive(Debug, Clone)]
+pub struct Station {
+    /// Mode values and position weights.
+    pub row: Row,
+    /// Quadrature weight, m.
+    pub weight: f64,
+    /// Section stiffness.
+    pub stiffness: Stiffness,
+    /// Moments of the material that this station stands for.
+    pub material: SectionMoments,
+    /// Magnetisation of the material, A/m.
+    pub magnetisation: f64,
+    /// Mass on the centreline that this station stands for, kg.
+    pub line_mass: f64,
+    /// Density of the material, kg/m3.
+    pub density: f64,
+}
+
+/// Tables of one element; the unknowns are the mode amplitudes, ordered mode by mode, six components each.
+#[derive(Debug, Clone)]
+pub struct Element {
+    /// Distance from the node before (proximal face of its ring) to the element's start, m.
+    pub offset: f64,
+    /// Length, m.
+    pub length: f64,
+    /// Gauss points.
+    pub stations: Vec<Station>,
+    /// Elastic stiffness of each degree of freedom about the straight shape: J/rad2 and J/m2.
+    pub metric: Vec<f64>,
+    /// Rows at the ends of the core (or of the whole element, for a plain rod).
+    pub core_ends: [Row; 2],
+    modes: [Modes; COMPONENTS],
+    /// Length, nodes on [-1, 1] and first station of each piece.
+    pieces: Vec<(f64, Vec<f64>, usize)>,
+}
+
+impl Element {
+    /// Tables for modes of polynomial degree 0 to `degree`.
+    #[must_use]
+    pub fn new(offset: f64, pieces: &[Piece<'_>], degree: usize) -> Self {
+        let count = degree + 1;
+        let compliance = |stiffness: fn(&Stiffness) -> f64| {
+            let pieces = pieces.iter().map(|piece| (piece.length, 1.0 / stiffness(&piece.span.stiffness)));
+            Modes::new(Compliance { pieces: pieces.collect() }, count)
+        };
+        let bending = compliance(|k| k.bending);
+        let shear = compliance(|k| k.shear);
+        let (torsion, axial) = (compliance(|k| k.torsion), compliance(|k| k.axial));
+        let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
+        let metric = (0..count).flat_map(|j| modes.each_ref().map(|mode| mode.stiffness[j])).collect();
+        let mut tables = Vec::new();
+        let mut first = 0;
+        for piece in pieces {
+            let points = if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { count + EXTRA_POINTS };
+            tables.push((piece.length, gauss_legendre(points).0, first));
+            first += points;
+        }
+        let length = pieces.iter().map(|piece| piece.length).sum();
+        let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core);
+        let before: f64 = pieces.iter().take(core.unwrap_or(0)).map(|piece| piece.length).sum();
+        let core_length = core.map_or(length, |index| pieces[index].length);
+        let empty = Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] };
+        let mut element = Self {
+            offset,
+            length,
+            stations: Vec::new(),
+            metric,
+            core_ends: [empty.clone(), empty],
+            modes,
+            pieces: tables,
+        };
+        element.core_ends = [before, before + core_length].map(|s| element.row(s));
+        for (index, piece) in pieces.iter().enumerate() {
+            element.add_stations(index, piece);
+        }
+        element
+    }
+
+    /// Number of degrees of freedom.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.metric.len()
+    }
+
+    /// Tables at arc length `s` from the element's start, clamped to the element.
+    #[must_use]
+    pub fn row(&self, s: f64) -> Row {
+        let mut start = 0.0;
+        let mut piece = 0;
+        while piece + 1 < self.pieces.len() && s > start + self.pieces[piece].0 {
+            start += self.pieces[piece].0;
+            piece += 1;
+        }
+        self.row_in(piece, start, s.clamp(0.0, self.length))
+    }
+
+    fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
+        let values = self.modes.each_ref().map(|mode| mode.values(piece, s));
+        let sums = self.modes.each_ref().map(|mode| mode.integrals(piece, s));
+        let interleave = |table: &[Vec<f64>; COMPONENTS]| {
+            (0..table[0].len()).flat_map(|j| table.each_ref().map(|column| column[j])).collect()
+        };
+        let mut position = Vec::new();
+        for (length, nodes, _) in &self.pieces[..piece] {
+            position.extend(lagrange::integrals(nodes, 1.0).iter().map(|weight| 0.5 * length * weight));
+        }
+        let (length, nodes, _) = &self.pieces[piece];
+        let x = (2.0 * (s - start) / length - 1.0).clamp(-1.0, 1.0);
+        position.extend(lagrange::integrals(nodes, x).iter().map(|weight| 0.5 * length * weight));
+        let total = self.pieces.iter().map(|(_, nodes, _)| nodes.len()).sum();
+        position.resize(total, 0.0);
+        Row { arc_length: s, rate: interleave(&values), integral: interleave(&sums), position }
+    }
+
+    fn add_stations(&mut self, index: usize, piece: &Piece<'_>) {
+        let start: f64 = self.pieces[..index].iter().map(|(length, _, _)| length).sum();
+        let span = piece.span;
+        let nodes = self.pieces[index].1.clone();
+        let weights = lagrange::integrals(&nodes, 1.0);
+        let (fine_nodes, fine_weights) = gauss_legendre(SPIRAL_POINTS);
+        let mut materials = vec![SectionMoments::zero(); nodes.len()];
+        for (x, fine) in fine_nodes.iter().zip(&fine_weights) {
+            let along = 0.5 * piece.length * (1.0 + x);
+            for (material, value) in materials.iter_mut().zip(lagrange::values(&nodes, *x)) {
+                material.add_section(span, along, 0.5 * piece.length * fine * value);
+            }
+        }
+        for ((x, weight), material) in nodes.iter().zip(weights).zip(materials) {
+            let weight = 0.5 * piece.length * weight;
+            let row = self.row_in(index, start, start + 0.5 * piece.length * (1.0 + x));
+            self.stations.push(Station {
+                row,
+                weight,
+                stiffness: span.stiffness,
+                material,
+                magnetisation: span.magnetisation,
+                line_mass: span.line_density * weight,
+                density: span.density,
+            });
+        }
+    }
+}

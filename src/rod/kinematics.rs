@@ -1,0 +1,126 @@
+//! Where an element's stations and its end are, seen from its start node.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::element::{Element, Row};
+use crate::geometry::{Pose, RotationVector};
+
+/// A Gauss point of a deformed element, in the frame of the node before it.
+#[derive(Debug, Clone)]
+pub struct StationState {
+    /// Rotation vector since the start.
+    pub theta: RotationVector,
+    /// Its derivative by arc length, 1/m.
+    pub rate: Vector3<f64>,
+    /// Directors `A = exp(theta)`.
+    pub directors: Matrix3<f64>,
+    /// Left Jacobian of the rotation vector.
+    pub left: Matrix3<f64>,
+    /// `v = e3 +` shear and extension, in the directors.
+    pub stretch: Vector3<f64>,
+    /// Derivative of the position by arc length, `A v`.
+    pub tangent: Vector3<f64>,
+    /// Position, m.
+    pub position: Vector3<f64>,
+}
+
+/// A deformed element, in the frame of the node before it.
+#[derive(Debug, Clone)]
+pub struct Configuration {
+    /// The Gauss points.
+    pub stations: Vec<StationState>,
+    /// Rotation vector from start to end.
+    pub end_theta: RotationVector,
+    /// Pose of the end.
+    pub end: Pose,
+}
+
+/// Sum of a row of mode values, by component.
+fn components(row: &[f64], amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+    let mut out = [0.0; 6];
+    for (values, unknowns) in row.chunks_exact(6).zip(amplitudes.chunks_exact(6)) {
+        for ((sum, value), unknown) in out.iter_mut().zip(values).zip(unknowns) {
+            *sum += value * unknown;
+        }
+    }
+    (Vector3::new(out[0], out[1], out[2]), Vector3::new(out[3], out[4], out[5]))
+}
+
+impl Configuration {
+    /// The undeformed element.
+    #[must_use]
+    pub fn straight(element: &Element) -> Self {
+        let state = StationState {
+            theta: RotationVector::new(Vector3::zeros()),
+            rate: Vector3::zeros(),
+            directors: Matrix3::identity(),
+            left: Matrix3::identity(),
+            stretch: Vector3::z(),
+            tangent: Vector3::z(),
+            position: Vector3::zeros(),
+        };
+        let mut out = Self {
+            stations: vec![state; element.stations.len()],
+            end_theta: RotationVector::new(Vector3::zeros()),
+            end: Pose::identity(),
+        };
+        out.update(element, &vec![0.0; element.freedoms()]);
+        out
+    }
+
+    /// Recomputes everything for the mode amplitudes `amplitudes`.
+    pub fn update(&mut self, element: &Element, amplitudes: &[f64]) {
+        let start = Vector3::new(0.0, 0.0, element.offset);
+        let mut end = start;
+        for (state, station) in self.stations.iter_mut().zip(&element.stations) {
+            let (theta, _) = components(&station.row.integral, amplitudes);
+            let (rate, strain) = components(&station.row.rate, amplitudes);
+            state.theta = RotationVector::new(theta);
+            state.rate = rate;
+            state.directors = state.theta.matrix();
+            state.left = state.theta.left_jacobian();
+            state.stretch = Vector3::z() + strain;
+            state.tangent = state.directors * state.stretch;
+            end += state.tangent * station.weight;
+        }
+        for (index, station) in element.stations.iter().enumerate() {
+            self.stations[index].position = start + self.integrate(&station.row);
+        }
+        self.end_theta = RotationVector::new(Vector3::new(amplitudes[0], amplitudes[1], amplitudes[2]));
+        self.end = Pose { position: end, rotation: self.end_theta.matrix() };
+    }
+
+    fn integrate(&self, row: &Row) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
+        for (state, weight) in self.stations.iter().zip(&row.position) {
+            sum += state.tangent * *weight;
+        }
+        sum
+    }
+
+    /// The pose at a tabulated arc length, in the frame of the node before.
+    #[must_use]
+    pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
+        let (theta, _) = components(&row.integral, amplitudes);
+        let start = Vector3::new(0.0, 0.0, element.offset);
+        Pose { position: start + self.integrate(row), rotation: RotationVector::new(theta).matrix() }
+    }
+
+    /// Elastic energy, J.
+    #[must_use]
+    pub fn elastic_energy(&self, element: &Element, amplitudes: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        for (state, station) in self.stations.iter().zip(&element.stations) {
+            let curvature = state.left.tr_mul(&state.rate);
+            let k = &station.stiffness;
+            let bending = curvature.x * curvature.x + curvature.y * curvature.y;
+            energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
+        }
+        for (stiffness, strain) in element.metric.chunks_exact(6).zip(amplitudes.chunks_exact(6)) {
+            for c in 3..6 {
+                energy += 0.5 * stiffness[c] * strain[c] * strain[c];
+            }
+        }
+        energy
+    }
+}

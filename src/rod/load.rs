@@ -1,0 +1,132 @@
+//! The energy of a load on a moving frame, to second order in the frame's displacement.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::geometry::{axial, hat};
+
+/// Energy of a load on a frame at `p` with directors `A`, and its derivatives in fixed axes.
+///
+/// The frame is displaced to `p + pi`, `exp(omega) A`. The derivatives by positions and directors are
+/// kept apart from the turning of the directors themselves, because the chain rule needs both.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load {
+    /// Potential energy, J.
+    pub energy: f64,
+    /// Derivative by `p`: minus the force, N.
+    pub force: Vector3<f64>,
+    /// Derivative by `A`, times the transpose of `A`, N m.
+    pub couple: Matrix3<f64>,
+    /// Second derivative by the position, N/m.
+    pub position_position: Matrix3<f64>,
+    /// Mixed second derivative, first-order changes of the directors only, N.
+    pub position_rotation: Matrix3<f64>,
+    /// Second derivative, first-order changes of the directors only, N m.
+    pub rotation_rotation: Matrix3<f64>,
+    /// Whether one of the second derivatives is not zero.
+    pub stiff: bool,
+}
+
+impl Load {
+    /// No load.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self {
+            energy: 0.0,
+            force: Vector3::zeros(),
+            couple: Matrix3::zeros(),
+            position_position: Matrix3::zeros(),
+            position_rotation: Matrix3::zeros(),
+            rotation_rotation: Matrix3::zeros(),
+            stiff: false,
+        }
+    }
+
+    /// A dead force (N) at `arm` (m, fixed axes) from the frame's origin at `origin`.
+    #[must_use]
+    pub fn dead_force(force: &Vector3<f64>, origin: &Vector3<f64>, arm: &Vector3<f64>) -> Self {
+        Self {
+            energy: -force.dot(&(origin + arm)),
+            force: -force,
+            couple: -force * arm.transpose(),
+            ..Self::zero()
+        }
+    }
+
+    /// Derivative of the energy by `omega`: minus the torque about `p`, N m.
+    #[must_use]
+    pub fn moment(&self) -> Vector3<f64> {
+        axial(&self.couple)
+    }
+
+    /// Second derivative by `omega`, the turning of the directors included, N m.
+    #[must_use]
+    pub fn rotation_hessian(&self) -> Matrix3<f64> {
+        self.rotation_rotation + turning(&self.couple)
+    }
+
+    /// The same load in axes whose columns are `axes`.
+    #[must_use]
+    pub fn in_axes(&self, axes: &Matrix3<f64>) -> Self {
+        let turn = |m: &Matrix3<f64>| axes.tr_mul(m) * axes;
+        let mut out =
+            Self { force: axes.tr_mul(&self.force), couple: turn(&self.couple), ..Self::zero() };
+        out.energy = self.energy;
+        out.stiff = self.stiff;
+        if self.stiff {
+            out.position_position = turn(&self.position_position);
+            out.position_rotation = turn(&self.position_rotation);
+            out.rotation_rotation = turn(&self.rotation_rotation);
+        }
+        out
+    }
+
+    /// Adds the dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin in a field with gradient and
+    /// `hessian_along = sum_i axis_i d2B_i/dx_j dx_k`.
+    pub fn add_dipole(
+        &mut self,
+        moment: f64,
+        axis: &Vector3<f64>,
+        arm: &Vector3<f64>,
+        field: &Vector3<f64>,
+        gradient: &Matrix3<f64>,
+        hessian_along: &Matrix3<f64>,
+    ) {
+        let force = gradient * axis * -moment;
+        self.energy -= moment * axis.dot(field);
+        self.force += force;
+        self.couple += force * arm.transpose() - field * (axis.transpose() * moment);
+        let (turn, lever) = (hat(axis), hat(arm));
+        let second = hessian_along * moment;
+        let swing = gradient * turn * moment;
+        let cross = turn * (gradient * lever) * moment;
+        self.position_position -= second;
+        self.position_rotation += swing + second * lever;
+        self.rotation_rotation += cross + cross.transpose() + lever * second * lever;
+        self.stiff = true;
+    }
+}
+
+impl core::ops::AddAssign for Load {
+    fn add_assign(&mut self, other: Self) {
+        self.energy += other.energy;
+        self.force += other.force;
+        self.couple += other.couple;
+        if other.stiff {
+            self.position_position += other.position_position;
+            self.position_rotation += other.position_rotation;
+            self.rotation_rotation += other.rotation_rotation;
+            self.stiff = true;
+        }
+    }
+}
+
+/// Second derivative of `N : exp(hat(omega))` at zero: the symmetric part of `N` less its trace.
+#[must_use]
+pub fn turning(n: &Matrix3<f64>) -> Matrix3<f64> {
+    let mut out = (n + n.transpose()) * 0.5;
+    let trace = n.trace();
+    for i in 0..3 {
+        out[(i, i)] -= trace;
+    }
+    out
+}

@@ -1,0 +1,74 @@
+//! Where the material of a span lies: area, first and second moments of the section along the arc.
+
+use core::f64::consts::PI;
+
+use nalgebra::{Matrix2, Vector2};
+
+use crate::design::{Span, SpiralKind};
+
+/// Moments of a piece of material about the centreline, over its section and a weighted length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionMoments {
+    /// Volume, m3.
+    pub volume: f64,
+    /// First moment in `d1`, `d2`, m4.
+    pub first: Vector2<f64>,
+    /// Second moment in `d1`, `d2`, m5.
+    pub second: Matrix2<f64>,
+}
+
+impl SectionMoments {
+    /// No material.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { volume: 0.0, first: Vector2::zeros(), second: Matrix2::zeros() }
+    }
+
+    /// Adds `weight` (m) times the section of `span` at arc length `s` (m) from the span's start.
+    pub(super) fn add_section(&mut self, span: &Span, s: f64, weight: f64) {
+        self.add_circle(span.inner_radius, span.outer_radius, 2.0 * PI, weight);
+        let Some(spiral) = &span.spiral else { return };
+        let (inner, outer, angle) = (spiral.inner_radius, spiral.outer_radius, spiral.sector_angle);
+        match spiral.kind {
+            SpiralKind::Axisymmetric => self.add_circle(inner, outer, angle, weight),
+            SpiralKind::Helical => {
+                let from = 2.0 * PI * spiral.windings * s / span.length;
+                let to = from + angle;
+                let third = weight * (outer.powi(3) - inner.powi(3)) / 3.0;
+                let fourth = weight * (outer.powi(4) - inner.powi(4)) / 4.0;
+                self.volume += weight * 0.5 * (outer.powi(2) - inner.powi(2)) * angle;
+                self.first += Vector2::new(to.sin() - from.sin(), from.cos() - to.cos()) * third;
+                let half_sine = 0.25 * ((2.0 * to).sin() - (2.0 * from).sin());
+                let mixed = 0.5 * (to.sin().powi(2) - from.sin().powi(2));
+                self.second += Matrix2::new(0.5 * angle + half_sine, mixed, mixed, 0.5 * angle - half_sine) * fourth;
+            }
+        }
+    }
+
+    /// Adds an annulus filled over `angle` of its circle, spread evenly.
+    fn add_circle(&mut self, inner: f64, outer: f64, angle: f64, weight: f64) {
+        self.volume += weight * 0.5 * angle * (outer.powi(2) - inner.powi(2));
+        self.second += Matrix2::identity() * (weight * 0.125 * angle * (outer.powi(4) - inner.powi(4)));
+    }
+
+    /// Three points of equal volume in the section plane with the same zeroth, first and second moments.
+    ///
+    /// Fields that are quadratic over the section are integrated exactly.
+    #[must_use]
+    pub fn points(&self) -> [Vector2<f64>; 3] {
+        if self.volume <= 0.0 {
+            return [Vector2::zeros(); 3];
+        }
+        let mean = self.first / self.volume;
+        let spread = self.second / self.volume - mean * mean.transpose();
+        // Lower Cholesky factor of the spread, which is positive: the annulus surrounds the centreline.
+        let a = spread.m11.max(0.0).sqrt();
+        let b = if a > 0.0 { spread.m21 / a } else { 0.0 };
+        let c = (spread.m22 - b * b).max(0.0).sqrt();
+        let factor = Matrix2::new(a, 0.0, b, c) * core::f64::consts::SQRT_2;
+        [0.0, 1.0, 2.0].map(|k: f64| {
+            let (sine, cosine) = (2.0 * PI * k / 3.0).sin_cos();
+            mean + factor * Vector2::new(cosine, sine)
+        })
+    }
+}

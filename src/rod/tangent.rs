@@ -1,0 +1,252 @@
+//! Gradient and Hessian of an element's energy by its mode amplitudes and by the pose of its start node.
+//!
+//! Columns 0..3 are a displacement of the start node, 3..6 its rotation (both in the node's axes), the
+//! others the mode amplitudes. Everything is exact: the second variation of the rotation vector's
+//! exponential is the geometric stiffness.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::element::Element;
+use super::kinematics::{Configuration, StationState};
+use super::load::{Load, turning};
+
+/// Columns that belong to the start node.
+pub const START: usize = 6;
+
+/// First and second derivatives of one element's part of the Lagrangian.
+#[derive(Debug, Clone)]
+pub struct Tangent {
+    /// Rows and columns: six of the start node and the element's freedoms.
+    pub size: usize,
+    /// Gradient.
+    pub gradient: Vec<f64>,
+    /// Hessian, row by row, symmetric.
+    pub hessian: Vec<f64>,
+    /// Displacement of the end by each amplitude, for a fixed start, m.
+    pub end_position: Vec<Vector3<f64>>,
+    tangents: Vec<Vector3<f64>>,
+    positions: Vec<Vector3<f64>>,
+    rotations: Vec<Vector3<f64>>,
+}
+
+impl Tangent {
+    /// Storage for `element`.
+    #[must_use]
+    pub fn new(element: &Element) -> Self {
+        let freedoms = element.freedoms();
+        let size = START + freedoms;
+        Self {
+            size,
+            gradient: vec![0.0; size],
+            hessian: vec![0.0; size * size],
+            end_position: vec![Vector3::zeros(); freedoms],
+            tangents: vec![Vector3::zeros(); freedoms * element.stations.len()],
+            positions: vec![Vector3::zeros(); size],
+            rotations: vec![Vector3::zeros(); size],
+        }
+    }
+
+    /// Adds up the elastic energy, the station loads and the wrench `(end_force, end_moment)` that the rest
+    /// of the chain puts on the end (derivatives of its energy), all in the axes of the start node.
+    pub fn assemble(
+        &mut self,
+        element: &Element,
+        configuration: &Configuration,
+        amplitudes: &[f64],
+        loads: &[Load],
+        end: (&Vector3<f64>, &Vector3<f64>),
+    ) {
+        self.gradient.fill(0.0);
+        self.hessian.fill(0.0);
+        self.end_position.fill(Vector3::zeros());
+        self.fill_tangents(element, configuration);
+        let mut whole = end.0 * configuration.end.position.transpose();
+        let mut start_force = *end.0;
+        let mut start_moment = configuration.end.position.cross(end.0) + end.1;
+        for (index, (state, load)) in configuration.stations.iter().zip(loads).enumerate() {
+            whole += load.couple + load.force * state.position.transpose();
+            start_force += load.force;
+            start_moment += state.position.cross(&load.force) + load.moment();
+            // Force that everything beyond this station puts on its tangent.
+            let mut beyond = end.0 * element.stations[index].weight;
+            for (other, distant) in element.stations.iter().zip(loads) {
+                beyond += distant.force * other.row.position[index];
+            }
+            self.add_station(element, index, state, load, &beyond);
+            if load.stiff {
+                self.add_stiffness(element, index, state, load);
+            }
+        }
+        self.add_end(configuration, end.1);
+        for i in 0..3 {
+            self.gradient[i] = start_force[i];
+            self.gradient[3 + i] = start_moment[i];
+        }
+        let turned = turning(&whole);
+        for i in 0..3 {
+            for j in 0..3 {
+                self.hessian[(3 + i) * self.size + 3 + j] += turned[(i, j)];
+            }
+        }
+        for ((row, stiffness), amplitude) in (START..).zip(&element.metric).zip(amplitudes) {
+            if (row - START) % 6 >= 3 {
+                self.gradient[row] += stiffness * amplitude;
+                self.hessian[row * self.size + row] += stiffness;
+            }
+        }
+        for i in 0..self.size {
+            for j in i + 1..self.size {
+                self.hessian[j * self.size + i] = self.hessian[i * self.size + j];
+            }
+        }
+    }
+
+    /// Changes of each station's tangent, and of the end, by the amplitudes.
+    fn fill_tangents(&mut self, element: &Element, configuration: &Configuration) {
+        let freedoms = element.freedoms();
+        for (index, (state, station)) in configuration.stations.iter().zip(&element.stations).enumerate() {
+            let columns = &mut self.tangents[index * freedoms..(index + 1) * freedoms];
+            let turned: [Vector3<f64>; 3] =
+                core::array::from_fn(|c| state.left.column(c).cross(&state.tangent));
+            for (i, column) in columns.iter_mut().enumerate() {
+                let c = i % 6;
+                *column = if c < 3 {
+                    turned[c] * station.row.integral[i]
+                } else {
+                    state.directors.column(c - 3) * station.row.rate[i]
+                };
+                self.end_position[i] += *column * station.weight;
+            }
+        }
+    }
+
+    /// Elastic bending of a station, and the second variation of its directors and tangent.
+    fn add_station(
+        &mut self,
+        element: &Element,
+        index: usize,
+        state: &StationState,
+        load: &Load,
+        beyond: &Vector3<f64>,
+    ) {
+        let station = &element.stations[index];
+        let bend = bending(state, station.stiffness.bending, station.stiffness.torsion, station.weight);
+        let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
+        let (slope, curve) = state.theta.contract_rotation(&pull);
+        let slope = slope + bend.slope;
+        let curve = curve + bend.curve;
+        let shear: [Vector3<f64>; 3] =
+            core::array::from_fn(|c| state.left.tr_mul(&state.directors.column(c).cross(beyond)));
+        let along = state.directors.tr_mul(beyond);
+        let (phi, psi) = (&station.row.integral, &station.row.rate);
+        let size = self.size;
+        for (i, (phi_i, psi_i)) in phi.iter().zip(psi).enumerate() {
+            let a = i % 6;
+            let row = START + i;
+            if a >= 3 {
+                self.gradient[row] += along[a - 3] * psi_i;
+                continue;
+            }
+            self.gradient[row] += slope[a] * phi_i + bend.rate_slope[a] * psi_i;
+            for (mode, (phi_j, psi_j)) in phi.chunks_exact(6).zip(psi.chunks_exact(6)).enumerate() {
+                let target = &mut self.hessian[row * size + START + 6 * mode..][..6];
+                for b in 0..3 {
+                    target[b] += phi_i * (curve[(a, b)] * phi_j[b] + bend.mixed[(a, b)] * psi_j[b])
+                        + psi_i * (bend.mixed[(b, a)] * phi_j[b] + bend.rate_curve[(a, b)] * psi_j[b]);
+                    target[3 + b] += phi_i * shear[b][a] * psi_j[3 + b];
+                }
+            }
+        }
+        // Strain rows above the diagonal: the transpose of what the rotation rows have written.
+        for (i, psi_i) in psi.iter().enumerate().filter(|(i, _)| i % 6 >= 3) {
+            for (j, phi_j) in phi.iter().enumerate().skip(i + 1).filter(|(j, _)| j % 6 < 3) {
+                self.hessian[(START + i) * size + START + j] += phi_j * shear[i % 6 - 3][j % 6] * psi_i;
+            }
+        }
+        let turn = load.couple.transpose() - Matrix3::identity() * load.couple.trace();
+        let turn_left = turn * state.left;
+        let freedoms = element.freedoms();
+        for (i, (column, phi_i)) in self.tangents[index * freedoms..].iter().zip(phi).enumerate() {
+            let mut cross = column.cross(beyond);
+            if i % 6 < 3 {
+                cross += turn_left.column(i % 6) * *phi_i;
+            }
+            for k in 0..3 {
+                self.hessian[(3 + k) * size + START + i] += cross[k];
+            }
+        }
+    }
+
+    /// Second derivatives of a station's load by its own position and directors.
+    fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
+        let freedoms = element.freedoms();
+        let row = &element.stations[index].row;
+        for k in 0..3 {
+            let mut unit = Vector3::zeros();
+            unit[k] = 1.0;
+            self.positions[k] = unit;
+            self.rotations[k] = Vector3::zeros();
+            self.positions[3 + k] = unit.cross(&state.position);
+            self.rotations[3 + k] = unit;
+        }
+        for i in 0..freedoms {
+            let mut position = Vector3::zeros();
+            for (station, weight) in row.position.iter().enumerate() {
+                position += self.tangents[station * freedoms + i] * *weight;
+            }
+            self.positions[START + i] = position;
+            self.rotations[START + i] =
+                if i % 6 < 3 { state.left.column(i % 6) * row.integral[i] } else { Vector3::zeros() };
+        }
+        for j in 0..self.size {
+            let (position, rotation) = (self.positions[j], self.rotations[j]);
+            let force = load.position_position * position + load.position_rotation * rotation;
+            let moment = load.position_rotation.tr_mul(&position) + load.rotation_rotation * rotation;
+            for i in 0..=j {
+                self.hessian[i * self.size + j] +=
+                    self.positions[i].dot(&force) + self.rotations[i].dot(&moment);
+            }
+        }
+    }
+
+    /// The moment on the end acts on the rotation vector from start to end alone.
+    fn add_end(&mut self, configuration: &Configuration, moment: &Vector3<f64>) {
+        let theta = &configuration.end_theta;
+        let left = theta.left_jacobian();
+        let slope = left.tr_mul(moment);
+        let product = theta.right_product_derivative(moment);
+        for a in 0..3 {
+            self.gradient[START + a] += slope[a];
+            let cross = left.column(a).cross(moment) * 0.5;
+            for b in 0..3 {
+                self.hessian[(START + a) * self.size + START + b] += 0.5 * (product[(a, b)] + product[(b, a)]);
+                self.hessian[(3 + b) * self.size + START + a] += cross[b];
+            }
+        }
+    }
+}
+
+/// Derivatives of a station's bending and torsion energy by rotation vector and rate.
+struct Bending {
+    slope: Vector3<f64>,
+    rate_slope: Vector3<f64>,
+    curve: Matrix3<f64>,
+    mixed: Matrix3<f64>,
+    rate_curve: Matrix3<f64>,
+}
+
+fn bending(state: &StationState, bending: f64, torsion: f64, weight: f64) -> Bending {
+    let right = state.left.transpose();
+    let curvature = right * state.rate;
+    let stiffness = Vector3::new(bending * weight, bending * weight, torsion * weight);
+    let moment = stiffness.component_mul(&curvature);
+    let by_vector = state.theta.right_product_derivative(&state.rate);
+    let weighted = Matrix3::from_diagonal(&stiffness);
+    Bending {
+        slope: by_vector.tr_mul(&moment),
+        rate_slope: right.tr_mul(&moment),
+        curve: by_vector.tr_mul(&(weighted * by_vector)) + state.theta.contract_curvature(&moment, &state.rate),
+        mixed: by_vector.tr_mul(&(weighted * right)) + state.theta.left_product_derivative(&moment).transpose(),
+        rate_curve: right.tr_mul(&(weighted * right)),
+    }
+}

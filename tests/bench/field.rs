@@ -1,0 +1,67 @@
+//! Time of one field evaluation: ring and cylinder, field, gradient, second derivative, beside the crate magba's field
+//! at the same points in the same run: `cargo bench --bench field`.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    missing_docs,
+    reason = "a program that stops when a table is missing; criterion's macros write undocumented items"
+)]
+
+#[path = "peer.rs"]
+mod peer;
+#[allow(dead_code, reason = "shared with the tests")]
+#[path = "../magnetics/reference.rs"]
+mod reference;
+
+use core::hint::black_box;
+
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
+use mcm::magnetics::AxialSource;
+use nalgebra::Vector3;
+
+/// Points 2.1 to 6 radii from the centre, all around: outside the magnet, inside six extents.
+fn points(radius: f64) -> Vec<Vector3<f64>> {
+    (0..64)
+        .map(|i| {
+            let i = f64::from(i);
+            let (distance, polar, azimuth) = (radius * (2.1 + i * 3.9 / 63.0), 0.1 + i * 0.0465, i * 2.4);
+            let rho = distance * polar.sin();
+            Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), distance * polar.cos())
+        })
+        .collect()
+}
+
+fn measure(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    points: &[Vector3<f64>],
+    source: &AxialSource,
+    other: impl Fn(&Vector3<f64>) -> [f64; 3],
+) {
+    let mut next = points.iter().cycle();
+    let mut point = move || black_box(next.next().expect("there are points"));
+    group.bench_function("B", |b| b.iter(|| source.field(point())));
+    group.bench_function("B+G", |b| b.iter(|| source.field_gradient(point())));
+    group.bench_function("B+G+H", |b| b.iter(|| source.jet(point())));
+    group.bench_function("magba B", |b| b.iter(|| other(point())));
+}
+
+fn field(criterion: &mut Criterion) {
+    let ring = reference::ring();
+    let mut group = criterion.benchmark_group("ring");
+    measure(&mut group, &points(2.0e-3), &ring, peer::ring);
+    group.finish();
+
+    let far: Vec<_> = points(2.0e-3).iter().map(|point| point * 8.0).collect();
+    let mut group = criterion.benchmark_group("ring, 17 to 48 radii away");
+    measure(&mut group, &far, &ring, peer::ring);
+    group.finish();
+
+    let cylinder = AxialSource::new(0.0, 22.5e-3, 30.0e-3, 1.35).expect("allowed");
+    let mut group = criterion.benchmark_group("cylinder");
+    measure(&mut group, &points(22.5e-3), &cylinder, |point| peer::cylinder(point, 22.5e-3, 30.0e-3));
+    group.finish();
+}
+
+criterion_group!(benches, field);
+criterion_main!(benches);
