@@ -1,11 +1,11 @@
 //! The external field, and its energy on rings and stations.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::chain::RingBody;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, Jet, LinearField};
+use crate::magnetics::{Assembly, AxialRule, LinearField};
 use crate::rod::{Load, Station};
 
 /// The field around the manipulator: the external magnet and the linear background.
@@ -34,17 +34,25 @@ impl<'a> ExternalField<'a> {
         }
     }
 
-    /// Field, gradient and second derivatives at `point`; `None` inside a magnet.
-    pub(super) fn jet(&self, point: &Vector3<f64>) -> Option<Jet> {
-        let mut jet = self.background.jet(point);
-        if let Some((assembly, pose, strength)) = self.magnet {
-            let local = pose.rotation.tr_mul(&(point - pose.position));
-            if assembly.contains(&local) {
-                return None;
-            }
-            jet += assembly.jet(&local).ok()?.rotated(&pose.rotation).scaled(strength);
+    /// Field, gradient, and second derivatives along `axis`, at `point`; `None` inside a magnet.
+    pub(super) fn along(
+        &self,
+        point: &Vector3<f64>,
+        axis: &Vector3<f64>,
+    ) -> Option<(Vector3<f64>, Matrix3<f64>, Matrix3<f64>)> {
+        let background = self.background.jet(point);
+        let Some((assembly, pose, strength)) = self.magnet else {
+            return Some((background.field, background.gradient, Matrix3::zeros()));
+        };
+        let turn = &pose.rotation;
+        let local = turn.tr_mul(&(point - pose.position));
+        if assembly.contains(&local) {
+            return None;
         }
-        Some(jet)
+        let jet = assembly.jet(&local).ok()?;
+        let gradient = turn * (jet.gradient * strength) * turn.transpose();
+        let along = turn * (jet.hessian_along(&turn.tr_mul(axis)) * strength) * turn.transpose();
+        Some((background.field + turn * jet.field * strength, background.gradient + gradient, along))
     }
 
     /// Distance from `point` to the nearest external magnet, m; infinite without one.
@@ -65,9 +73,8 @@ impl<'a> ExternalField<'a> {
         let mut load = Load::zero();
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
-            let jet = self.jet(&(node.position + arm))?;
-            let moment = body.magnetisation * volume;
-            load.add_dipole(moment, &axis, &arm, &jet.field, &jet.gradient, &jet.hessian_along(&axis));
+            let (field, gradient, along) = self.along(&(node.position + arm), &axis)?;
+            load.add_dipole(body.magnetisation * volume, &axis, &arm, &field, &gradient, &along);
         }
         Some(load)
     }
@@ -89,8 +96,8 @@ impl<'a> ExternalField<'a> {
         let moment = station.magnetisation * station.material.volume / 3.0;
         for point in station.material.points() {
             let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
-            let jet = self.jet(&(pose.position + arm))?;
-            load.add_dipole(moment, &axis, &arm, &jet.field, &jet.gradient, &jet.hessian_along(&axis));
+            let (field, gradient, along) = self.along(&(pose.position + arm), &axis)?;
+            load.add_dipole(moment, &axis, &arm, &field, &gradient, &along);
         }
         Some(load)
     }

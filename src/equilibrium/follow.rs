@@ -47,13 +47,19 @@ impl Branch {
 
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Report {
-    pub(super) solved: bool,
-    pub(super) iterations: u32,
-    pub(super) residual: f64,
-    pub(super) margin: f64,
-    pub(super) snaps: u32,
-    pub(super) energy: f64,
+pub struct Report {
+    /// Whether an equilibrium was found at the inputs asked for.
+    pub solved: bool,
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Dual norm of the gradient, relative to turning one element by a radian.
+    pub residual: f64,
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
+    pub margin: f64,
+    /// Jumps to another branch in this solve.
+    pub snaps: u32,
+    /// Potential energy, J.
+    pub energy: f64,
 }
 
 /// The parts that do not change from solve to solve.

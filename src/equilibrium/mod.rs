@@ -9,6 +9,9 @@ mod potential;
 mod reduction;
 mod rules;
 mod settings;
+mod solver;
 
+pub use follow::Report;
 pub use inputs::Inputs;
 pub use settings::{Interaction, Settings};
+pub use solver::{Equilibrium, Wrench};

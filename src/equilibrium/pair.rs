@@ -64,9 +64,17 @@ impl PairLoad {
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
             let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
-            let jet = first.source.jet(&local).ok()?.rotated(&from.rotation);
-            let moment = second.magnetisation * volume;
-            load.add_dipole(moment, &axis, &arm, &jet.field, &jet.gradient, &jet.hessian_along(&axis));
+            let jet = first.source.jet(&local).ok()?;
+            let along = jet.hessian_along(&from.rotation.tr_mul(&axis));
+            let turn = |m: &Matrix3<f64>| from.rotation * m * from.rotation.transpose();
+            load.add_dipole(
+                second.magnetisation * volume,
+                &axis,
+                &arm,
+                &(from.rotation * jet.field),
+                &turn(&jet.gradient),
+                &turn(&along),
+            );
         }
         Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
     }

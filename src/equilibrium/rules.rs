@@ -1,6 +1,7 @@
 //! The quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
 
 use super::chain::Chain;
+use crate::design::Ring;
 use crate::geometry::Pose;
 use crate::magnetics::AxialRule;
 
@@ -14,7 +15,7 @@ pub(super) struct PairRules {
 
 impl PairRules {
     pub(super) fn new(chain: &Chain) -> Self {
-        let tables: Vec<Vec<AxialRule>> = chain.rings.iter().map(|body| AxialRule::table(&body.source)).collect();
+        let tables: Vec<Vec<AxialRule>> = chain.rings.iter().map(|body| table(&body.ring)).collect();
         let count = tables.len() * tables.len().saturating_sub(1) / 2;
         Self { tables, chosen: vec![0; count] }
     }
@@ -23,13 +24,13 @@ impl PairRules {
     pub(super) fn choose(&mut self, chain: &Chain, nodes: &[Pose], accuracy: f64) {
         let mut chosen = self.chosen.iter_mut();
         for (i, first) in chain.rings.iter().enumerate() {
-            for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
+            for second in &chain.rings[i + 1..] {
                 let from = nodes[first.node].advanced(0.5 * first.ring.length);
                 let to = nodes[second.node].advanced(0.5 * second.ring.length);
                 let local = from.rotation.tr_mul(&(to.position - from.position));
                 let reach = first.source.distance(&local);
                 if let Some(slot) = chosen.next() {
-                    *slot = AxialRule::choose(&self.tables[j], reach, accuracy);
+                    *slot = choose(&second.ring, reach, accuracy);
                 }
             }
         }
@@ -41,8 +42,24 @@ impl PairRules {
     }
 
     /// The rule of ring number `ring` in a field whose sources are `reach` (m) away.
-    pub(super) fn external(&self, ring: usize, reach: f64, accuracy: f64) -> &AxialRule {
-        let table = &self.tables[ring];
-        &table[AxialRule::choose(table, reach, accuracy)]
+    pub(super) fn external(&self, ring: usize, body: &Ring, reach: f64, accuracy: f64) -> &AxialRule {
+        &self.tables[ring][choose(body, reach, accuracy)]
     }
+}
+
+/// Largest table entry: rules of 1, 3, 5 ... nodes.
+const LARGEST: usize = 9;
+
+/// Rules of 1, 3, 5 ... nodes for one ring.
+fn table(ring: &Ring) -> Vec<AxialRule> {
+    (0..=LARGEST)
+        .map(|k| AxialRule::new(ring.inner_radius, ring.outer_radius, ring.length, 2 * k + 1))
+        .collect()
+}
+
+/// The table entry for sources `reach` (m) from the ring's centre: `2 k + 1` nodes leave out the terms of
+/// degree `2 k + 2` and higher of the field's expansion, whose ratio is ring size to reach.
+fn choose(ring: &Ring, reach: f64, accuracy: f64) -> usize {
+    let ratio = ring.outer_radius.hypot(0.5 * ring.length) / reach;
+    (0..LARGEST).find(|k| ratio.powi(2 * *k as i32 + 2) <= accuracy).unwrap_or(LARGEST)
 }

@@ -1,6 +1,7 @@
 //! Magnetic fields and what they do to magnetised bodies.
 
 mod assembly;
+mod axial_rule;
 mod axial_source;
 mod axisymmetric;
 mod edge;
@@ -8,7 +9,10 @@ mod integrals;
 mod jet;
 mod lanes;
 mod multipole;
+mod uniform;
 
 pub use assembly::{Assembly, AxialMagnet};
+pub use axial_rule::AxialRule;
 pub use axial_source::AxialSource;
 pub use jet::{FieldHessian, Jet};
+pub use uniform::LinearField;

@@ -1,16 +1,35 @@
 //! The manipulator: a design, an external magnet, and the last shape.
 
-use super::{Inputs, Outputs};
+use nalgebra::Vector3;
+
+use super::{Inputs, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::Settings;
+use crate::equilibrium::{Equilibrium, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
 /// A manipulator that remembers its shape from one solve to the next.
 ///
 /// A clone is a full snapshot: it answers bit for bit as the original would.
+///
+/// ```
+/// use mcm::design::{Design, Specification};
+/// use mcm::equilibrium::Settings;
+/// use mcm::manipulator::{Inputs, Manipulator, Status};
+/// let design = Design::new(Specification::paper(1))?;
+/// let mut manipulator = Manipulator::new(&design, None, Settings::default(), 11)?;
+/// let mut inputs = Inputs::unloaded(2);
+/// inputs.uniform_field.y = 0.02;
+/// let outputs = manipulator.solve(&inputs)?;
+/// assert_eq!(outputs.status, Status::Solved);
+/// assert!((outputs.tip_angle.to_degrees() - 34.78).abs() < 0.01);
+/// inputs.uniform_field.y = f64::NAN;
+/// assert!(manipulator.solve(&inputs).is_err());
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
+    equilibrium: Equilibrium,
     outputs: Outputs,
 }
 
@@ -22,22 +41,33 @@ impl Manipulator {
     /// # Errors
     /// [`Error`] for settings out of range.
     pub fn new(
-        _design: &Design,
-        _magnet: Option<&Assembly>,
-        _settings: Settings,
-        _shape_points: usize,
+        design: &Design,
+        magnet: Option<&Assembly>,
+        settings: Settings,
+        shape_points: usize,
     ) -> Result<Self, Error> {
-        Err(Error::Unsupported("unfinished".into()))
+        let equilibrium = Equilibrium::new(design, magnet, settings, shape_points)?;
+        let outputs = straight(&equilibrium);
+        Ok(Self { equilibrium, outputs })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
     ///
-    /// A solve that fails is no error: it says [`super::Status::NotSolved`] and keeps the last good outputs.
+    /// A solve that fails is no error: it says [`Status::NotSolved`] and keeps the last good outputs.
     ///
     /// # Errors
-    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the state is then untouched.
-    pub fn solve(&mut self, _inputs: &Inputs) -> Result<&Outputs, Error> {
-        Err(Error::Unsupported("unfinished".into()))
+    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
+    /// state is then untouched.
+    pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
+        let report = self.equilibrium.solve(inputs)?;
+        if report.solved {
+            self.observe(inputs, &report);
+        } else {
+            self.outputs.status = Status::NotSolved;
+            self.outputs.iterations = report.iterations;
+            self.outputs.residual = report.residual;
+        }
+        Ok(&self.outputs)
     }
 
     /// The outputs of the last solve; before the first, those of the straight unloaded shape at the origin.
@@ -47,5 +77,74 @@ impl Manipulator {
     }
 
     /// Forgets the shape and the count of snaps.
-    pub fn reset(&mut self) {}
+    pub fn reset(&mut self) {
+        self.equilibrium.reset();
+        self.outputs = straight(&self.equilibrium);
+    }
+
+    fn observe(&mut self, inputs: &Inputs, report: &Report) {
+        let (equilibrium, out) = (&self.equilibrium, &mut self.outputs);
+        out.tip = equilibrium.tip();
+        out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
+        let magnetic = equilibrium.magnetic_wrench(inputs);
+        (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
+        let base = equilibrium.base_reaction();
+        (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);
+        let magnet = equilibrium.magnet_reaction(inputs);
+        (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
+        out.tip_field = equilibrium.field_at(inputs, &out.tip.position).unwrap_or_default();
+        copy_shape(equilibrium, out);
+        out.stable = Some(report.margin > 0.0);
+        out.stability_margin = report.margin;
+        out.snaps += report.snaps;
+        out.status = if report.snaps > 0 {
+            Status::Snapped
+        } else if report.margin < equilibrium.settings().fold_margin {
+            Status::NearFold
+        } else {
+            Status::Solved
+        };
+        out.iterations = report.iterations;
+        out.residual = report.residual;
+        out.energy = report.energy;
+    }
+}
+
+fn copy_shape(equilibrium: &Equilibrium, out: &mut Outputs) {
+    for ((slot, place), (arc_length, position)) in
+        out.shape.iter_mut().zip(&mut out.shape_arc_length).zip(equilibrium.shape())
+    {
+        (*slot, *place) = (position, arc_length);
+    }
+    out.rings.iter_mut().zip(equilibrium.rings()).for_each(|(slot, pose)| *slot = pose);
+    out.core_angles.iter_mut().zip(equilibrium.core_angles()).for_each(|(slot, angle)| *slot = angle);
+}
+
+/// Outputs of the straight, unloaded manipulator at the origin.
+fn straight(equilibrium: &Equilibrium) -> Outputs {
+    let zero = Vector3::zeros();
+    let (shape_arc_length, shape) = equilibrium.shape().unzip();
+    Outputs {
+        tip_angle: 0.0,
+        tip: equilibrium.tip(),
+        magnetic_force: zero,
+        magnetic_torque: zero,
+        base_reaction_force: zero,
+        base_reaction_moment: zero,
+        magnet_reaction_force: zero,
+        magnet_reaction_torque: zero,
+        tip_field: zero,
+        shape_arc_length,
+        shape,
+        rings: equilibrium.rings().collect(),
+        core_angles: equilibrium.core_angles().collect(),
+        stable: Some(true),
+        stability_margin: 1.0,
+        snaps: 0,
+        status: Status::Solved,
+        iterations: 0,
+        residual: 0.0,
+        energy: 0.0,
+        interaction: equilibrium.settings().interaction,
+    }
 }

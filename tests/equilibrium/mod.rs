@@ -1,1 +1,4 @@
-//! Tests of `equilibrium`.
+//! Equilibria against the independent energy model and closed forms.
+
+mod derivatives;
+mod reference;

@@ -1,0 +1,267 @@
+//! The equilibrium of one manipulator: solve it, then ask for poses and wrenches.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+
+use super::chain::Chain;
+use super::external::ExternalField;
+use super::follow::{Branch, Report, Scene};
+use super::inputs::Inputs;
+use super::potential::{Potential, Workspace};
+use super::rules::PairRules;
+use super::settings::Settings;
+use crate::design::Design;
+use crate::error::{Error, check};
+use crate::geometry::Pose;
+use crate::magnetics::Assembly;
+use crate::numerics::trust_region::Objective;
+use crate::rod::Row;
+
+/// A force and a torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrench {
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// Torque about a point that the method names, N m.
+    pub torque: Vector3<f64>,
+}
+
+/// Where on the centreline a shape point lies.
+#[derive(Debug, Clone)]
+struct ShapePoint {
+    arc_length: f64,
+    place: Place,
+}
+
+#[derive(Debug, Clone)]
+enum Place {
+    /// On the rigid part after a node, at this distance.
+    Rigid(usize, f64),
+    /// On an element.
+    Elastic(usize, Row),
+}
+
+/// The equilibrium of a manipulator, with the branch that it follows.
+///
+/// A clone is a full snapshot: it goes on bit for bit as the original would.
+#[derive(Debug, Clone)]
+pub struct Equilibrium {
+    chain: Arc<Chain>,
+    settings: Settings,
+    magnet: Option<Assembly>,
+    shape: Arc<Vec<ShapePoint>>,
+    branch: Branch,
+    work: Workspace,
+    rules: PairRules,
+}
+
+impl Equilibrium {
+    /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for settings or a number of points out of range.
+    pub fn new(
+        design: &Design,
+        magnet: Option<&Assembly>,
+        settings: Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
+        let settings = settings.checked()?;
+        check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
+        let chain = Chain::new(design, &settings)?;
+        let total = design.length();
+        let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
+        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain));
+        let mut out = Self {
+            settings,
+            magnet: magnet.cloned(),
+            shape: Arc::new(shape.collect()),
+            branch: Branch::new(&chain),
+            work,
+            rules,
+            chain: Arc::new(chain),
+        };
+        out.reset();
+        Ok(out)
+    }
+
+    /// Back to the straight shape at the origin; the branch is forgotten.
+    pub fn reset(&mut self) {
+        self.branch = Branch::new(&self.chain);
+        self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Follows the branch to `inputs`.
+    ///
+    /// # Errors
+    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
+    /// branch is then untouched. A solve that fails is no error: see [`Report::solved`].
+    pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
+        inputs.check(self.chain.rings.len())?;
+        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules))
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.chain.freedoms()
+    }
+
+    /// The strain mode amplitudes of the present shape.
+    #[must_use]
+    pub fn unknowns(&self) -> &[f64] {
+        &self.branch.unknowns
+    }
+
+    /// Energy (J) and its gradient by the unknowns at any shape; `None` where bodies touch.
+    pub fn gradient(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<(f64, Vec<f64>)> {
+        let mut potential = self.potential(inputs, unknowns);
+        let energy = potential.linearise(unknowns)?;
+        Some((energy, potential.gradient().to_vec()))
+    }
+
+    /// Solves `(H + shift K) y = rhs` with the Hessian at any shape; `None` where it is not positive definite.
+    pub fn solve_at(&mut self, inputs: &Inputs, unknowns: &[f64], shift: f64, rhs: &[f64]) -> Option<Vec<f64>> {
+        let mut potential = self.potential(inputs, unknowns);
+        potential.linearise(unknowns)?;
+        let mut solution = rhs.to_vec();
+        potential.factorise(shift).then(|| {
+            potential.solve(&mut solution);
+            solution
+        })
+    }
+
+    fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
+        self.work.place(&self.chain, &inputs.base, unknowns);
+        self.rules.choose(&self.chain, &self.work.nodes, self.settings.pair_accuracy);
+        Potential {
+            chain: &self.chain,
+            settings: &self.settings,
+            inputs,
+            field: ExternalField::new(self.magnet.as_ref(), inputs),
+            rules: &self.rules,
+            work: &mut self.work,
+        }
+    }
+
+    /// Pose of the tip: the distal face of the last body.
+    #[must_use]
+    pub fn tip(&self) -> Pose {
+        self.work.nodes[self.work.nodes.len() - 1].advanced(self.chain.tip_offset)
+    }
+
+    /// Poses of the rings' centres, base to tip.
+    pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
+        self.chain.rings.iter().map(|body| self.work.nodes[body.node].advanced(0.5 * body.ring.length))
+    }
+
+    /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.
+    pub fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chain.cores.iter().map(|(first, last)| {
+            let tangent = |element: usize, end: usize| {
+                self.on_element(element, &self.chain.elements[element].core_ends[end]).axis()
+            };
+            tangent(*first, 0).angle(&tangent(*last, 1))
+        })
+    }
+
+    /// Unstrained arc length (m) and position (m) of the shape points, base to tip.
+    pub fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
+        self.shape.iter().map(|point| {
+            let position = match &point.place {
+                Place::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
+                Place::Elastic(element, row) => self.on_element(*element, row).position,
+            };
+            (point.arc_length, position)
+        })
+    }
+
+    fn on_element(&self, element: usize, row: &Row) -> Pose {
+        let unknowns = self.chain.part(element, &self.branch.unknowns);
+        let local = self.work.configurations[element].pose_at(&self.chain.elements[element], row, unknowns);
+        let start = &self.work.nodes[element];
+        Pose { position: start.transform(&local.position), rotation: start.rotation * local.rotation }
+    }
+
+    /// Force and moment (about the base position) that the clamp exerts.
+    #[must_use]
+    pub fn base_reaction(&self) -> Wrench {
+        Wrench { force: self.work.base.0, torque: self.work.base.1 }
+    }
+
+    /// Total external magnetic wrench on the manipulator, torque about the base position.
+    #[must_use]
+    pub fn magnetic_wrench(&self, inputs: &Inputs) -> Wrench {
+        self.wrench_in(&ExternalField::new(self.magnet.as_ref(), inputs))
+    }
+
+    /// Wrench on the external magnet about its centre.
+    #[must_use]
+    pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
+        let whole = self.magnetic_wrench(inputs);
+        let background = self.wrench_in(&ExternalField::background(inputs));
+        let force = background.force - whole.force;
+        let about_base = background.torque - whole.torque;
+        Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
+    }
+
+    /// External field (T) at a point, m; `None` inside a magnet.
+    #[must_use]
+    pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let field = ExternalField::new(self.magnet.as_ref(), inputs);
+        field.along(point, &Vector3::z()).map(|(field, _, _)| field)
+    }
+
+    fn wrench_in(&self, field: &ExternalField<'_>) -> Wrench {
+        let origin = self.work.nodes[0].position;
+        let mut out = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
+        let mut add = |load: Option<crate::rod::Load>, at: &Vector3<f64>| {
+            if let Some(load) = load {
+                out.force -= load.force;
+                out.torque -= load.moment() + (at - origin).cross(&load.force);
+            }
+        };
+        for (index, body) in self.chain.rings.iter().enumerate() {
+            let node = &self.work.nodes[body.node];
+            let reach = field.distance(&node.advanced(0.5 * body.ring.length).position);
+            let rule = self.rules.external(index, &body.ring, reach, self.settings.pair_accuracy);
+            add(field.on_ring(body, node, rule), &node.position);
+        }
+        for (k, element) in self.chain.elements.iter().enumerate() {
+            for (station, state) in element.stations.iter().zip(&self.work.configurations[k].stations) {
+                let start = &self.work.nodes[k];
+                let pose = Pose {
+                    position: start.transform(&state.position),
+                    rotation: start.rotation * state.directors,
+                };
+                add(field.on_station(station, &pose), &pose.position);
+            }
+        }
+        out
+    }
+}
+
+/// Finds the body at unstrained arc length `s` from the base.
+fn point_at(chain: &Chain, s: f64) -> ShapePoint {
+    let mut start = 0.0;
+    for (k, element) in chain.elements.iter().enumerate() {
+        if s < start + element.offset {
+            return ShapePoint { arc_length: s, place: Place::Rigid(k, s - start) };
+        }
+        start += element.offset;
+        if s <= start + element.length {
+            return ShapePoint { arc_length: s, place: Place::Elastic(k, element.row(s - start)) };
+        }
+        start += element.length;
+    }
+    let last = chain.elements.len();
+    ShapePoint { arc_length: s, place: Place::Rigid(last, (s - start).min(chain.tip_offset)) }
+}
