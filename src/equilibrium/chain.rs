@@ -63,8 +63,11 @@ impl Chain {
             let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
             let parts = if plain { settings.cylinder_elements } else { 1 };
             for _ in 0..parts {
-                let pieces: Vec<Piece<'_>> =
-                    segment.spans.iter().map(|span| Piece { span, length: span.length / parts as f64 }).collect();
+                let pieces: Vec<Piece<'_>> = segment
+                    .spans
+                    .iter()
+                    .map(|span| Piece { span, length: span.length / parts as f64 })
+                    .collect();
                 elements.push(Element::new(offset, &pieces, settings.degree));
                 offset = 0.0;
             }

@@ -92,7 +92,14 @@ impl Scene<'_> {
 
 impl Report {
     fn start() -> Self {
-        Self { solved: false, iterations: 0, residual: f64::INFINITY, margin: f64::NAN, snaps: 0, energy: 0.0 }
+        Self {
+            solved: false,
+            iterations: 0,
+            residual: f64::INFINITY,
+            margin: f64::NAN,
+            snaps: 0,
+            energy: 0.0,
+        }
     }
 }
 

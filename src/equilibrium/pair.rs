@@ -40,7 +40,8 @@ fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> boo
     (0..2 * POINTS).any(|k| {
         let (sine, cosine) = (core::f64::consts::TAU * (k / 2) as f64 / POINTS as f64).sin_cos();
         let height = if k % 2 == 0 { 0.5 } else { -0.5 } * rim.ring.length;
-        let point = to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
+        let point =
+            to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
         let local = from.rotation.tr_mul(&(point - from.position));
         local.z.abs() < 0.5 * outline.ring.length && local.x.hypot(local.y) < outline.ring.outer_radius
     })

@@ -160,11 +160,7 @@ impl Potential<'_> {
                 energy += pair.on_second.energy;
                 for (node, load) in [(first.node, &pair.on_first), (second.node, &pair.on_second)] {
                     let target = &mut self.work.node_loads[node];
-                    *target += Load {
-                        force: load.force,
-                        couple: Matrix3::zeros(),
-                        ..Load::zero()
-                    };
+                    *target += Load { force: load.force, couple: Matrix3::zeros(), ..Load::zero() };
                     // The turning of the couple is in the pair's own second derivatives.
                     target.couple += antisymmetric(&load.couple);
                 }
@@ -246,7 +242,8 @@ impl Objective for Potential<'_> {
             for i in 0..4 {
                 for j in 0..4 {
                     // The first six rows are the base's where the element starts there.
-                    let (Some(row), Some(column)) = ((6 * k + 3 * i).checked_sub(6), (6 * k + 3 * j).checked_sub(6))
+                    let (Some(row), Some(column)) =
+                        ((6 * k + 3 * i).checked_sub(6), (6 * k + 3 * j).checked_sub(6))
                     else {
                         continue;
                     };

@@ -67,11 +67,26 @@ impl Settings {
             |v| (1.0..=64.0).contains(&v),
             "from 1 to 64",
         )?;
-        check("accuracy of the ring pairs", self.pair_accuracy, |v| (1e-14..0.1).contains(&v), "from 1e-14 to 0.1")?;
-        check("tolerance of the residual", self.tolerance, |v| (1e-13..1e-3).contains(&v), "from 1e-13 to 1e-3")?;
+        check(
+            "accuracy of the ring pairs",
+            self.pair_accuracy,
+            |v| (1e-14..0.1).contains(&v),
+            "from 1e-14 to 0.1",
+        )?;
+        check(
+            "tolerance of the residual",
+            self.tolerance,
+            |v| (1e-13..1e-3).contains(&v),
+            "from 1e-13 to 1e-3",
+        )?;
         check("largest step of the branch following", self.follow_step, positive, "> 0")?;
         check("smallest part of an input change", self.smallest_part, |v| v > 0.0 && v <= 1.0, "in (0, 1]")?;
-        check("margin that counts as close to a fold", self.fold_margin, |v| (0.0..1.0).contains(&v), "in [0, 1)")?;
+        check(
+            "margin that counts as close to a fold",
+            self.fold_margin,
+            |v| (0.0..1.0).contains(&v),
+            "in [0, 1)",
+        )?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
         Ok(self)
     }

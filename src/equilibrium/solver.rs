@@ -129,7 +129,13 @@ impl Equilibrium {
     }
 
     /// Solves `(H + shift K) y = rhs` with the Hessian at any shape; `None` where it is not positive definite.
-    pub fn solve_at(&mut self, inputs: &Inputs, unknowns: &[f64], shift: f64, rhs: &[f64]) -> Option<Vec<f64>> {
+    pub fn solve_at(
+        &mut self,
+        inputs: &Inputs,
+        unknowns: &[f64],
+        shift: f64,
+        rhs: &[f64],
+    ) -> Option<Vec<f64>> {
         let mut potential = self.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
         let mut solution = rhs.to_vec();

@@ -3,7 +3,10 @@ use super::Jet;
 use nalgebra::{Matrix3, Vector3};
 /// Linear field.
 #[derive(Debug, Clone, Copy)]
-pub struct LinearField { field: Vector3<f64>, gradient: Matrix3<f64> }
+pub struct LinearField {
+    field: Vector3<f64>,
+    gradient: Matrix3<f64>,
+}
 impl LinearField {
     /// New.
     #[must_use]

@@ -18,7 +18,8 @@ const SETTLED: f64 = 1e-6;
 /// Computations, 10.1), which first finds the eigenvalues nearest to `-shift`.
 pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl FnMut(&mut [f64])) -> f64 {
     let size = vector.len();
-    let inner = |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
+    let inner =
+        |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
     let mut value = f64::INFINITY;
     for _ in 0..SWEEPS {
         let mut basis: Vec<Vec<f64>> = Vec::with_capacity(SWEEP);

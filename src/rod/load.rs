@@ -68,8 +68,7 @@ impl Load {
     #[must_use]
     pub fn in_axes(&self, axes: &Matrix3<f64>) -> Self {
         let turn = |m: &Matrix3<f64>| axes.tr_mul(m) * axes;
-        let mut out =
-            Self { force: axes.tr_mul(&self.force), couple: turn(&self.couple), ..Self::zero() };
+        let mut out = Self { force: axes.tr_mul(&self.force), couple: turn(&self.couple), ..Self::zero() };
         out.energy = self.energy;
         out.stiff = self.stiff;
         if self.stiff {

@@ -40,7 +40,8 @@ impl SectionMoments {
                 self.first += Vector2::new(to.sin() - from.sin(), from.cos() - to.cos()) * third;
                 let half_sine = 0.25 * ((2.0 * to).sin() - (2.0 * from).sin());
                 let mixed = 0.5 * (to.sin().powi(2) - from.sin().powi(2));
-                self.second += Matrix2::new(0.5 * angle + half_sine, mixed, mixed, 0.5 * angle - half_sine) * fourth;
+                self.second +=
+                    Matrix2::new(0.5 * angle + half_sine, mixed, mixed, 0.5 * angle - half_sine) * fourth;
             }
         }
     }

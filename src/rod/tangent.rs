@@ -219,7 +219,8 @@ impl Tangent {
             self.gradient[START + a] += slope[a];
             let cross = left.column(a).cross(moment) * 0.5;
             for b in 0..3 {
-                self.hessian[(START + a) * self.size + START + b] += 0.5 * (product[(a, b)] + product[(b, a)]);
+                self.hessian[(START + a) * self.size + START + b] +=
+                    0.5 * (product[(a, b)] + product[(b, a)]);
                 self.hessian[(3 + b) * self.size + START + a] += cross[b];
             }
         }
@@ -245,8 +246,10 @@ fn bending(state: &StationState, bending: f64, torsion: f64, weight: f64) -> Ben
     Bending {
         slope: by_vector.tr_mul(&moment),
         rate_slope: right.tr_mul(&moment),
-        curve: by_vector.tr_mul(&(weighted * by_vector)) + state.theta.contract_curvature(&moment, &state.rate),
-        mixed: by_vector.tr_mul(&(weighted * right)) + state.theta.left_product_derivative(&moment).transpose(),
+        curve: by_vector.tr_mul(&(weighted * by_vector))
+            + state.theta.contract_curvature(&moment, &state.rate),
+        mixed: by_vector.tr_mul(&(weighted * right))
+            + state.theta.left_product_derivative(&moment).transpose(),
         rate_curve: right.tr_mul(&(weighted * right)),
     }
 }

@@ -27,8 +27,7 @@ fn gradient_and_hessian_meet_finite_differences() {
         let design = Design::new(Specification::paper(3)).unwrap();
         let settings = Settings { interaction: level, degree: 2, ..Settings::default() };
         let assembly = pair();
-        let mut equilibrium =
-            Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).unwrap();
+        let mut equilibrium = Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).unwrap();
         let mut inputs = Inputs::unloaded(4);
         inputs.uniform_field = Vector3::new(0.004, 0.012, -0.003);
         inputs.gravity = Vector3::new(1.0, -9.0, 2.0);
@@ -52,7 +51,10 @@ fn gradient_and_hessian_meet_finite_differences() {
         let (_, gradient) = equilibrium.gradient(&inputs, &x).unwrap();
         let slope: f64 = gradient.iter().zip(&d).map(|(g, v)| g * v).sum();
         let difference = (energy_plus - energy_minus) / (2.0 * h);
-        println!("{level:?} {magnet} slope {slope:e} difference {difference:e} rel {:e}", slope / difference - 1.0);
+        println!(
+            "{level:?} {magnet} slope {slope:e} difference {difference:e} rel {:e}",
+            slope / difference - 1.0
+        );
         let image: Vec<f64> =
             gradient_plus.iter().zip(&gradient_minus).map(|(a, b)| (a - b) / (2.0 * h)).collect();
         // newton_step solves with -g; make it solve (H) s = image through linearity: H d = image.

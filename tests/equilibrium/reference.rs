@@ -22,7 +22,8 @@ fn rows() {
             "rings" => Interaction::Rings,
             _ => continue,
         };
-        let Specification::Segmented(paper) = Specification::paper(setup["S"].as_u64().unwrap() as usize) else {
+        let Specification::Segmented(paper) = Specification::paper(setup["S"].as_u64().unwrap() as usize)
+        else {
             unreachable!()
         };
         let axisymmetric = setup["spiral"] == "axisymmetric";
@@ -56,7 +57,11 @@ fn rows() {
                 remanence: m["Br"].as_f64().unwrap(),
             };
             assembly = Some(Assembly::new(vec![magnet(-half), magnet(half)]).unwrap());
-            let flip = if m["polarity"].as_f64().unwrap() > 0.0 { [1.0, 0.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
+            let flip = if m["polarity"].as_f64().unwrap() > 0.0 {
+                [1.0, 0.0, 0.0, 0.0]
+            } else {
+                [0.0, 1.0, 0.0, 0.0]
+            };
             inputs.magnet = Pose::new(vector(&m["centre"]).into(), flip).unwrap();
             inputs.magnet_strength = 1.0;
         }
