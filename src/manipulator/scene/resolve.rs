@@ -92,7 +92,7 @@ impl SceneFile {
             InteractionName::Full => return Err(unavailable("full")),
             InteractionName::Auto => return Err(unavailable("auto")),
         };
-        Ok(Settings { interaction })
+        Ok(Settings { interaction, ..Settings::default() })
     }
 }
 
