@@ -1,7 +1,6 @@
 //! A uniform field, or one that varies linearly in space.
 
 use nalgebra::{Matrix3, Vector3};
-<<<<<<< HEAD
 
 use super::jet::{FieldHessian, Jet};
 
@@ -19,14 +18,6 @@ pub struct LinearField {
     gradient: Matrix3<f64>,
 }
 
-=======
-/// Linear field.
-#[derive(Debug, Clone, Copy)]
-pub struct LinearField {
-    field: Vector3<f64>,
-    gradient: Matrix3<f64>,
-}
->>>>>>> fmi
 impl LinearField {
     /// From the field at the origin (T) and `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` (T/m).
     ///
