@@ -13,7 +13,10 @@ mod peer;
 #[path = "../magnetics/reference.rs"]
 mod reference;
 
+use std::time::Instant;
+
 use mcm::error::Error;
+use mcm::geometry::Pose;
 use mcm::magnetics::Jet;
 use nalgebra::Vector3;
 use reference::{Row, pair, ring, table};
