@@ -20,5 +20,4 @@ pub mod equilibrium; // the potential, its minimum, its stability
 
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
-#[allow(unsafe_code, reason = "the C boundary of FMI; every unsafe block is in `ffi.rs`")]
 pub mod fmi; // the FMI 2.0 co-simulation FMU

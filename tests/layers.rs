@@ -1,1 +1,214 @@
-//! A room of `src` uses only the rooms before it.
+//! A room of `src` uses only the rooms that the house plan allows, files stay short, and names say what is inside.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms in order, and what each may use; what those may use is allowed too.
+const ROOMS: [(&str, &[&str]); 13] = [
+    ("constants", &[]),
+    ("error", &[]),
+    ("numerics", &["constants", "error"]),
+    ("geometry", &["numerics"]),
+    ("design", &["geometry"]),
+    ("magnetics", &["design"]),
+    ("rod", &["design"]),
+    ("equilibrium", &["magnetics", "rod"]),
+    ("fidelity", &["equilibrium"]),
+    ("manipulator", &["fidelity"]),
+    ("studies", &["manipulator"]),
+    ("fmi", &["manipulator"]),
+    ("bin", &["studies", "fmi"]),
+];
+
+const LONGEST_FILE: usize = 400;
+
+/// Names that say nothing about what is inside.
+const EMPTY_NAMES: [&str; 7] = ["util", "utils", "common", "helper", "helpers", "misc", "shared"];
+
+/// Written by bindgen, not by hand.
+const GENERATED: [&str; 1] = ["src/fmi/bindings.rs"];
+
+/// What may lie at the top level, beside what the scripts leave there.
+const TOP_LEVEL: [&str; 9] = [
+    "Cargo.toml",
+    "Cargo.lock",
+    "LICENSE",
+    "README.md",
+    "build.rs",
+    "src",
+    "modelDescription",
+    "fmu",
+    "tests",
+];
+const LEFT_BY_SCRIPTS: [&str; 3] = ["target", "mcm_demo.csv", "mcm_demo.png"];
+
+fn allowed(room: &str) -> BTreeSet<&'static str> {
+    let direct = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, direct)| direct);
+    direct.iter().flat_map(|&other| allowed(other).into_iter().chain([other])).collect()
+}
+
+/// What the file at `path` (from the package's folder) with this text does wrong, in words.
+fn violations(path: &Path, text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    let name = path.display();
+    let lines = text.lines().count();
+    if lines > LONGEST_FILE && !GENERATED.iter().any(|generated| path == Path::new(generated)) {
+        found.push(format!("{name} has {lines} lines, more than {LONGEST_FILE}: split it"));
+    }
+    for part in path.iter().map(|part| part.to_string_lossy()) {
+        let stem = part.split('.').next().unwrap_or_default();
+        if EMPTY_NAMES.contains(&stem) {
+            found.push(format!("{name}: `{stem}` says nothing about what is inside"));
+        }
+    }
+    let modules = modules(path);
+    if path.starts_with("src") && path != Path::new("src/lib.rs") {
+        let room = modules[0].as_str();
+        if !ROOMS.iter().any(|(known, _)| *known == room) {
+            found.push(format!("{name}: the house has no room `{room}`"));
+        }
+        let may_use = allowed(room);
+        for used in rooms_used(text, modules.len()) {
+            let is_room = ROOMS.iter().any(|(known, _)| *known == used);
+            if is_room && used != room && !may_use.contains(used.as_str()) {
+                found.push(format!("{name}: `{room}` must not use `{used}`"));
+            }
+        }
+    }
+    found
+}
+
+/// The modules that lead to a file of `src`: `src/rod/element.rs` is `rod`, `element`.
+fn modules(path: &Path) -> Vec<String> {
+    let stem = path.with_extension("");
+    let parts = stem.iter().skip(1).map(|part| part.to_string_lossy().into_owned());
+    parts.filter(|part| part != "mod").collect()
+}
+
+/// Every name directly under the crate that the code (not its comments) mentions; the file is `depth` modules deep.
+fn rooms_used(text: &str, depth: usize) -> BTreeSet<String> {
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    let code: String = code.split_whitespace().collect();
+    let upwards = "super::".repeat(depth);
+    let mut used = BTreeSet::new();
+    for root in ["crate::", upwards.as_str()] {
+        for (start, _) in code.match_indices(root) {
+            let before = code[..start].chars().next_back();
+            // `super::super::` also ends in `super::`; a name may end in `crate`.
+            if before.is_some_and(|c| c == ':' || c == '_' || c.is_alphanumeric())
+                && !code[..start].ends_with("use")
+            {
+                continue;
+            }
+            used.extend(heads(&code[start + root.len()..]));
+        }
+    }
+    used
+}
+
+/// The first names of a path or of each path of a `{...}` group.
+fn heads(path: &str) -> Vec<String> {
+    let identifier =
+        |text: &str| -> String { text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect() };
+    let Some(group) = path.strip_prefix('{') else { return vec![identifier(path)] };
+    let (mut level, mut names, mut at_start) = (0, Vec::new(), true);
+    for (index, letter) in group.char_indices() {
+        if at_start && level == 0 {
+            names.push(identifier(&group[index..]));
+        }
+        at_start = letter == ',';
+        match letter {
+            '{' => level += 1,
+            '}' if level == 0 => break,
+            '}' => level -= 1,
+            _ => {}
+        }
+    }
+    names
+}
+
+fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files_below(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "rs" || extension == "py") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn every_room_uses_only_what_it_may() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files = Vec::new();
+    for folder in ["src", "tests", "fmu"] {
+        let folder = package.join(folder);
+        if folder.exists() {
+            files_below(&folder, &mut files);
+        }
+    }
+    assert!(files.len() > 30, "only {} files found", files.len());
+    let found: Vec<String> = files
+        .iter()
+        .flat_map(|file| violations(file.strip_prefix(package).unwrap(), &fs::read_to_string(file).unwrap()))
+        .collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn top_level_holds_nothing_else() {
+    for entry in fs::read_dir(env!("CARGO_MANIFEST_DIR")).unwrap() {
+        let name = entry.unwrap().file_name().to_string_lossy().into_owned();
+        let known = TOP_LEVEL.contains(&name.as_str()) || LEFT_BY_SCRIPTS.contains(&name.as_str());
+        let packed = Path::new(&name).extension().is_some_and(|extension| extension == "fmu");
+        assert!(known || packed || name.starts_with('.'), "{name} does not belong at the top level");
+    }
+}
+
+#[test]
+fn table_of_contents_lists_the_rooms_in_order() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
+    let order = |room: &str| ROOMS.iter().position(|(name, _)| *name == room).expect(room);
+    let listed: Vec<usize> =
+        text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.split(';').next()).map(order).collect();
+    assert!(listed.len() > 8 && listed.is_sorted(), "{listed:?}");
+}
+
+#[test]
+fn a_violation_is_seen() {
+    for (path, text) in [
+        ("src/rod/shape.rs", "use crate::equilibrium::Settings;"),
+        ("src/rod/shape.rs", "use crate::magnetics::Jet;"),
+        ("src/rod/shape.rs", "use crate::{design::Design, magnetics::{Jet, Assembly}};"),
+        ("src/rod/shape.rs", "use crate::{\n    design::{Design, Span},\n    fmi,\n};"),
+        ("src/rod/shape.rs", "fn f() { let _ = crate::manipulator::Inputs::unloaded(0); }"),
+        ("src/rod/shape.rs", "use super::super::fmi::Instance;"),
+        ("src/rod/mod.rs", "use super::fmi::Instance;"),
+        ("src/rod/shape/mod.rs", "pub use super::super::fmi;"),
+        ("src/error.rs", "use crate::geometry::Pose;"),
+        ("src/cellar/mod.rs", ""),
+        ("src/rod/utils.rs", ""),
+        ("tests/common/mod.rs", ""),
+        ("src/rod/shape.rs", &"\n".repeat(401)),
+    ] {
+        assert_eq!(violations(Path::new(path), text).len(), 1, "{path}: {text}");
+    }
+}
+
+#[test]
+fn what_is_allowed_is_not_reported() {
+    for (path, text) in [
+        ("src/rod/shape.rs", "use crate::design::Design;\nuse crate::error::{Error, check};"),
+        ("src/rod/shape.rs", "use crate::{design::Design, geometry::Pose};\nuse super::fmi;"),
+        ("src/rod/shape.rs", "/// See [`crate::equilibrium::Settings`].\nuse crate::rod::Strain;"),
+        ("src/equilibrium/potential.rs", "use crate::rod::Strain;\nuse crate::magnetics::Jet;"),
+        ("src/manipulator/scene/text.rs", "use super::super::fmi;\nuse super::SceneFile;"),
+        ("src/bin/mcm/main.rs", "use mcm::manipulator::Scene;"),
+        ("src/fmi/bindings.rs", &"\n".repeat(2000)),
+        ("src/rod/shape.rs", &"\n".repeat(400)),
+    ] {
+        assert_eq!(violations(Path::new(path), text), Vec::<String>::new(), "{path}: {text}");
+    }
+}

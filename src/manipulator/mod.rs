@@ -2,7 +2,9 @@
 
 mod device;
 mod outputs;
+mod scene;
 
 pub use crate::equilibrium::Inputs;
 pub use device::Manipulator;
 pub use outputs::{Outputs, Status};
+pub use scene::{Scene, SceneFile};

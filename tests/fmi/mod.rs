@@ -1,1 +1,4 @@
 //! Tests of `fmi`.
+
+#[cfg(feature = "bindgen")]
+mod bindings;

@@ -1,1 +1,3 @@
 //! Tests of `manipulator`.
+
+mod scene;

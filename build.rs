@@ -1,0 +1,36 @@
+//! With feature `bindgen`: writes the FMI bindings anew from the official headers, to `$OUT_DIR/bindings.rs`.
+//!
+//! The checked-in `src/fmi/bindings.rs` is what the crate compiles; a test under the same feature holds both equal.
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    #[cfg(feature = "bindgen")]
+    bindings::write();
+}
+
+#[cfg(feature = "bindgen")]
+mod bindings {
+    use std::env;
+    use std::path::PathBuf;
+
+    pub(crate) fn write() {
+        println!("cargo::rerun-if-changed=fmu/headers");
+        let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default()).join("bindings.rs");
+        let written = bindgen::Builder::default()
+            .header("fmu/headers/fmi2Functions.h")
+            .allowlist_item("fmi2.*")
+            .ignore_functions() // `ffi.rs` defines them; their types (`fmi2DoStepTYPE`...) are kept
+            .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
+            .layout_tests(true)
+            .rust_edition(bindgen::RustEdition::Edition2024)
+            .raw_line("//! Types of the official headers in `fmu/headers`, as bindgen writes them (feature `bindgen`).")
+            .raw_line("#![allow(missing_docs, nonstandard_style, reason = \"names of the standard\")]")
+            .raw_line("#![allow(clippy::all, clippy::pedantic, clippy::allow_attributes_without_reason)]")
+            .generate()
+            .map_err(|error| error.to_string())
+            .and_then(|bindings| bindings.write_to_file(out).map_err(|error| error.to_string()));
+        if let Err(error) = written {
+            println!("cargo::error=the FMI bindings could not be written: {error}");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! `mcm field`: magnetic field at points.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use mcm::error::Error;
+use mcm::magnetics::{Assembly, AxialSource};
+use mcm::manipulator::{Inputs, Scene};
+use nalgebra::{Matrix3, Vector3};
+
+use super::failure::Failure;
+use super::files::{create_table, open_table, read_scene};
+
+/// Columns of the points.
+const POINT: [&str; 3] = ["x_m", "y_m", "z_m"];
+
+/// Columns of the answer after the point's.
+const FIELD: [&str; 12] = [
+    "Bx_t",
+    "By_t",
+    "Bz_t",
+    "dBx_dx_t_per_m",
+    "dBx_dy_t_per_m",
+    "dBx_dz_t_per_m",
+    "dBy_dx_t_per_m",
+    "dBy_dy_t_per_m",
+    "dBy_dz_t_per_m",
+    "dBz_dx_t_per_m",
+    "dBz_dy_t_per_m",
+    "dBz_dz_t_per_m",
+];
+
+/// Evaluates the external field (world frame) and its gradient at points of a CSV file.
+#[derive(clap::Args)]
+#[command(
+    after_help = "POINTS.csv has the columns x_m, y_m, z_m; FIELD.csv repeats them and adds Bx_t, By_t, Bz_t and \
+the nine dBi_dxj_t_per_m, all digits.\nA point on an edge of a magnet is refused: the field is infinite there.\n\n\
+Example: mcm field scene.toml --at points.csv --out field.csv"
+)]
+pub(crate) struct Field {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Points, CSV
+    #[arg(long, value_name = "POINTS.csv")]
+    at: PathBuf,
+    /// Where the field goes, CSV
+    #[arg(long, value_name = "FIELD.csv")]
+    out: PathBuf,
+    /// The field of one ring of the design, at the origin with its axis along z, instead of the external field
+    #[arg(long)]
+    ring: bool,
+}
+
+impl Field {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let scene = read_scene(&self.scene)?.scene()?;
+        let source = if self.ring { Source::ring(&scene)? } else { Source::external(scene)? };
+        let points = self.points()?;
+        let mut table = create_table(&self.out)?;
+        table.write_record(POINT.iter().chain(&FIELD))?;
+        for (line, point) in points {
+            let (field, gradient) = source
+                .field_gradient(&point)
+                .map_err(|error| Failure::Message(format!("{}, line {line}: {error}", self.at.display())))?;
+            // Matrices are stored by column, the table lists dBx_dx, dBx_dy, ...: by row.
+            let row: Vec<f64> =
+                [point, field].iter().flatten().chain(&gradient.transpose()).copied().collect();
+            table.serialize(row)?;
+        }
+        table.flush()?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// The points with their line in the file.
+    fn points(&self) -> Result<Vec<(u64, Vector3<f64>)>, Failure> {
+        let name = self.at.display();
+        let mut table = open_table(&self.at)?;
+        let header = table.headers()?.clone();
+        let mut columns = [0; 3];
+        for (column, wanted) in columns.iter_mut().zip(POINT) {
+            *column = header.iter().position(|title| title == wanted).ok_or_else(|| {
+                let titles: Vec<&str> = header.iter().collect();
+                Failure::Message(format!("{name} has no column {wanted}; it has {}", titles.join(", ")))
+            })?;
+        }
+        let mut points = Vec::new();
+        for record in table.records() {
+            let record = record?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let mut point = Vector3::zeros();
+            for ((entry, &column), title) in point.iter_mut().zip(&columns).zip(POINT) {
+                let text = record.get(column).unwrap_or_default();
+                *entry = text.parse().map_err(|_| {
+                    Failure::Message(format!("{name}, line {line}: {title} = \"{text}\" is no number"))
+                })?;
+            }
+            points.push((line, point));
+        }
+        Ok(points)
+    }
+}
+
+/// Where the field comes from.
+enum Source {
+    Ring(AxialSource),
+    External { inputs: Inputs, magnet: Option<Assembly> },
+}
+
+impl Source {
+    fn ring(scene: &Scene) -> Result<Self, Failure> {
+        let design = scene.design()?;
+        let ring = design.rings().next();
+        let ring = ring.ok_or_else(|| Failure::Message("the design of this scene has no ring".into()))?;
+        Ok(Self::Ring(AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?))
+    }
+
+    fn external(scene: Scene) -> Result<Self, Failure> {
+        let magnet = scene.assembly()?;
+        Ok(Self::External { inputs: scene.inputs, magnet })
+    }
+
+    /// Field (T) and gradient (T/m) at a point (m) in the world frame.
+    fn field_gradient(&self, point: &Vector3<f64>) -> Result<(Vector3<f64>, Matrix3<f64>), Error> {
+        let (inputs, magnet) = match self {
+            Self::Ring(ring) => return ring.field_gradient(point),
+            Self::External { inputs, magnet } => (inputs, magnet),
+        };
+        let [xx, xy, xz, yy, yz] = inputs.field_gradient;
+        let mut gradient = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy);
+        let mut field = inputs.uniform_field + gradient * point;
+        if let Some(magnet) = magnet {
+            let turn = inputs.magnet.rotation;
+            let local = turn.transpose() * (point - inputs.magnet.position);
+            let (own_field, own_gradient) = magnet.field_gradient(&local)?;
+            field += turn * own_field * inputs.magnet_strength;
+            gradient += turn * own_gradient * turn.transpose() * inputs.magnet_strength;
+        }
+        Ok((field, gradient))
+    }
+}

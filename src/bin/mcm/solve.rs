@@ -1,0 +1,138 @@
+//! `mcm solve`: one equilibrium.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use mcm::equilibrium::Interaction;
+use mcm::manipulator::{Outputs, Status};
+use nalgebra::Vector3;
+use serde_json::{Value, json};
+
+use super::failure::{Failure, NOT_CONVERGED, UNSTABLE};
+use super::files::read_scene;
+
+/// Solves one equilibrium, starting from the unloaded shape.
+#[derive(clap::Args)]
+#[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
+Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\"), 1 bad input, 2 not converged, \
+3 solved but unstable.")]
+pub(crate) struct Solve {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Print JSON in SI units instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Number of centreline points in the shape
+    #[arg(long, value_name = "N", default_value_t = 101)]
+    shape_points: usize,
+}
+
+impl Solve {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let scene = read_scene(&self.scene)?.scene()?;
+        let mut manipulator = scene.manipulator(self.shape_points)?;
+        let outputs = manipulator.solve(&scene.inputs)?;
+        let mut stdout = std::io::stdout().lock();
+        if self.json {
+            serde_json::to_writer_pretty(&mut stdout, &as_json(outputs))?;
+            writeln!(stdout)?;
+        } else {
+            write!(stdout, "{}", as_table(outputs))?;
+        }
+        stdout.flush()?;
+        exit_status(outputs)
+    }
+}
+
+fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
+    let (status, message) = match (outputs.status, outputs.stable) {
+        (Status::NotSolved, _) => {
+            (NOT_CONVERGED, "not converged: the answer is the last good shape on the way")
+        }
+        (_, Some(false)) => (UNSTABLE, "the equilibrium is unstable"),
+        _ => return Ok(ExitCode::SUCCESS),
+    };
+    writeln!(std::io::stderr(), "warning: {message}")?;
+    Ok(status.into())
+}
+
+/// The name of a level of interaction in the scene file.
+pub(crate) fn interaction_name(interaction: Interaction) -> &'static str {
+    match interaction {
+        Interaction::None => "none",
+        Interaction::Preceding => "preceding",
+        Interaction::Rings => "rings",
+    }
+}
+
+fn as_json(outputs: &Outputs) -> Value {
+    let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
+    json!({
+        "alpha_rad": outputs.tip_angle,
+        "tip_position_m": vector(&outputs.tip.position),
+        "tip_orientation_wxyz": outputs.tip.quaternion(),
+        "magnetic_force_n": vector(&outputs.magnetic_force),
+        "magnetic_torque_nm": vector(&outputs.magnetic_torque),
+        "base_reaction_force_n": vector(&outputs.base_reaction_force),
+        "base_reaction_moment_nm": vector(&outputs.base_reaction_moment),
+        "magnet_reaction_force_n": vector(&outputs.magnet_reaction_force),
+        "magnet_reaction_torque_nm": vector(&outputs.magnet_reaction_torque),
+        "ring_positions_m": outputs.rings.iter().map(|ring| vector(&ring.position)).collect::<Vec<_>>(),
+        "core_angles_rad": outputs.core_angles,
+        "shape_m": outputs.shape.iter().map(vector).collect::<Vec<_>>(),
+        "stable": outputs.stable,
+        "stability_margin": outputs.stability_margin,
+        "snaps": outputs.snaps,
+        "converged": outputs.status != Status::NotSolved,
+        "iterations": outputs.iterations,
+        "residual": outputs.residual,
+        "energy_j": outputs.energy,
+        "interaction": interaction_name(outputs.interaction),
+        "method": "potential",
+    })
+}
+
+fn as_table(outputs: &Outputs) -> String {
+    let row = |name: &str, value: String, unit: &str| format!("{name:<22} {value:>36}  {unit}\n");
+    let vector = |name: &str, v: &Vector3<f64>, factor: f64, unit: &str| {
+        let entry = |x: f64| format!("{:>12.4}", x * factor);
+        row(name, [entry(v.x), entry(v.y), entry(v.z)].concat(), unit)
+    };
+    let status = match outputs.status {
+        Status::Solved => "solved",
+        Status::NearFold => "solved, close to a fold: a little more load and the shape snaps",
+        Status::Snapped => "solved, after a snap to another branch",
+        Status::NotSolved => "not converged",
+    };
+    let stable = match outputs.stable {
+        Some(true) => "stable",
+        Some(false) => "unstable",
+        None => "stability unknown: this model has no potential",
+    };
+    let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
+    [
+        format!(
+            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}\n\n",
+            outputs.iterations,
+            outputs.residual,
+            interaction_name(outputs.interaction)
+        ),
+        row("tip angle", format!("{:.4}", outputs.tip_angle.to_degrees()), "deg"),
+        vector("tip position", &outputs.tip.position, 1e3, "mm"),
+        vector("tip direction", &outputs.tip.axis(), 1.0, ""),
+        row("largest core angle", format!("{:.4}", largest.to_degrees()), "deg"),
+        vector("magnetic force", &outputs.magnetic_force, 1e3, "mN"),
+        vector("magnetic torque", &outputs.magnetic_torque, 1e6, "mN.mm, about the base"),
+        vector("base reaction force", &outputs.base_reaction_force, 1e3, "mN"),
+        vector("base reaction moment", &outputs.base_reaction_moment, 1e6, "mN.mm"),
+        vector("magnet reaction force", &outputs.magnet_reaction_force, 1e3, "mN"),
+        vector("magnet reaction torque", &outputs.magnet_reaction_torque, 1e6, "mN.mm, about its centre"),
+        vector("external field at tip", &outputs.tip_field, 1e3, "mT"),
+        row("stability margin", format!("{:.4}", outputs.stability_margin), "of the unloaded shape's"),
+        row("snaps", outputs.snaps.to_string(), ""),
+        row("energy", format!("{:.4}", outputs.energy * 1e6), "uJ"),
+    ]
+    .concat()
+}

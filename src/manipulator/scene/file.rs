@@ -1,0 +1,247 @@
+//! The scene file's tables and keys, as written: units in the names.
+
+use serde::{Deserialize, Serialize};
+
+/// A scene as its file states it, with everything that was left out filled in.
+///
+/// Its numbers are those of the file, not yet in SI units: writing it out and reading it again changes no bit.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SceneFile {
+    pub(super) design: DesignTable,
+    pub(super) field: FieldTable,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) magnet: Option<MagnetTable>,
+    pub(super) base: BaseTable,
+    pub(super) load: LoadTable,
+    pub(super) gravity: GravityTable,
+    pub(super) model: ModelTable,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Kind {
+    #[default]
+    Segments,
+    Cylinder,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum SpiralName {
+    Helical,
+    Axisymmetric,
+}
+
+/// `[design]`: which keys may be present depends on `kind`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct DesignTable {
+    pub(super) kind: Kind,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) segments: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) base_magnet: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) tip_magnet: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spiral: Option<SpiralName>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) length_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) radius_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) inner_radius_mm: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) shore_a: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) elastic_modulus_mpa: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) poisson: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) volume_fraction: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) particle_remanence_t: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) remanence_t: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) density_kg_m3: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) helix: Option<HelixTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) ring: Option<RingTable>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) backbone: Option<BackboneTable>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct HelixTable {
+    pub(super) length_mm: f64,
+    pub(super) boundary_angle_deg: f64,
+    pub(super) radius_mm: f64,
+    pub(super) windings: f64,
+    pub(super) core_outer_radius_mm: f64,
+    pub(super) core_inner_radius_mm: f64,
+    pub(super) shore_a: f64,
+    pub(super) poisson: f64,
+    pub(super) volume_fraction: f64,
+    pub(super) particle_remanence_t: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) density_kg_m3: Option<f64>,
+}
+
+impl Default for HelixTable {
+    /// Table 1 of Richter et al.
+    fn default() -> Self {
+        Self {
+            length_mm: 4.0,
+            boundary_angle_deg: 40.0,
+            radius_mm: 2.0,
+            windings: 2.0,
+            core_outer_radius_mm: 0.95,
+            core_inner_radius_mm: 0.75,
+            shore_a: 33.0,
+            poisson: 0.4,
+            volume_fraction: 0.25,
+            particle_remanence_t: 1.0,
+            density_kg_m3: None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct RingTable {
+    pub(super) length_mm: f64,
+    pub(super) remanence_t: f64,
+    pub(super) density_kg_m3: f64,
+}
+
+impl Default for RingTable {
+    /// Table 1 of Richter et al.; the density is that of `NdFeB`, rounded.
+    fn default() -> Self {
+        Self { length_mm: 1.0, remanence_t: 1.35, density_kg_m3: 7000.0 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BackboneTable {
+    pub(super) outer_radius_mm: f64,
+    pub(super) inner_radius_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) shore_a: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) elastic_modulus_mpa: Option<f64>,
+    pub(super) poisson: f64,
+    #[serde(default = "water")]
+    pub(super) density_kg_m3: f64,
+}
+
+/// Density of a polymer tube without filler, rounded, kg/m3.
+fn water() -> f64 {
+    1000.0
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct FieldTable {
+    pub(super) uniform_mt: [f64; 3],
+    pub(super) gradient_t_per_m: [f64; 5],
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct MagnetTable {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) position_mm: Option<[f64; 3]>,
+    pub(super) orientation_wxyz: [f64; 4],
+    pub(super) strength: f64,
+    pub(super) cylinders: Vec<MagnetCylinder>,
+}
+
+impl Default for MagnetTable {
+    /// The paper's pair; below the manipulator's middle its field points along the manipulator's magnetisation.
+    fn default() -> Self {
+        let cylinder = |offset_mm| MagnetCylinder {
+            radius_mm: 22.5,
+            inner_radius_mm: 0.0,
+            length_mm: 30.0,
+            offset_mm,
+            remanence_t: 1.35,
+        };
+        Self {
+            position_mm: None,
+            orientation_wxyz: [0.0, 1.0, 0.0, 0.0],
+            strength: 1.0,
+            cylinders: vec![cylinder(-20.0), cylinder(20.0)],
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MagnetCylinder {
+    pub(super) radius_mm: f64,
+    #[serde(default)]
+    pub(super) inner_radius_mm: f64,
+    pub(super) length_mm: f64,
+    #[serde(default)]
+    pub(super) offset_mm: f64,
+    pub(super) remanence_t: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct BaseTable {
+    pub(super) position_mm: [f64; 3],
+    pub(super) orientation_wxyz: [f64; 4],
+}
+
+impl Default for BaseTable {
+    fn default() -> Self {
+        Self { position_mm: [0.0; 3], orientation_wxyz: [1.0, 0.0, 0.0, 0.0] }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct LoadTable {
+    pub(super) tip_force_n: [f64; 3],
+    pub(super) tip_moment_nm: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) ring_force_n: Option<Vec<[f64; 3]>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct GravityTable {
+    pub(super) acceleration_m_s2: [f64; 3],
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum InteractionName {
+    None,
+    Preceding,
+    #[default]
+    Rings,
+    Full,
+    Auto,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum MethodName {
+    #[default]
+    Potential,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct ModelTable {
+    pub(super) interaction: InteractionName,
+    pub(super) method: MethodName,
+    pub(super) bending_stop: bool,
+}

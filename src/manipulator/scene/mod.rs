@@ -1,0 +1,78 @@
+//! A scene as a text (TOML, units in the names): which design, what acts on it, which model.
+
+mod file;
+mod resolve;
+mod text;
+
+pub use file::SceneFile;
+
+use super::{Inputs, Manipulator};
+use crate::design::{Design, Specification};
+use crate::equilibrium::Settings;
+use crate::error::Error;
+use crate::magnetics::{Assembly, AxialMagnet};
+
+/// Everything that one solve needs, in SI units.
+///
+/// ```
+/// use mcm::manipulator::Scene;
+/// let scene = Scene::parse("[field]\nuniform_mt = [0, 20, 0]", "my scene")?;
+/// assert_eq!(scene.inputs.uniform_field.y, 0.02);
+/// assert_eq!(scene.inputs.ring_forces.len(), 10); // nine segments unless said
+///
+/// let refused = Scene::parse("[design.helix]\nlenght_mm = 4.0", "my scene").unwrap_err();
+/// assert_eq!(
+///     refused.to_string(),
+///     "my scene, line 2: unknown key `design.helix.lenght_mm`; did you mean `length_mm`?"
+/// );
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// What the manipulator is built of.
+    pub specification: Specification,
+    /// The cylinders of the external magnet; `None`: there is no magnet.
+    pub magnets: Option<Vec<AxialMagnet>>,
+    /// What acts on it.
+    pub inputs: Inputs,
+    /// Model and solver.
+    pub settings: Settings,
+}
+
+impl Scene {
+    /// Reads a scene; whatever it leaves out is the paper's Table 1 with nine segments, unloaded.
+    ///
+    /// `what` names the text in error messages, for example its file name.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] with line and key for a text that is no scene, [`Error::Range`] for NaN, an infinity or an
+    /// orientation that is no unit quaternion, [`Error::Unsupported`] for a model that does not exist.
+    pub fn parse(text: &str, what: &str) -> Result<Self, Error> {
+        SceneFile::parse(text, what)?.scene()
+    }
+
+    /// The checked design.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity out of range.
+    pub fn design(&self) -> Result<Design, Error> {
+        Design::new(self.specification.clone())
+    }
+
+    /// The checked external magnet, if there is one.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for an empty list.
+    pub fn assembly(&self) -> Result<Option<Assembly>, Error> {
+        self.magnets.clone().map(Assembly::new).transpose()
+    }
+
+    /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.
+    ///
+    /// # Errors
+    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`].
+    pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
+        let magnet = self.assembly()?;
+        Manipulator::new(&self.design()?, magnet.as_ref(), self.settings.clone(), shape_points)
+    }
+}

@@ -1,0 +1,277 @@
+//! From the file's units to SI, and from names to what they stand for.
+
+use super::Scene;
+use super::file::{
+    BackboneTable, DesignTable, HelixTable, InteractionName, Kind, MagnetCylinder, MagnetTable, RingTable,
+    SceneFile, SpiralName,
+};
+use crate::design::{
+    Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
+    SpiralKind,
+};
+use crate::equilibrium::{Interaction, Settings};
+use crate::error::Error;
+use crate::geometry::Pose;
+use crate::magnetics::AxialMagnet;
+use crate::manipulator::Inputs;
+
+const MM_PER_M: f64 = 1e3;
+const MT_PER_T: f64 = 1e3;
+const PA_PER_MPA: f64 = 1e6;
+
+/// Where the magnet stands when no position is given: below the manipulator's middle, its axis this far away, m.
+const MAGNET_DISTANCE: f64 = 0.12;
+
+fn beside(design: &Design) -> [f64; 3] {
+    [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
+}
+
+impl SceneFile {
+    /// The scene in SI units.
+    ///
+    /// # Errors
+    /// See [`Scene::parse`].
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let specification = self.design.specification()?;
+        let inputs = self.inputs(&Design::new(specification.clone())?)?;
+        let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
+        Ok(Scene { specification, magnets, inputs, settings: self.settings()? })
+    }
+
+    /// Writes down what `key` names if it was left out because it follows from the design.
+    pub(super) fn complete_for(&mut self, key: &str) -> Result<(), Error> {
+        let design = || Design::new(self.design.specification()?);
+        if key.starts_with("load.ring_force_n") && self.load.ring_force_n.is_none() {
+            self.load.ring_force_n = Some(vec![[0.0; 3]; design()?.rings().count()]);
+        } else if let Some(magnet) = self.magnet.as_mut().filter(|m| m.position_mm.is_none())
+            && key.starts_with("magnet.position_mm")
+        {
+            magnet.position_mm = Some(beside(&design()?).map(|x| x * MM_PER_M));
+        }
+        Ok(())
+    }
+
+    fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
+        let rings = design.rings().count();
+        let mut inputs = Inputs::unloaded(rings);
+        if let Some(MagnetTable { position_mm, orientation_wxyz, strength, .. }) = self.magnet {
+            let position = position_mm.map_or(beside(design), |position| position.map(|x| x / MM_PER_M));
+            inputs.magnet = Pose::new(position, orientation_wxyz)?;
+            inputs.magnet_strength = strength;
+        }
+        inputs.uniform_field = self.field.uniform_mt.map(|b| b / MT_PER_T).into();
+        inputs.field_gradient = self.field.gradient_t_per_m;
+        inputs.base = Pose::new(self.base.position_mm.map(|x| x / MM_PER_M), self.base.orientation_wxyz)?;
+        inputs.tip_force = self.load.tip_force_n.into();
+        inputs.tip_moment = self.load.tip_moment_nm.into();
+        inputs.gravity = self.gravity.acceleration_m_s2.into();
+        if let Some(forces) = &self.load.ring_force_n {
+            if forces.len() != rings {
+                return Err(Error::Count {
+                    quantity: "load.ring_force_n".into(),
+                    given: forces.len(),
+                    expected: format!("{rings}, one for each ring of the design"),
+                });
+            }
+            inputs.ring_forces = forces.iter().map(|&force| force.into()).collect();
+        }
+        Ok(inputs)
+    }
+
+    fn settings(&self) -> Result<Settings, Error> {
+        if self.model.bending_stop {
+            return Err(Error::Unsupported(
+                "model.bending_stop = true is not available in this version: leave it out or set it to false"
+                    .into(),
+            ));
+        }
+        let interaction = match self.model.interaction {
+            InteractionName::None => Interaction::None,
+            InteractionName::Preceding => Interaction::Preceding,
+            InteractionName::Rings => Interaction::Rings,
+            InteractionName::Full => return Err(unavailable("full")),
+            InteractionName::Auto => return Err(unavailable("auto")),
+        };
+        Ok(Settings { interaction, ..Settings::default() })
+    }
+}
+
+fn unavailable(level: &str) -> Error {
+    Error::Unsupported(format!(
+        "model.interaction = \"{level}\" is not available in this version: choose none, preceding or rings"
+    ))
+}
+
+impl DesignTable {
+    const SEGMENTS: usize = 9;
+
+    /// Fills in what does not depend on other entries.
+    pub(super) fn complete(&mut self) {
+        if self.kind == Kind::Segments {
+            self.segments.get_or_insert(Self::SEGMENTS);
+            self.base_magnet.get_or_insert(true);
+            self.tip_magnet.get_or_insert(true);
+            self.spiral.get_or_insert(SpiralName::Helical);
+            self.helix.get_or_insert_default();
+            self.ring.get_or_insert_default();
+        } else {
+            self.inner_radius_mm.get_or_insert(0.0);
+        }
+    }
+
+    fn specification(&self) -> Result<Specification, Error> {
+        self.refuse_keys_of_other_kind()?;
+        Ok(match self.kind {
+            Kind::Segments => Specification::Segmented(Segmented {
+                segments: self.segments.unwrap_or(Self::SEGMENTS),
+                base_magnet: self.base_magnet.unwrap_or(true),
+                tip_magnet: self.tip_magnet.unwrap_or(true),
+                spiral: match self.spiral {
+                    Some(SpiralName::Axisymmetric) => SpiralKind::Axisymmetric,
+                    Some(SpiralName::Helical) | None => SpiralKind::Helical,
+                },
+                helix: self.helix.unwrap_or_default().si(),
+                ring: self.ring.unwrap_or_default().si(),
+                backbone: self.backbone.map(BackboneTable::si).transpose()?,
+            }),
+            Kind::Cylinder => Specification::Cylinder(Cylinder {
+                length: required("design.length_mm", self.length_mm)? / MM_PER_M,
+                radius: required("design.radius_mm", self.radius_mm)? / MM_PER_M,
+                inner_radius: self.inner_radius_mm.unwrap_or(0.0) / MM_PER_M,
+                material: self.cylinder_material()?,
+                density: self.density_kg_m3,
+            }),
+        })
+    }
+
+    /// A composite as in Table 1 unless said, or a bulk material when its modulus or remanence is given directly.
+    fn cylinder_material(&self) -> Result<CylinderMaterial, Error> {
+        let table_1 = HelixTable::default();
+        let poisson = self.poisson.unwrap_or(table_1.poisson);
+        if self.elastic_modulus_mpa.is_none() && self.remanence_t.is_none() {
+            return Ok(CylinderMaterial::Composite {
+                shore_a: self.shore_a.unwrap_or(table_1.shore_a),
+                poisson,
+                volume_fraction: self.volume_fraction.unwrap_or(table_1.volume_fraction),
+                particle_remanence: self.particle_remanence_t.unwrap_or(table_1.particle_remanence_t),
+            });
+        }
+        let composite = [
+            ("shore_a", self.shore_a.is_some()),
+            ("volume_fraction", self.volume_fraction.is_some()),
+            ("particle_remanence_t", self.particle_remanence_t.is_some()),
+        ];
+        refuse(
+            &composite,
+            "has no meaning beside elastic_modulus_mpa and remanence_t: give one or the other",
+        )?;
+        Ok(CylinderMaterial::Bulk {
+            elastic_modulus: required("design.elastic_modulus_mpa", self.elastic_modulus_mpa)? * PA_PER_MPA,
+            poisson,
+            remanence: required("design.remanence_t", self.remanence_t)?,
+        })
+    }
+
+    fn refuse_keys_of_other_kind(&self) -> Result<(), Error> {
+        let of_segments = [
+            ("segments", self.segments.is_some()),
+            ("base_magnet", self.base_magnet.is_some()),
+            ("tip_magnet", self.tip_magnet.is_some()),
+            ("spiral", self.spiral.is_some()),
+            ("helix", self.helix.is_some()),
+            ("ring", self.ring.is_some()),
+            ("backbone", self.backbone.is_some()),
+        ];
+        let of_cylinder = [
+            ("length_mm", self.length_mm.is_some()),
+            ("radius_mm", self.radius_mm.is_some()),
+            ("inner_radius_mm", self.inner_radius_mm.is_some()),
+            ("shore_a", self.shore_a.is_some()),
+            ("elastic_modulus_mpa", self.elastic_modulus_mpa.is_some()),
+            ("poisson", self.poisson.is_some()),
+            ("volume_fraction", self.volume_fraction.is_some()),
+            ("particle_remanence_t", self.particle_remanence_t.is_some()),
+            ("remanence_t", self.remanence_t.is_some()),
+            ("density_kg_m3", self.density_kg_m3.is_some()),
+        ];
+        match self.kind {
+            Kind::Segments => refuse(
+                &of_cylinder,
+                "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
+            ),
+            Kind::Cylinder => refuse(&of_segments, "belongs to kind = \"segments\""),
+        }
+    }
+}
+
+fn refuse(keys: &[(&str, bool)], reason: &str) -> Result<(), Error> {
+    match keys.iter().find(|(_, present)| *present) {
+        Some((key, _)) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
+        None => Ok(()),
+    }
+}
+
+fn required(key: &str, value: Option<f64>) -> Result<f64, Error> {
+    value.ok_or_else(|| Error::Unsupported(format!("{key} is missing")))
+}
+
+impl HelixTable {
+    fn si(self) -> Helix {
+        Helix {
+            length: self.length_mm / MM_PER_M,
+            boundary_angle: self.boundary_angle_deg.to_radians(),
+            radius: self.radius_mm / MM_PER_M,
+            windings: self.windings,
+            core_outer_radius: self.core_outer_radius_mm / MM_PER_M,
+            core_inner_radius: self.core_inner_radius_mm / MM_PER_M,
+            shore_a: self.shore_a,
+            poisson: self.poisson,
+            volume_fraction: self.volume_fraction,
+            particle_remanence: self.particle_remanence_t,
+            density: self.density_kg_m3,
+        }
+    }
+}
+
+impl RingTable {
+    fn si(self) -> RingMagnet {
+        RingMagnet {
+            length: self.length_mm / MM_PER_M,
+            remanence: self.remanence_t,
+            density: self.density_kg_m3,
+        }
+    }
+}
+
+impl BackboneTable {
+    fn si(self) -> Result<Backbone, Error> {
+        let modulus = match (self.shore_a, self.elastic_modulus_mpa) {
+            (Some(hardness), None) => Modulus::ShoreA(hardness),
+            (None, Some(modulus)) => Modulus::Elastic(modulus * PA_PER_MPA),
+            _ => {
+                return Err(Error::Unsupported(
+                    "design.backbone needs either shore_a or elastic_modulus_mpa, and not both".into(),
+                ));
+            }
+        };
+        Ok(Backbone {
+            outer_radius: self.outer_radius_mm / MM_PER_M,
+            inner_radius: self.inner_radius_mm / MM_PER_M,
+            modulus,
+            poisson: self.poisson,
+            density: self.density_kg_m3,
+        })
+    }
+}
+
+impl MagnetCylinder {
+    fn si(&self) -> AxialMagnet {
+        AxialMagnet {
+            radius: self.radius_mm / MM_PER_M,
+            inner_radius: self.inner_radius_mm / MM_PER_M,
+            length: self.length_mm / MM_PER_M,
+            offset: self.offset_mm / MM_PER_M,
+            remanence: self.remanence_t,
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! `mcm field`.
+#![allow(clippy::float_cmp, reason = "files must carry every bit")]
+
+use mcm::magnetics::AxialSource;
+use nalgebra::Vector3;
+
+use super::{assert_status, folder, mcm, stderr, table};
+
+fn run(test: &str, scene: &str, points: &str, more: &[&str]) -> (std::path::PathBuf, std::process::Output) {
+    let here = folder(test);
+    std::fs::write(here.join("scene.toml"), scene).unwrap();
+    std::fs::write(here.join("points.csv"), points).unwrap();
+    let arguments = [&["field", "scene.toml", "--at", "points.csv", "--out", "field.csv"], more].concat();
+    let output = mcm(&here, &arguments);
+    (here, output)
+}
+
+#[test]
+fn ring_field_carries_every_bit() {
+    let points = "# a comment\nx_m, y_m, z_m\n1e-3, 2e-3, 3e-3\n-1e-3,0,2.5e-3\n";
+    let (here, output) = run("ring", "", points, &["--ring"]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("field.csv"));
+    assert_eq!(rows.len(), 2);
+    let ring = AxialSource::new(0.75e-3, 2e-3, 1e-3, 1.35).unwrap();
+    let (field, gradient) = ring.field_gradient(&Vector3::new(1e-3, 2e-3, 3e-3)).unwrap();
+    let number = |key: &str| rows[0][key].parse::<f64>().unwrap();
+    assert_eq!([number("x_m"), number("y_m"), number("z_m")], [1e-3, 2e-3, 3e-3]);
+    for (i, row) in ["x", "y", "z"].iter().enumerate() {
+        assert_eq!(number(&format!("B{row}_t")), field[i]);
+        for (j, column) in ["x", "y", "z"].iter().enumerate() {
+            assert_eq!(number(&format!("dB{row}_d{column}_t_per_m")), gradient[(i, j)]);
+        }
+    }
+}
+
+#[test]
+fn external_field_adds_up_in_the_world_frame() {
+    let scene = "[field]\nuniform_mt = [1, 2, 3]\ngradient_t_per_m = [1, 2, 3, 4, 5]\n\
+                 [magnet]\nposition_mm = [0, -120, 0]\norientation_wxyz = [0, 1, 0, 0]\nstrength = 0.5";
+    let (here, output) = run("external", scene, "x_m,y_m,z_m\n0,0,0.01\n0,0,-0.01\n", &[]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("field.csv"));
+    let mean = |key: &str| rows.iter().map(|row| row[key].parse::<f64>().unwrap()).sum::<f64>() / 2.0;
+    // The linear field is odd in z. Beside the magnet, whose axis points along -z, its field points along +z.
+    assert!((mean("Bx_t") - 1e-3).abs() < 1e-15 && (mean("By_t") - 2e-3).abs() < 1e-12);
+    assert!(mean("Bz_t") > 4e-3, "{}", mean("Bz_t"));
+    let trace = mean("dBx_dx_t_per_m") + mean("dBy_dy_t_per_m") + mean("dBz_dz_t_per_m");
+    assert!(trace.abs() < 1e-14, "{trace}");
+    for (a, b) in [("dBx_dy", "dBy_dx"), ("dBx_dz", "dBz_dx"), ("dBy_dz", "dBz_dy")] {
+        let difference = mean(&format!("{a}_t_per_m")) - mean(&format!("{b}_t_per_m"));
+        assert!(difference.abs() < 1e-13, "curl {difference}");
+    }
+}
+
+#[test]
+fn bad_points_are_refused_with_their_line() {
+    for (points, expected) in [
+        ("x_m,y_m,z_m\n0,0,0.01\n0.002,0,0.0005\n", "points.csv, line 3: the field at"),
+        ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is no number"),
+        ("x_m,y_m,z_m\n0,nan,0.01\n", "points.csv, line 2: "),
+        ("x,y,z\n0,0,0.01\n", "points.csv has no column x_m; it has x, y, z"),
+        ("x_m,y_m,z_m\n0,0\n", "line: 2"),
+    ] {
+        let (_, output) = run("bad", "", points, &["--ring"]);
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{points}: {}", stderr(&output));
+    }
+    let rod = "[design]\nkind = \"cylinder\"\nlength_mm = 40\nradius_mm = 2";
+    let (_, output) = run("no_ring", rod, "x_m,y_m,z_m\n0,0,0\n", &["--ring"]);
+    assert_status(&output, 1);
+    assert!(stderr(&output).contains("has no ring"));
+}

@@ -1,0 +1,56 @@
+//! `mcm sweep`.
+
+use super::{assert_status, stderr, table, with_scene};
+
+const SCENE: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
+
+#[test]
+fn first_key_is_followed_for_every_other() {
+    let arguments = [
+        "sweep",
+        "scene.toml",
+        "--vary",
+        "field.uniform_mt[2]=0:20:5",
+        "--vary",
+        "design.helix.length_mm=3.5:4.0:2",
+        "--out",
+        "sweep.csv",
+    ];
+    let (here, output) = with_scene("sweep", SCENE, &arguments);
+    assert_status(&output, 0);
+    assert_eq!(stderr(&output), "", "no progress bar without a terminal");
+    let rows = table(&here.join("sweep.csv"));
+    assert_eq!(rows.len(), 10);
+    let number = |row: usize, key: &str| rows[row][key].parse::<f64>().unwrap();
+    for (row, cells) in rows.iter().enumerate() {
+        let expected = 5.0 * (row % 5) as f64;
+        assert!((number(row, "field.uniform_mt[2]") - expected).abs() < 1e-12);
+        assert_eq!(cells["converged"], "true");
+        assert_eq!(cells["stable"], "true");
+        assert_eq!(cells["snaps"], "0");
+    }
+    assert!((number(9, "design.helix.length_mm") - 4.0).abs() < 1e-12);
+    assert!(number(0, "alpha_deg").abs() < 1e-6);
+    assert!((number(9, "alpha_deg") - 30.50).abs() < 0.01);
+    assert!(number(1, "alpha_deg") < number(2, "alpha_deg"));
+    assert!(number(9, "tip_y_mm") > 0.0 && number(9, "base_reaction_moment_x_nm") > 0.0);
+}
+
+#[test]
+fn bad_ranges_are_refused() {
+    for (vary, expected) in [
+        ("field.uniform_mt[2]", "not of the form"),
+        ("field.uniform_mt[2]=0:1", "not of the form"),
+        ("field.uniform_mt[2]=0:x:2", "\"x\" is no finite number"),
+        ("field.uniform_mt[2]=0:1:0", "COUNT = 0"),
+        ("field.unifrom_mt[2]=0:1:2", "did you mean `uniform_mt`?"),
+        ("field.uniform_mt[4]=0:1:2", "indices go from 1 to 3"),
+        ("design.helix.windings=-1:1:2", "windings"),
+    ] {
+        let arguments = ["sweep", "scene.toml", "--vary", vary, "--out", "sweep.csv"];
+        let (here, output) = with_scene("ranges", SCENE, &arguments);
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{vary}: {}", stderr(&output));
+        assert!(!here.join("sweep.csv").exists(), "nothing is written for bad input");
+    }
+}

@@ -1,0 +1,206 @@
+//! The scene file: units, defaults, refusals.
+#![allow(clippy::float_cmp, reason = "what a file states arrives unrounded")]
+
+use mcm::design::{CylinderMaterial, Modulus, Specification, SpiralKind};
+use mcm::equilibrium::Interaction;
+use mcm::manipulator::{Scene, SceneFile};
+use proptest::prelude::*;
+
+fn refusal(text: &str) -> String {
+    Scene::parse(text, "test").expect_err(text).to_string()
+}
+
+#[test]
+fn example_of_the_documentation_is_read_in_si() {
+    let scene = Scene::parse(
+        r#"
+        [design]
+        segments = 3
+        tip_magnet = false
+        spiral = "axisymmetric"
+        [design.helix]
+        length_mm = 5
+        boundary_angle_deg = 90.0
+        [design.backbone]
+        outer_radius_mm = 0.75
+        inner_radius_mm = 0.25
+        shore_a = 50.0
+        poisson = 0.49
+        [field]
+        uniform_mt = [1.0, 20.0, 0]
+        gradient_t_per_m = [1, 2, 3, 4, 5]
+        [magnet]
+        position_mm = [0.0, -100.0, 25.0]
+        cylinders = [{ radius_mm = 10, length_mm = 20, remanence_t = 1.2 }]
+        [load]
+        tip_force_n = [0.001, 0, 0]
+        ring_force_n = [[0, 0, 0], [0, 0, 0.5], [0, 0, 0]]
+        [gravity]
+        acceleration_m_s2 = [0, 0, -9.81]
+        [model]
+        interaction = "none"
+        method = "potential"
+        bending_stop = false
+        "#,
+        "test",
+    )
+    .unwrap();
+    let Specification::Segmented(design) = &scene.specification else { panic!("not segmented") };
+    assert_eq!((design.segments, design.base_magnet, design.tip_magnet), (3, true, false));
+    assert_eq!(design.spiral, SpiralKind::Axisymmetric);
+    assert_eq!(design.helix.length, 5e-3);
+    assert_eq!(design.helix.boundary_angle, core::f64::consts::FRAC_PI_2);
+    assert_eq!(design.helix.radius, 2e-3); // Table 1, not stated
+    assert_eq!(design.backbone.unwrap().modulus, Modulus::ShoreA(50.0));
+    assert_eq!(scene.inputs.uniform_field.as_slice(), [0.001, 0.02, 0.0]);
+    assert_eq!(scene.inputs.field_gradient, [1.0, 2.0, 3.0, 4.0, 5.0]);
+    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.1, 0.025]);
+    assert_eq!(scene.inputs.magnet_strength, 1.0);
+    assert_eq!(scene.inputs.ring_forces[1].z, 0.5);
+    assert_eq!(scene.inputs.gravity.z, -9.81);
+    let magnets = scene.magnets.unwrap();
+    assert_eq!((magnets.len(), magnets[0].radius, magnets[0].offset), (1, 0.01, 0.0));
+    assert_eq!(scene.settings.interaction, Interaction::None);
+}
+
+#[test]
+fn empty_scene_is_table_1_with_nine_segments_unloaded() {
+    let scene = Scene::parse("", "test").unwrap();
+    assert_eq!(scene.specification, Specification::paper(9));
+    assert_eq!(scene.inputs, mcm::manipulator::Inputs::unloaded(10));
+    assert_eq!(scene.magnets, None);
+    assert_eq!(scene.settings.interaction, Interaction::Rings);
+}
+
+#[test]
+fn magnet_without_position_stands_below_the_middle() {
+    let scene = Scene::parse("[magnet]", "test").unwrap();
+    let length = scene.design().unwrap().length();
+    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.12, length / 2.0]);
+    assert_eq!(scene.inputs.magnet.axis().as_slice(), [0.0, 0.0, -1.0]);
+    assert_eq!(scene.magnets.unwrap().len(), 2);
+}
+
+#[test]
+fn plain_cylinder_of_composite_or_bulk() {
+    let composite = Scene::parse(
+        "[design]\nkind = \"cylinder\"\nlength_mm = 40\nradius_mm = 2\nvolume_fraction = 0.2",
+        "test",
+    );
+    let Specification::Cylinder(rod) = composite.unwrap().specification else { panic!("not a cylinder") };
+    assert_eq!((rod.length, rod.radius, rod.inner_radius), (0.04, 0.002, 0.0));
+    let CylinderMaterial::Composite { shore_a, volume_fraction, .. } = rod.material else {
+        panic!("not a composite")
+    };
+    assert_eq!((shore_a, volume_fraction), (33.0, 0.2));
+
+    let bulk = Scene::parse(
+        "[design]\nkind = \"cylinder\"\nlength_mm = 40\nradius_mm = 2\nelastic_modulus_mpa = 1.5\nremanence_t = 0.1",
+        "test",
+    );
+    let Specification::Cylinder(rod) = bulk.unwrap().specification else { panic!("not a cylinder") };
+    assert_eq!(rod.material, CylinderMaterial::Bulk { elastic_modulus: 1.5e6, poisson: 0.4, remanence: 0.1 });
+}
+
+#[test]
+fn refusals_name_line_path_and_remedy() {
+    for (text, expected) in [
+        ("[desing]", "test, line 1: unknown key `desing`; did you mean `design`?"),
+        (
+            "[design]\n\n[design.helix]\nlenght_mm = 4.0",
+            "test, line 4: unknown key `design.helix.lenght_mm`; did you mean `length_mm`?",
+        ),
+        (
+            "[magnet]\ncylinders = [{ radius_mm = 1, length_mm = 1, remanence_t = 1, remanense = 2 }]",
+            "test, line 2: unknown key `magnet.cylinders[1].remanense`; did you mean `remanence_t`?",
+        ),
+        ("[gravity]\nx = 1", "test, line 2: unknown key `gravity.x`; known here: acceleration_m_s2"),
+        (
+            "[field]\nuniform_mt = [1, 2]",
+            "test, line 2: `field.uniform_mt`: invalid length 2, expected an array of length 3",
+        ),
+        (
+            "[field]\nuniform_mt = \"strong\"",
+            "test, line 2: `field.uniform_mt`: invalid type: string \"strong\", expected an array of length 3",
+        ),
+        ("[field]\nuniform_mt = [0, nan, 0]", "field.uniform_mt[2] = NaN is not allowed: it must be finite"),
+        ("[load]\ntip_force_n = [0, 0, inf]", "load.tip_force_n[3] = inf is not allowed: it must be finite"),
+        (
+            "[base]\norientation_wxyz = [0, 0, 0, 0]",
+            "norm of the orientation quaternion = 0 is not allowed: it must be 1 within 1e-3",
+        ),
+        (
+            "[load]\nring_force_n = [[0, 0, 1]]",
+            "load.ring_force_n has 1 entries, expected 10, one for each ring of the design",
+        ),
+        (
+            "[model]\ninteraction = \"full\"",
+            "model.interaction = \"full\" is not available in this version: choose none, preceding or rings",
+        ),
+        (
+            "[model]\nmethod = \"shooting\"",
+            "test, line 2: `model.method`: unknown variant `shooting`, expected `potential`",
+        ),
+        (
+            "[model]\nbending_stop = true",
+            "model.bending_stop = true is not available in this version: leave it out or set it to false",
+        ),
+        (
+            "[design]\nlength_mm = 4",
+            "design.length_mm belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and \
+             design.ring",
+        ),
+        ("[design]\nkind = \"cylinder\"\nsegments = 2", "design.segments belongs to kind = \"segments\""),
+        ("[design]\nkind = \"cylinder\"", "design.length_mm is missing"),
+        (
+            "[design]\nsegments = 2000000000",
+            "number of segments = 2000000000 is not allowed: it must be from 1 to 64",
+        ),
+    ] {
+        assert_eq!(refusal(text), expected, "{text}");
+    }
+    assert!(refusal("[field").contains("line 1"));
+    assert!(refusal("[field]\n[field]").contains("line 2"));
+}
+
+#[test]
+fn one_number_is_replaced_by_its_path() {
+    let file = SceneFile::parse("[magnet]\nposition_mm = [1, 2, 3]", "test").unwrap();
+    let moved = file.with("magnet.position_mm[2]", -90.0).unwrap().scene().unwrap();
+    assert_eq!(moved.inputs.magnet.position.as_slice(), [0.001, -0.09, 0.003]);
+    let shorter = file.with("design.segments", 4.0).unwrap();
+    assert_eq!(shorter.scene().unwrap().inputs.ring_forces.len(), 5);
+    let force = file.with("load.ring_force_n[10][3]", 0.5).unwrap().scene().unwrap();
+    assert_eq!(force.inputs.ring_forces[9].z, 0.5);
+    for (key, value, expected) in [
+        ("field.uniform_mt", 1.0, "`field.uniform_mt` holds no number"),
+        ("field.uniform", 1.0, "unknown key `field.uniform`; did you mean `uniform_mt`?"),
+        ("field.uniform_mt[0]", 1.0, "no entry `field.uniform_mt[0]`: indices go from 1 to 3 there"),
+        ("field.uniform_mt[4]", 1.0, "no entry `field.uniform_mt[4]`: indices go from 1 to 3 there"),
+        ("magnet.strength.x", 1.0, "unknown key `magnet.strength.x`: `x` is not in a table"),
+        ("design.segments", 1.5, "design.segments = 1.5 is not allowed: it must be a whole number"),
+        ("magnet.strength", f64::NAN, "magnet.strength = NaN is not allowed: it must be finite"),
+    ] {
+        assert_eq!(file.with(key, value).unwrap_err().to_string(), expected);
+    }
+}
+
+proptest! {
+    /// Writing a scene and reading it again changes no bit.
+    #[test]
+    fn written_text_reads_back_the_same(
+        field in proptest::array::uniform3(-1e3..1e3f64),
+        position in proptest::array::uniform3(-1e3..1e3f64),
+        length in 3.0..1e3f64,
+        segments in 1usize..12,
+    ) {
+        let text = format!(
+            "[design]\nsegments = {segments}\n[design.helix]\nlength_mm = {length:?}\n\
+             [field]\nuniform_mt = {field:?}\n[magnet]\nposition_mm = {position:?}\n"
+        );
+        let file = SceneFile::parse(&text, "test").unwrap();
+        let again = SceneFile::parse(&file.to_toml().unwrap(), "again").unwrap();
+        prop_assert_eq!(&file, &again);
+        prop_assert_eq!(file.scene().unwrap(), again.scene().unwrap());
+    }
+}
