@@ -1,1 +1,68 @@
 //! Every tolerance of the tests, each with its reason. Relative to the size of the value unless said.
+
+use core::fmt::Debug;
+
+/// Field of the closed forms: the difference of two ends loses `eps (r/a)^2 (r/h)`, 3e-13 at six extents (reached: 2e-13).
+pub(crate) const FIELD: f64 = 5e-12;
+
+/// Gradient and second derivative of the closed forms (reached: 3e-13).
+pub(crate) const DERIVATIVES: f64 = 1e-12;
+
+/// The same closer than 10 um to an edge, where one rounding of a coordinate alone moves them by up to 3.5e-12.
+pub(crate) const DERIVATIVES_NEAR_EDGE: f64 = 1e-11;
+
+/// Gradient at a source's centre, where it is zero, T/m: rounding of 1 T over the smallest dimension, 1 mm.
+pub(crate) const ZERO_GRADIENT: f64 = 1e-11;
+
+/// Wrench between two rings, asked for with [`WRENCH_ACCURACY`] (reached: 2e-12).
+pub(crate) const WRENCH: f64 = 1e-8;
+
+/// Accuracy that the wrench is asked for: tenfold inside [`WRENCH`], as the estimate is only an estimate.
+pub(crate) const WRENCH_ACCURACY: f64 = 1e-9;
+
+/// Central differences with a step of 1e-4 of the size: truncation 1e-8 times a constant of the curvature near a magnet.
+pub(crate) const DIFFERENCE: f64 = 2e-6;
+
+/// Identities that hold in exact arithmetic between results that are each good to [`DERIVATIVES`].
+pub(crate) const IDENTITY: f64 = 1e-11;
+
+/// Numbers of the paper, printed with four or five digits.
+pub(crate) const PRINTED: f64 = 1.5e-4;
+
+/// A few operations in floating point.
+pub(crate) const ROUNDING: f64 = 1e-14;
+
+/// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
+pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
+    got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)
+}
+
+/// Stops unless `got` [`is_close`] to `expected`; says which case it was.
+#[track_caller]
+pub(crate) fn assert_close(case: impl Debug, got: &[f64], expected: &[f64], tolerance: f64) {
+    let error = distance(got, expected) / norm(expected);
+    assert!(
+        is_close(got, expected, tolerance),
+        "{case:?}: got {got:?}, expected {expected:?}: relative error {error:e} > {tolerance:e}"
+    );
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+fn distance(got: &[f64], expected: &[f64]) -> f64 {
+    got.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
+#[test]
+fn the_comparison_sees_what_it_must() {
+    assert!(is_close(&[1.0, 2.0], &[1.0, 2.0 + 1e-13], 1e-12));
+    assert!(!is_close(&[1.0, 2.0], &[1.0, 2.1], 1e-2), "a wrong digit");
+    assert!(!is_close(&[-1.0, -2.0], &[1.0, 2.0], 1e-2), "a wrong sign");
+    assert!(!is_close(&[f64::NAN, 2.0], &[1.0, 2.0], 1e-2), "NaN in the result");
+    assert!(!is_close(&[1.0, 2.0], &[f64::NAN, 2.0], 1e-2), "NaN in the reference");
+    assert!(!is_close(&[f64::INFINITY, 2.0], &[1.0, 2.0], 1e-2), "infinity");
+    assert!(!is_close(&[1.0], &[1.0, 2.0], 1e-2), "a missing entry");
+    assert!(!is_close(&[1e-30], &[0.0], 1e-2), "zero has no size to be relative to");
+}

@@ -97,6 +97,6 @@ impl Chain {
 
     /// Norm of a change that turns one element's end by a radian: the unit of steps and residuals.
     pub(super) fn unit(&self) -> f64 {
-        self.metric.iter().step_by(6).copied().fold(0.0, f64::max).sqrt()
+        self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
 }

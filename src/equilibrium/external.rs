@@ -93,7 +93,7 @@ impl<'a> ExternalField<'a> {
             load.couple = field * axis.transpose() * -moment;
             return Some(load);
         }
-        let moment = station.magnetisation * station.material.volume / 3.0;
+        let moment = station.magnetisation * station.material.volume / 4.0;
         for point in station.material.points() {
             let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
             let (field, gradient, along) = self.along(&(pose.position + arm), &axis)?;

@@ -19,11 +19,11 @@ pub enum Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 4.
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 3.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-8.
+    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-6.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
     pub tolerance: f64,
@@ -41,9 +41,9 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
-            degree: 4,
+            degree: 3,
             cylinder_elements: 8,
-            pair_accuracy: 1e-8,
+            pair_accuracy: 1e-6,
             tolerance: 1e-11,
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,

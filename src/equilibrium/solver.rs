@@ -72,7 +72,7 @@ impl Equilibrium {
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain));
+        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain, settings.pair_accuracy));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
@@ -121,6 +121,12 @@ impl Equilibrium {
         &self.branch.unknowns
     }
 
+    /// Diagonal elastic stiffness `K` by the unknowns, about the straight shape.
+    #[must_use]
+    pub fn metric(&self) -> &[f64] {
+        &self.chain.metric
+    }
+
     /// Energy (J) and its gradient by the unknowns at any shape; `None` where bodies touch.
     pub fn gradient(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<(f64, Vec<f64>)> {
         let mut potential = self.potential(inputs, unknowns);
@@ -147,7 +153,7 @@ impl Equilibrium {
 
     fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
-        self.rules.choose(&self.chain, &self.work.nodes, self.settings.pair_accuracy);
+        self.rules.choose(&self.chain, &self.work.nodes);
         Potential {
             chain: &self.chain,
             settings: &self.settings,
@@ -238,7 +244,7 @@ impl Equilibrium {
         for (index, body) in self.chain.rings.iter().enumerate() {
             let node = &self.work.nodes[body.node];
             let reach = field.distance(&node.advanced(0.5 * body.ring.length).position);
-            let rule = self.rules.external(index, &body.ring, reach, self.settings.pair_accuracy);
+            let rule = self.rules.external(index, reach);
             add(field.on_ring(body, node, rule), &node.position);
         }
         for (k, element) in self.chain.elements.iter().enumerate() {

@@ -139,7 +139,7 @@ impl Assembly {
     }
 
     /// The sources with their centres.
-    fn placed(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
+    pub(super) fn placed(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         self.sources.iter().zip(&self.magnets).map(|(source, m)| (source, Vector3::new(0.0, 0.0, m.offset)))
     }
 }

@@ -10,6 +10,20 @@ use nalgebra::{Matrix3, Vector3};
 pub struct FieldHessian(pub [f64; 10]);
 
 impl FieldHessian {
+    /// The indices `i <= j <= k` of the ten entries.
+    pub const INDICES: [[usize; 3]; 10] = [
+        [0, 0, 0],
+        [0, 0, 1],
+        [0, 0, 2],
+        [0, 1, 1],
+        [0, 1, 2],
+        [0, 2, 2],
+        [1, 1, 1],
+        [1, 1, 2],
+        [1, 2, 2],
+        [2, 2, 2],
+    ];
+
     /// Entry `d2B_i / dx_j dx_k`, indices 0 to 2 in any order.
     ///
     /// ```

@@ -1,24 +1,48 @@
-//! Temporary.
-use super::Jet;
+//! A uniform field, or one that varies linearly in space.
+
 use nalgebra::{Matrix3, Vector3};
-/// Linear field.
-#[derive(Debug, Clone, Copy)]
+
+use super::jet::{FieldHessian, Jet};
+
+/// `B(x) = B_0 + G x` with a symmetric, traceless `G`: free of curl and divergence.
+///
+/// ```
+/// use mcm::magnetics::LinearField;
+/// use nalgebra::Vector3;
+/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, 0.25, 0.0]);
+/// assert_eq!(field.at(&Vector3::new(0.1, 0.1, 0.1)), Vector3::new(0.05, 0.045, -0.075));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearField {
-    field: Vector3<f64>,
+    origin: Vector3<f64>,
     gradient: Matrix3<f64>,
 }
+
 impl LinearField {
-    /// New.
+    /// From the field at the origin (T) and `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` (T/m).
+    ///
+    /// A plain value, not checked: whoever reads inputs refuses NaN.
     #[must_use]
-    pub fn new(field: Vector3<f64>, g: [f64; 5]) -> Self {
-        Self { field, gradient: Matrix3::new(g[0], g[1], g[2], g[1], g[3], g[4], g[2], g[4], -g[0] - g[3]) }
+    pub fn new(origin: Vector3<f64>, gradient: [f64; 5]) -> Self {
+        let [xx, xy, xz, yy, yz] = gradient;
+        Self { origin, gradient: Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy) }
     }
-    /// Jet.
+
+    /// The field at a point (m), T.
     #[must_use]
-    pub fn jet(&self, p: &Vector3<f64>) -> Jet {
-        let mut j = Jet::zero();
-        j.field = self.field + self.gradient * p;
-        j.gradient = self.gradient;
-        j
+    pub fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.origin + self.gradient * point
+    }
+
+    /// The gradient `dB_i/dx_j`, T/m, everywhere the same.
+    #[must_use]
+    pub fn gradient(&self) -> Matrix3<f64> {
+        self.gradient
+    }
+
+    /// The field with its derivatives at a point (m).
+    #[must_use]
+    pub fn jet(&self, point: &Vector3<f64>) -> Jet {
+        Jet { field: self.at(point), gradient: self.gradient, hessian: FieldHessian::default() }
     }
 }

@@ -1,100 +1,135 @@
-//! Strain modes of an element: the stress resultant is a polynomial in arc length, the strain that polynomial
-//! times the local compliance.
+//! Strain modes of an element: a stress resultant times the local compliance.
 //!
-//! One element spans a whole segment, stiff discs and soft core alike. Legendre polynomials generalised to the
-//! compliance as weight make the modes orthogonal in the elastic energy, and all but the first leave the
-//! element's ends where they are.
+//! One element spans a whole segment, stiff discs and soft core alike. Along the core the resultant is a
+//! Legendre polynomial; along a disc it keeps the value at the core's end, and may vary linearly where a
+//! distributed couple makes it. Orthogonal in the elastic energy, all modes but the first leave the element's
+//! ends where they are.
 
 use crate::numerics::quadrature::gauss_legendre;
 
-/// A piecewise constant compliance along an element.
-#[derive(Debug, Clone)]
-pub(super) struct Compliance {
-    /// Length (m) and compliance of each piece.
-    pub(super) pieces: Vec<(f64, f64)>,
+/// A part of an element with one compliance.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    /// Where it starts, m.
+    pub(super) start: f64,
+    /// Its length, m.
+    pub(super) length: f64,
+    /// Strain per stress resultant.
+    pub(super) compliance: f64,
 }
 
 /// Orthogonal modes `psi_j(s) = compliance(s) pi_j(s) / integral of the compliance`.
 ///
-/// `pi_0 = 1`, so the integral of `psi_0` is one and that of every other mode zero.
+/// `pi_0 = 1`, so the integral of `psi_0` is one and that of every other mode zero; the mean square of every
+/// `pi_j`, weighted by the compliance, is one.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
-    compliance: Compliance,
+    parts: Vec<Part>,
+    core: usize,
+    degree: usize,
+    /// Whether the resultant may vary along the discs.
+    ends_vary: bool,
     total: f64,
-    length: f64,
-    /// `pi_{j+1} = (x - shift_j) pi_j - ratio_j pi_{j-1}` in `x = 2 s / length - 1`, then scaled by `scale_j`.
-    shift: Vec<f64>,
-    ratio: Vec<f64>,
-    scale: Vec<f64>,
-    /// Stiffness of each mode: the integral of `psi_j^2 / compliance`.
-    pub(super) stiffness: Vec<f64>,
+    /// Each mode's coefficients of the raw functions.
+    coefficients: Vec<Vec<f64>>,
 }
 
 impl Modes {
-    /// The first `count` modes (Stieltjes' procedure with exact quadrature).
-    pub(super) fn new(compliance: Compliance, count: usize) -> Self {
-        let length: f64 = compliance.pieces.iter().map(|(piece, _)| piece).sum();
-        let (nodes, weights) = gauss_legendre(count + 1);
-        let mut points = Vec::new();
-        let mut start = 0.0;
-        for &(piece, value) in &compliance.pieces {
-            for (node, weight) in nodes.iter().zip(&weights) {
-                let s = start + 0.5 * piece * (1.0 + node);
-                points.push((2.0 * s / length - 1.0, 0.5 * piece * weight * value));
-            }
-            start += piece;
-        }
-        let total: f64 = points.iter().map(|(_, weight)| weight).sum();
-        let (mut shift, mut ratio, mut norms) = (Vec::new(), Vec::new(), Vec::new());
-        let mut previous = vec![0.0; points.len()];
-        let mut current = vec![1.0; points.len()];
-        for j in 0..count {
-            let norm: f64 = points.iter().zip(&current).map(|((_, w), p)| w * p * p).sum();
-            let mean: f64 = points.iter().zip(&current).map(|((x, w), p)| w * x * p * p).sum();
-            shift.push(mean / norm);
-            ratio.push(if j == 0 { 0.0 } else { norm / norms[j - 1] });
-            norms.push(norm);
-            for ((x, _), (before, now)) in points.iter().zip(previous.iter_mut().zip(&mut current)) {
-                let next = (x - shift[j]) * *now - ratio[j] * *before;
-                *before = *now;
-                *now = next;
-            }
-        }
-        // Scaled like Legendre polynomials, whose squared norm is 1/(2j+1) of the weight's integral.
-        let scale: Vec<f64> =
-            norms.iter().enumerate().map(|(j, norm)| (total / ((2 * j + 1) as f64 * norm)).sqrt()).collect();
-        let stiffness = (0..count).map(|j| 1.0 / ((2 * j + 1) as f64 * total)).collect();
-        Self { compliance, total, length, shift, ratio, scale, stiffness }
+    /// Modes of polynomial degree 0 to `degree` along part `core`.
+    pub(super) fn new(parts: Vec<Part>, core: usize, degree: usize, ends_vary: bool) -> Self {
+        let total = parts.iter().map(|part| part.compliance * part.length).sum();
+        let mut out = Self { parts, core, degree, ends_vary, total, coefficients: Vec::new() };
+        out.orthogonalise();
+        out
     }
 
-    /// Values of all modes at arc length `s` in piece `piece`, 1/m.
-    pub(super) fn values(&self, piece: usize, s: f64) -> Vec<f64> {
-        let x = 2.0 * s / self.length - 1.0;
-        let factor = self.compliance.pieces[piece].1 / self.total;
-        let (mut before, mut now) = (0.0, 1.0);
-        (0..self.scale.len())
-            .map(|j| {
-                let value = factor * self.scale[j] * now;
-                (before, now) = (now, (x - self.shift[j]) * now - self.ratio[j] * before);
-                value
+    /// Number of modes.
+    pub(super) fn count(&self) -> usize {
+        self.coefficients.len()
+    }
+
+    /// Stiffness of each mode: the integral of `psi^2 / compliance`.
+    pub(super) fn stiffness(&self) -> f64 {
+        1.0 / self.total
+    }
+
+    /// Gram-Schmidt, twice for full precision, with exact quadrature.
+    fn orthogonalise(&mut self) {
+        let (nodes, weights) = gauss_legendre(self.degree + 2);
+        let samples: Vec<(Vec<f64>, f64)> = (0..self.parts.len())
+            .flat_map(|index| {
+                let part = self.parts[index];
+                let scale = 0.5 * part.length;
+                nodes
+                    .iter()
+                    .zip(&weights)
+                    .map(|(x, w)| {
+                        (self.raw(index, part.start + scale * (1.0 + x)), scale * w * part.compliance / self.total)
+                    })
+                    .collect::<Vec<_>>()
             })
-            .collect()
+            .collect();
+        let raw_count = samples.first().map_or(0, |(values, _)| values.len());
+        let combine = |coefficients: &[f64], values: &[f64]| -> f64 {
+            coefficients.iter().zip(values).map(|(c, v)| c * v).sum()
+        };
+        for j in 0..raw_count {
+            let mut own = vec![0.0; raw_count];
+            own[j] = 1.0;
+            for earlier in self.coefficients.iter().chain(&self.coefficients) {
+                let along: f64 =
+                    samples.iter().map(|(v, w)| w * combine(&own, v) * combine(earlier, v)).sum();
+                own.iter_mut().zip(earlier).for_each(|(entry, e)| *entry -= along * e);
+            }
+            let square: f64 = samples.iter().map(|(v, w)| w * combine(&own, v).powi(2)).sum();
+            own.iter_mut().for_each(|entry| *entry /= square.sqrt());
+            self.coefficients.push(own);
+        }
     }
 
-    /// Integrals of all modes from 0 to `s` in piece `piece`.
-    pub(super) fn integrals(&self, piece: usize, s: f64) -> Vec<f64> {
-        let (nodes, weights) = gauss_legendre(self.scale.len() + 1);
-        let mut sum = vec![0.0; self.scale.len()];
-        let mut start = 0.0;
-        for (index, &(length, _)) in self.compliance.pieces.iter().enumerate().take(piece + 1) {
-            let reach = if index == piece { s - start } else { length };
+    /// Raw functions at `s` in part `index`: Legendre polynomials clamped to the core, then one slope a disc.
+    fn raw(&self, index: usize, s: f64) -> Vec<f64> {
+        let core = self.parts[self.core];
+        let x = match index.cmp(&self.core) {
+            core::cmp::Ordering::Less => -1.0,
+            core::cmp::Ordering::Greater => 1.0,
+            core::cmp::Ordering::Equal => 2.0 * (s - core.start) / core.length - 1.0,
+        };
+        let mut values = vec![1.0];
+        for j in 1..=self.degree {
+            let (n, last) = (j as f64, values[j - 1]);
+            let before = if j > 1 { values[j - 2] } else { 0.0 };
+            values.push(((2.0 * n - 1.0) * x * last - (n - 1.0) * before) / n);
+        }
+        if self.ends_vary {
+            for (other, part) in self.parts.iter().enumerate().filter(|(other, _)| *other != self.core) {
+                let edge = if other < self.core { part.start + part.length } else { part.start };
+                values.push(if other == index { (s - edge) / part.length } else { 0.0 });
+            }
+        }
+        values
+    }
+
+    /// Values of all modes at arc length `s` in part `index`, 1/m.
+    pub(super) fn values(&self, index: usize, s: f64) -> Vec<f64> {
+        let factor = self.parts[index].compliance / self.total;
+        let raw = self.raw(index, s);
+        let sum = |row: &Vec<f64>| factor * row.iter().zip(&raw).map(|(c, v)| c * v).sum::<f64>();
+        self.coefficients.iter().map(sum).collect()
+    }
+
+    /// Integrals of all modes from 0 to `s` in part `index`.
+    pub(super) fn integrals(&self, index: usize, s: f64) -> Vec<f64> {
+        let (nodes, weights) = gauss_legendre(self.degree / 2 + 2);
+        let mut sum = vec![0.0; self.count()];
+        for (other, part) in self.parts.iter().enumerate().take(index + 1) {
+            let reach = if other == index { s - part.start } else { part.length };
             for (node, weight) in nodes.iter().zip(&weights) {
-                let values = self.values(index, start + 0.5 * reach * (1.0 + node));
+                let values = self.values(other, part.start + 0.5 * reach * (1.0 + node));
                 for (total, value) in sum.iter_mut().zip(values) {
                     *total += 0.5 * reach * weight * value;
                 }
             }
-            start += length;
         }
         sum
     }

@@ -1,12 +1,15 @@
 //! An element: the deformable spans between two nodes, with the tables of its modes and stations.
 
-use super::basis::{Compliance, Modes};
+use super::basis::{Modes, Part};
 use super::moments::SectionMoments;
 use crate::design::{Span, SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
 /// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
 pub const COMPONENTS: usize = 6;
+
+/// The first components are rotations, the others strains.
+pub(super) const ROTATIONS: usize = 3;
 
 /// Gauss points of a disc: its strain is some percent of the core's.
 const DISC_POINTS: usize = 2;
@@ -58,7 +61,8 @@ pub struct Station {
     pub density: f64,
 }
 
-/// Tables of one element; the unknowns are the mode amplitudes, ordered mode by mode, six components each.
+/// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
+/// poses determine, then the others.
 #[derive(Debug, Clone)]
 pub struct Element {
     /// Distance from the node before (proximal face of its ring) to the element's start, m.
@@ -69,6 +73,8 @@ pub struct Element {
     pub stations: Vec<Station>,
     /// Elastic stiffness of each degree of freedom about the straight shape: J/rad2 and J/m2.
     pub metric: Vec<f64>,
+    /// Strain component of each degree of freedom, 0 to 5.
+    pub component: Vec<usize>,
     /// Rows at the ends of the core (or of the whole element, for a plain rod).
     pub core_ends: [Row; 2],
     modes: [Modes; COMPONENTS],
@@ -80,33 +86,40 @@ impl Element {
     /// Tables for modes of polynomial degree 0 to `degree`.
     #[must_use]
     pub fn new(offset: f64, pieces: &[Piece<'_>], degree: usize) -> Self {
-        let count = degree + 1;
-        let compliance = |stiffness: fn(&Stiffness) -> f64| {
-            let pieces = pieces.iter().map(|piece| (piece.length, 1.0 / stiffness(&piece.span.stiffness)));
-            Modes::new(Compliance { pieces: pieces.collect() }, count)
+        let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
+        let modes = |stiffness: fn(&Stiffness) -> f64, ends_vary: bool| {
+            let mut start = 0.0;
+            let parts = pieces.iter().map(|piece| {
+                start += piece.length;
+                let compliance = 1.0 / stiffness(&piece.span.stiffness);
+                Part { start: start - piece.length, length: piece.length, compliance }
+            });
+            Modes::new(parts.collect(), core, degree, ends_vary)
         };
-        let bending = compliance(|k| k.bending);
-        let shear = compliance(|k| k.shear);
-        let (torsion, axial) = (compliance(|k| k.torsion), compliance(|k| k.axial));
+        let bending = modes(|k| k.bending, true);
+        let shear = modes(|k| k.shear, false);
+        let (torsion, axial) = (modes(|k| k.torsion, false), modes(|k| k.axial, false));
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
-        let metric = (0..count).flat_map(|j| modes.each_ref().map(|mode| mode.stiffness[j])).collect();
+        let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
+        let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
+        let metric = component.iter().map(|c| modes[*c].stiffness()).collect();
         let mut tables = Vec::new();
         let mut first = 0;
         for piece in pieces {
-            let points = if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { count + EXTRA_POINTS };
+            let points = if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { degree + 1 + EXTRA_POINTS };
             tables.push((piece.length, gauss_legendre(points).0, first));
             first += points;
         }
         let length = pieces.iter().map(|piece| piece.length).sum();
-        let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core);
-        let before: f64 = pieces.iter().take(core.unwrap_or(0)).map(|piece| piece.length).sum();
-        let core_length = core.map_or(length, |index| pieces[index].length);
+        let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
+        let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let empty = Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] };
         let mut element = Self {
             offset,
             length,
             stations: Vec::new(),
             metric,
+            component,
             core_ends: [empty.clone(), empty],
             modes,
             pieces: tables,
@@ -137,11 +150,8 @@ impl Element {
     }
 
     fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
-        let values = self.modes.each_ref().map(|mode| mode.values(piece, s));
-        let sums = self.modes.each_ref().map(|mode| mode.integrals(piece, s));
-        let interleave = |table: &[Vec<f64>; COMPONENTS]| {
-            (0..table[0].len()).flat_map(|j| table.each_ref().map(|column| column[j])).collect()
-        };
+        let rate = order(self.modes.each_ref().map(|mode| mode.values(piece, s)));
+        let integral = order(self.modes.each_ref().map(|mode| mode.integrals(piece, s)));
         let mut position = Vec::new();
         for (length, nodes, _) in &self.pieces[..piece] {
             position.extend(lagrange::integrals(nodes, 1.0).iter().map(|weight| 0.5 * length * weight));
@@ -151,7 +161,7 @@ impl Element {
         position.extend(lagrange::integrals(nodes, x).iter().map(|weight| 0.5 * length * weight));
         let total = self.pieces.iter().map(|(_, nodes, _)| nodes.len()).sum();
         position.resize(total, 0.0);
-        Row { arc_length: s, rate: interleave(&values), integral: interleave(&sums), position }
+        Row { arc_length: s, rate, integral, position }
     }
 
     fn add_stations(&mut self, index: usize, piece: &Piece<'_>) {
@@ -181,4 +191,13 @@ impl Element {
             });
         }
     }
+}
+
+/// A table by mode, put in the order of the degrees of freedom: the first modes of all components, the other
+/// rotation modes, the other strain modes.
+fn order<T>(tables: [Vec<T>; COMPONENTS]) -> Vec<T> {
+    let mut columns = tables.map(Vec::into_iter);
+    let mut out: Vec<T> = columns.iter_mut().filter_map(Iterator::next).collect();
+    columns.into_iter().for_each(|column| out.extend(column));
+    out
 }

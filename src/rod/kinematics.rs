@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::element::{Element, Row};
+use super::element::{COMPONENTS, Element, ROTATIONS, Row};
 use crate::geometry::{Pose, RotationVector};
 
 /// A Gauss point of a deformed element, in the frame of the node before it.
@@ -35,13 +35,11 @@ pub struct Configuration {
     pub end: Pose,
 }
 
-/// Sum of a row of mode values, by component.
-fn components(row: &[f64], amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
-    let mut out = [0.0; 6];
-    for (values, unknowns) in row.chunks_exact(6).zip(amplitudes.chunks_exact(6)) {
-        for ((sum, value), unknown) in out.iter_mut().zip(values).zip(unknowns) {
-            *sum += value * unknown;
-        }
+/// Sum of a row of mode values, by component: rotation, then strain.
+fn components(element: &Element, row: &[f64], amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+    let mut out = [0.0; COMPONENTS];
+    for ((component, value), amplitude) in element.component.iter().zip(row).zip(amplitudes) {
+        out[*component] += value * amplitude;
     }
     (Vector3::new(out[0], out[1], out[2]), Vector3::new(out[3], out[4], out[5]))
 }
@@ -73,8 +71,8 @@ impl Configuration {
         let start = Vector3::new(0.0, 0.0, element.offset);
         let mut end = start;
         for (state, station) in self.stations.iter_mut().zip(&element.stations) {
-            let (theta, _) = components(&station.row.integral, amplitudes);
-            let (rate, strain) = components(&station.row.rate, amplitudes);
+            let (theta, _) = components(element, &station.row.integral, amplitudes);
+            let (rate, strain) = components(element, &station.row.rate, amplitudes);
             state.theta = RotationVector::new(theta);
             state.rate = rate;
             state.directors = state.theta.matrix();
@@ -101,7 +99,7 @@ impl Configuration {
     /// The pose at a tabulated arc length, in the frame of the node before.
     #[must_use]
     pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
-        let (theta, _) = components(&row.integral, amplitudes);
+        let (theta, _) = components(element, &row.integral, amplitudes);
         let start = Vector3::new(0.0, 0.0, element.offset);
         Pose { position: start + self.integrate(row), rotation: RotationVector::new(theta).matrix() }
     }
@@ -116,9 +114,9 @@ impl Configuration {
             let bending = curvature.x * curvature.x + curvature.y * curvature.y;
             energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
         }
-        for (stiffness, strain) in element.metric.chunks_exact(6).zip(amplitudes.chunks_exact(6)) {
-            for c in 3..6 {
-                energy += 0.5 * stiffness[c] * strain[c] * strain[c];
+        for ((component, stiffness), amplitude) in element.component.iter().zip(&element.metric).zip(amplitudes) {
+            if *component >= ROTATIONS {
+                energy += 0.5 * stiffness * amplitude * amplitude;
             }
         }
         energy

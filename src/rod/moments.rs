@@ -52,13 +52,14 @@ impl SectionMoments {
         self.second += Matrix2::identity() * (weight * 0.125 * angle * (outer.powi(4) - inner.powi(4)));
     }
 
-    /// Three points of equal volume in the section plane with the same zeroth, first and second moments.
+    /// Four points of equal volume in the section plane with the same zeroth, first and second moments.
     ///
-    /// Fields that are quadratic over the section are integrated exactly.
+    /// Fields that are quadratic over the section are integrated exactly; of a cubic part only what the
+    /// section's own third moment about its centroid makes is lost.
     #[must_use]
-    pub fn points(&self) -> [Vector2<f64>; 3] {
+    pub fn points(&self) -> [Vector2<f64>; 4] {
         if self.volume <= 0.0 {
-            return [Vector2::zeros(); 3];
+            return [Vector2::zeros(); 4];
         }
         let mean = self.first / self.volume;
         let spread = self.second / self.volume - mean * mean.transpose();
@@ -67,9 +68,7 @@ impl SectionMoments {
         let b = if a > 0.0 { spread.m21 / a } else { 0.0 };
         let c = (spread.m22 - b * b).max(0.0).sqrt();
         let factor = Matrix2::new(a, 0.0, b, c) * core::f64::consts::SQRT_2;
-        [0.0, 1.0, 2.0].map(|k: f64| {
-            let (sine, cosine) = (2.0 * PI * k / 3.0).sin_cos();
-            mean + factor * Vector2::new(cosine, sine)
-        })
+        let (first, second) = (factor.column(0).into_owned(), factor.column(1).into_owned());
+        [mean + first, mean - first, mean + second, mean - second]
     }
 }

@@ -6,7 +6,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::element::Element;
+use super::element::{COMPONENTS, Element, ROTATIONS};
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
 
@@ -88,8 +88,10 @@ impl Tangent {
                 self.hessian[(3 + i) * self.size + 3 + j] += turned[(i, j)];
             }
         }
-        for ((row, stiffness), amplitude) in (START..).zip(&element.metric).zip(amplitudes) {
-            if (row - START) % 6 >= 3 {
+        for (((row, stiffness), amplitude), component) in
+            (START..).zip(&element.metric).zip(amplitudes).zip(&element.component)
+        {
+            if *component >= ROTATIONS {
                 self.gradient[row] += stiffness * amplitude;
                 self.hessian[row * self.size + row] += stiffness;
             }
@@ -109,11 +111,11 @@ impl Tangent {
             let turned: [Vector3<f64>; 3] =
                 core::array::from_fn(|c| state.left.column(c).cross(&state.tangent));
             for (i, column) in columns.iter_mut().enumerate() {
-                let c = i % 6;
-                *column = if c < 3 {
+                let c = element.component[i];
+                *column = if c < ROTATIONS {
                     turned[c] * station.row.integral[i]
                 } else {
-                    state.directors.column(c - 3) * station.row.rate[i]
+                    state.directors.column(c - ROTATIONS) * station.row.rate[i]
                 };
                 self.end_position[i] += *column * station.weight;
             }
@@ -141,26 +143,28 @@ impl Tangent {
         let (phi, psi) = (&station.row.integral, &station.row.rate);
         let size = self.size;
         for (i, (phi_i, psi_i)) in phi.iter().zip(psi).enumerate() {
-            let a = i % 6;
+            let a = element.component[i];
             let row = START + i;
-            if a >= 3 {
-                self.gradient[row] += along[a - 3] * psi_i;
-                continue;
-            }
-            self.gradient[row] += slope[a] * phi_i + bend.rate_slope[a] * psi_i;
-            for (mode, (phi_j, psi_j)) in phi.chunks_exact(6).zip(psi.chunks_exact(6)).enumerate() {
-                let target = &mut self.hessian[row * size + START + 6 * mode..][..6];
-                for b in 0..3 {
-                    target[b] += phi_i * (curve[(a, b)] * phi_j[b] + bend.mixed[(a, b)] * psi_j[b])
-                        + psi_i * (bend.mixed[(b, a)] * phi_j[b] + bend.rate_curve[(a, b)] * psi_j[b]);
-                    target[3 + b] += phi_i * shear[b][a] * psi_j[3 + b];
+            // What this row adds per integral (phi) and per value (psi) of a column's mode, by component.
+            let (mut per_phi, mut per_psi) = ([0.0; COMPONENTS], [0.0; COMPONENTS]);
+            if a < ROTATIONS {
+                self.gradient[row] += slope[a] * phi_i + bend.rate_slope[a] * psi_i;
+                for b in 0..ROTATIONS {
+                    per_phi[b] = phi_i * curve[(a, b)] + psi_i * bend.mixed[(b, a)];
+                    per_psi[b] = phi_i * bend.mixed[(a, b)] + psi_i * bend.rate_curve[(a, b)];
+                    per_psi[ROTATIONS + b] = phi_i * shear[b][a];
+                }
+            } else {
+                self.gradient[row] += along[a - ROTATIONS] * psi_i;
+                for b in 0..ROTATIONS {
+                    per_phi[b] = psi_i * shear[a - ROTATIONS][b];
                 }
             }
-        }
-        // Strain rows above the diagonal: the transpose of what the rotation rows have written.
-        for (i, psi_i) in psi.iter().enumerate().filter(|(i, _)| i % 6 >= 3) {
-            for (j, phi_j) in phi.iter().enumerate().skip(i + 1).filter(|(j, _)| j % 6 < 3) {
-                self.hessian[(START + i) * size + START + j] += phi_j * shear[i % 6 - 3][j % 6] * psi_i;
+            let target = &mut self.hessian[row * size + row..][..size - row];
+            for (((entry, c), phi_j), psi_j) in
+                target.iter_mut().zip(&element.component[i..]).zip(&phi[i..]).zip(&psi[i..])
+            {
+                *entry += per_phi[*c] * phi_j + per_psi[*c] * psi_j;
             }
         }
         let turn = load.couple.transpose() - Matrix3::identity() * load.couple.trace();
@@ -168,8 +172,9 @@ impl Tangent {
         let freedoms = element.freedoms();
         for (i, (column, phi_i)) in self.tangents[index * freedoms..].iter().zip(phi).enumerate() {
             let mut cross = column.cross(beyond);
-            if i % 6 < 3 {
-                cross += turn_left.column(i % 6) * *phi_i;
+            let c = element.component[i];
+            if c < ROTATIONS {
+                cross += turn_left.column(c) * *phi_i;
             }
             for k in 0..3 {
                 self.hessian[(3 + k) * size + START + i] += cross[k];
@@ -195,8 +200,9 @@ impl Tangent {
                 position += self.tangents[station * freedoms + i] * *weight;
             }
             self.positions[START + i] = position;
+            let c = element.component[i];
             self.rotations[START + i] =
-                if i % 6 < 3 { state.left.column(i % 6) * row.integral[i] } else { Vector3::zeros() };
+                if c < ROTATIONS { state.left.column(c) * row.integral[i] } else { Vector3::zeros() };
         }
         for j in 0..self.size {
             let (position, rotation) = (self.positions[j], self.rotations[j]);

@@ -40,10 +40,10 @@ fn gradient_and_hessian_meet_finite_differences() {
             inputs.field_gradient = [0.1, 0.05, -0.2, 0.3, 0.15];
         }
         let n = equilibrium.freedoms();
-        let x: Vec<f64> = (0..n)
-            .map(|i| pseudo(1, i) * if i % 6 < 3 { 0.25 } else { 2e-4 } / (1.0 + (i / 6 % 3) as f64))
-            .collect();
-        let d: Vec<f64> = (0..n).map(|i| pseudo(2, i) * if i % 6 < 3 { 1.0 } else { 1e-3 }).collect();
+        let metric = equilibrium.metric().to_vec();
+        let scale: Vec<f64> = metric.iter().map(|k| (metric[0] / k).sqrt()).collect();
+        let x: Vec<f64> = (0..n).map(|i| 0.12 * pseudo(1, i) * scale[i]).collect();
+        let d: Vec<f64> = (0..n).map(|i| pseudo(2, i) * scale[i]).collect();
         let h = 1e-5;
         let moved = |s: f64| -> Vec<f64> { x.iter().zip(&d).map(|(a, b)| a + s * b).collect() };
         let (energy_plus, gradient_plus) = equilibrium.gradient(&inputs, &moved(h)).unwrap();
@@ -57,8 +57,10 @@ fn gradient_and_hessian_meet_finite_differences() {
         );
         let image: Vec<f64> =
             gradient_plus.iter().zip(&gradient_minus).map(|(a, b)| (a - b) / (2.0 * h)).collect();
-        // newton_step solves with -g; make it solve (H) s = image through linearity: H d = image.
-        let solved = equilibrium.solve_at(&inputs, &x, 0.0, &image).expect("positive definite");
+        // (H + shift K) d, solved, must give d back.
+        let shift = 30.0;
+        let rhs: Vec<f64> = (0..n).map(|i| image[i] + shift * metric[i] * d[i]).collect();
+        let solved = equilibrium.solve_at(&inputs, &x, shift, &rhs).expect("positive definite");
         let worst = solved.iter().zip(&d).map(|(a, b)| ((a - b) / b).abs()).fold(0.0, f64::max);
         println!("worst {worst:e}");
         assert!((slope / difference - 1.0).abs() < 1e-6);

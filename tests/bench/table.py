@@ -1,0 +1,110 @@
+"""Measures the solves and fields beside their peers in one run and prints the tables in Markdown.
+
+.venv/bin/python tests/bench/table.py            all
+.venv/bin/python tests/bench/table.py solve      only the solves beside scipy
+.venv/bin/python tests/bench/table.py field      only the fields beside magba and magpylib
+"""
+
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+from importlib.metadata import version
+from pathlib import Path
+
+import magpylib_peer
+import solve_bvp_peer
+
+PACKAGE = Path(__file__).resolve().parents[2]
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", PACKAGE / "target"))
+
+
+def bench(name: str) -> tuple[dict[str, float], str]:
+    """Runs one bench; median times (s) by identifier, and what it printed."""
+    done = subprocess.run(
+        ["cargo", "bench", "--quiet", "--bench", name],
+        cwd=PACKAGE,
+        check=True,
+        text=True,
+        stdout=subprocess.PIPE,
+    )
+    times = {}
+    for description in TARGET.glob("criterion/**/new/benchmark.json"):
+        identifier = json.loads(description.read_text())["full_id"]
+        estimates = json.loads((description.parent / "estimates.json").read_text())
+        times[identifier] = 1e-9 * estimates["median"]["point_estimate"]
+    return times, done.stdout
+
+
+def table(header: list[str], rows: list[list[str]]) -> None:
+    """Prints a table in Markdown."""
+    for row in [header, ["---"] * len(header), *rows]:
+        print("| " + " | ".join(row) + " |")
+    print()
+
+
+def micro(seconds: float) -> str:
+    """A time in microseconds, three digits."""
+    return f"{1e6 * seconds:.3g}"
+
+
+def solves() -> None:
+    """Cold and warm solves, and the case with a closed form beside scipy."""
+    times, printed = bench("solve")
+    rows = []
+    for segments in (1, 3, 9):
+        for field in ("uniform", "pair"):
+            for level in ("none", "rings"):
+                name = f"S={segments} {level} {field}"
+                cold, warm = times[f"cold {name}"], times[f"warm {name}"]
+                rows.append([str(segments), field, level, micro(cold), micro(warm)])
+    table(["segments", "field", "interaction", "cold (us)", "warm (us)"], rows)
+
+    error = re.search(r"tip dipole: error of the angle (\S+) rad", printed)
+    if error is None:
+        raise RuntimeError("the bench has not told its error")
+    cold, warm = times["cold tip dipole"], times["warm tip dipole"]
+    rows = [["mcm", micro(cold), micro(warm), f"{float(error[1]):.0e}", "1", "1"]]
+    for peer in map(solve_bvp_peer.measure, (1e-3, 1e-6, 1e-9)):
+        name = f"scipy {version('scipy')} solve_bvp, tol {peer.tolerance:.0e}"
+        ratios = [f"{peer.cold / cold:.0f}", f"{peer.warm / warm:.0f}"]
+        rows.append([name, micro(peer.cold), micro(peer.warm), f"{peer.error:.0e}", *ratios])
+    table(
+        ["tip dipole", "cold (us)", "warm (us)", "error (rad)", "times ours, cold", "times ours, warm"], rows
+    )
+
+
+def fields() -> None:
+    """Field of a ring and of a cylinder at single points."""
+    times, _ = bench("field")
+    rows = []
+    for body in ("ring", "cylinder"):
+        ours = times[f"{body}/B+G"]
+        peers = {f"mcm {what}": times[f"{body}/{what}"] for what in ("B", "B+G", "B+G+H")}
+        peers["magba B"] = times[f"{body}/magba B"]
+        single, batch = magpylib_peer.measure(body)
+        name = f"magpylib {version('magpylib')} B"
+        peers |= {f"{name}, a call": single, f"{name}, a point of a batch": batch}
+        rows += [[body, peer, f"{1e9 * time:.0f}", f"{time / ours:.2f}"] for peer, time in peers.items()]
+    table(["body", "what", "time (ns)", "times our B+G"], rows)
+
+
+def main() -> None:
+    """Prints what was asked for, after machine and versions."""
+    parts = {"solve": solves, "field": fields}
+    wanted = sys.argv[1:] or list(parts)
+    rustc = subprocess.run(
+        ["rustc", "--version"], check=True, text=True, stdout=subprocess.PIPE
+    ).stdout.split()[1]
+    info = Path("/proc/cpuinfo")
+    model = re.search(r"model name\s*: (.*)", info.read_text()) if info.exists() else None
+    machine = model[1] if model else platform.machine()
+    print(f"{machine}, {os.cpu_count()} cores; rustc {rustc}, Python {platform.python_version()}; medians\n")
+    for name in wanted:
+        parts[name]()
+
+
+if __name__ == "__main__":
+    main()
