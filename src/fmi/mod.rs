@@ -2,3 +2,34 @@
 
 #[rustfmt::skip]
 pub mod bindings; // types of the official headers
+
+pub mod units; // units and quantities
+
+pub mod given; // inputs and parameters as the host sets them
+
+pub mod variable; // one row of the table
+
+pub mod variables; // the table: reference, name, causality, unit, start, get, set
+
+pub mod state; // which call is allowed when
+
+pub mod log; // what is told to the host
+
+pub mod guid; // a GUID that follows from content
+
+pub mod xml; // the model description, written from the table
+
+pub mod documentation; // the page for people, written from the table
+
+pub mod package; // what an archive carries besides the library
+
+pub mod location; // where a host says that the resources are
+
+pub mod instance; // one instance, safe
+
+pub mod guard; // a panic stops here
+
+pub mod ffi; // the C functions: the only unsafe code
+
+pub use instance::Instance;
+pub use package::Package;

@@ -64,8 +64,7 @@ impl AxialRule {
         let squares: Vec<f64> = half.iter().map(|z| z * z).collect();
         let moments = (0..half.len()).map(|i| moment(&shape, 2 * i)).collect();
         let shares = vandermonde(&squares, moments);
-        let mut rule =
-            Self { nodes: Vec::with_capacity(nodes), weights: Vec::with_capacity(nodes), extent, shape };
+        let mut points = Vec::with_capacity(nodes);
         let volume = extent * extent * extent;
         for (&z, &share) in half.iter().zip(&shares).rev().filter(|(z, _)| **z > 0.0) {
             points.push((-z * extent, 0.5 * share * volume));
@@ -107,6 +106,7 @@ impl AxialRule {
 
     /// Positions on the axis (m), ascending, with their weights (m3); the weights add up to the body's volume, single ones
     /// may be negative.
+    #[must_use]
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.points.iter().copied()
     }

@@ -12,8 +12,12 @@ const PLAUSIBLE: f64 = 0.5;
 
 /// Reads a scene file.
 pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|error| unreadable(path, &error))?;
-    Ok(SceneFile::parse(&text, &path.display().to_string())?)
+    Ok(SceneFile::parse(&read_text(path)?, &path.display().to_string())?)
+}
+
+/// Reads a text file.
+pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|error| unreadable(path, &error))
 }
 
 /// Opens a table; lines that start with `#` are comments.

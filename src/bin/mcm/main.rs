@@ -3,6 +3,7 @@
 mod failure;
 mod field;
 mod files;
+mod pack;
 mod solve;
 mod sweep;
 
@@ -34,6 +35,8 @@ enum Command {
     Field(field::Field),
     /// Follows an equilibrium while numbers of the scene vary
     Sweep(sweep::Sweep),
+    /// Packs a design as an FMI 2.0 co-simulation FMU
+    Pack(pack::Pack),
 }
 
 fn main() -> ExitCode {
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         Command::Solve(command) => command.run(),
         Command::Field(command) => command.run(),
         Command::Sweep(command) => command.run(),
+        Command::Pack(command) => command.run(),
     };
     outcome.unwrap_or_else(Failure::report)
 }

@@ -1,0 +1,132 @@
+//! `mcm pack`: an FMU for a design, without recompiling.
+
+use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use mcm::fmi::Package;
+use mcm::fmi::package::{DEFAULT_SCENE, DEFAULT_SHAPE_POINTS};
+use mcm::fmi::xml::MODEL_IDENTIFIER;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use super::failure::Failure;
+use super::files::read_text;
+
+const LICENSE: &str = include_str!("../../../LICENSE");
+const HEADERS_LICENSE: &str = include_str!("../../../fmu/headers/LICENSE");
+const ICON: &[u8] = include_bytes!("../../../modelDescription/model.png");
+
+/// Packs a design as an FMU.
+#[derive(clap::Args)]
+#[command(after_help = "Example: mcm pack --scene scene.toml --out mcm.fmu\n\n\
+The scene's numbers become the FMU's start values; its rings, cores and cylinders fix which variables there are.")]
+pub(crate) struct Pack {
+    /// Scene file (TOML); left out: the paper's nine segments beside its magnet pair
+    #[arg(long)]
+    scene: Option<PathBuf>,
+    /// Number of centreline points in the outputs
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_SHAPE_POINTS)]
+    shape_points: usize,
+    /// The shared library to pack; left out: the one beside this program
+    #[arg(long)]
+    library: Option<PathBuf>,
+    /// The FMU to write
+    #[arg(long, value_name = "FMU")]
+    out: PathBuf,
+}
+
+impl Pack {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let package = match &self.scene {
+            Some(path) => Package::new(&read_text(path)?, &path.display().to_string(), self.shape_points)?,
+            None => Package::new(DEFAULT_SCENE, "default scene", self.shape_points)?,
+        };
+        let library = self.library()?;
+        let binary = fs::read(&library)
+            .map_err(|error| Failure::Message(format!("cannot read {}: {error}", library.display())))?;
+        let mut files: Vec<(String, Vec<u8>)> = vec![
+            ("modelDescription.xml".into(), package.model_description(Some(&now()?))?.into()),
+            ("model.png".into(), ICON.into()),
+            ("documentation/index.html".into(), package.documentation().into()),
+            ("documentation/licenses/license.txt".into(), LICENSE.into()),
+            ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
+            (format!("binaries/{}/{MODEL_IDENTIFIER}{DLL_SUFFIX}", platform()?), binary),
+        ];
+        for (name, text) in package.resources()? {
+            files.push((format!("resources/{name}"), text.into()));
+        }
+        write_archive(&self.out, &files)
+            .map_err(|reason| Failure::Message(format!("cannot write {}: {reason}", self.out.display())))?;
+        writeln!(std::io::stdout(), "{} {}", self.out.display(), package.guid())?;
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn library(&self) -> Result<PathBuf, Failure> {
+        let name = format!("{DLL_PREFIX}{MODEL_IDENTIFIER}{DLL_SUFFIX}");
+        let beside = std::env::current_exe().map(|program| program.with_file_name(&name))?;
+        let library = self.library.clone().unwrap_or(beside);
+        if library.is_file() {
+            return Ok(library);
+        }
+        Err(Failure::Message(format!(
+            "there is no library {}: build it with `cargo build --release --lib`, or name it with --library",
+            library.display()
+        )))
+    }
+}
+
+/// The standard's name of the platform that this program was built for.
+fn platform() -> Result<&'static str, Failure> {
+    match (OS, ARCH) {
+        ("linux", "x86_64") => Ok("linux64"),
+        ("windows", "x86_64") => Ok("win64"),
+        ("macos", "x86_64") => Ok("darwin64"),
+        (os, architecture) => {
+            Err(Failure::Message(format!("FMI 2.0 has no name for the platform {os} on {architecture}")))
+        }
+    }
+}
+
+/// Deflate only, forward slashes, no links: what FMI 2.0 allows. The same files give the same bytes.
+fn write_archive(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), String> {
+    let file = File::create(path).map_err(|error| error.to_string())?;
+    let mut archive = ZipWriter::new(BufWriter::new(file));
+    let plain = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+    for (name, content) in files {
+        let mode = if name.starts_with("binaries/") { 0o755 } else { 0o644 };
+        archive.start_file(name, plain.unix_permissions(mode)).map_err(|error| error.to_string())?;
+        archive.write_all(content).map_err(|error| error.to_string())?;
+    }
+    archive.finish().and_then(|mut file| Ok(file.flush()?)).map_err(|error| error.to_string())
+}
+
+/// The time in UTC as the standard wants it; `SOURCE_DATE_EPOCH` makes builds repeatable.
+fn now() -> Result<String, Failure> {
+    let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
+        Ok(text) => text
+            .parse()
+            .map_err(|_| Failure::Message(format!("SOURCE_DATE_EPOCH = {text} is no number of seconds")))?,
+        Err(_) => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
+    };
+    let (year, month, day) = date(seconds / 86_400);
+    let (hour, minute, second) = (seconds / 3600 % 24, seconds / 60 % 60, seconds % 60);
+    Ok(format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z"))
+}
+
+/// Year, month and day of a number of days since 1970-01-01: Hinnant's `civil_from_days`
+/// (<https://howardhinnant.github.io/date_algorithms.html>).
+fn date(days: u64) -> (u64, u64, u64) {
+    let shifted = days + 719_468;
+    let (era, day_of_era) = (shifted / 146_097, shifted % 146_097);
+    let year_of_era = (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let month_from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+    let month = if month_from_march < 10 { month_from_march + 3 } else { month_from_march - 9 };
+    (year_of_era + era * 400 + u64::from(month <= 2), month, day)
+}

@@ -1,0 +1,407 @@
+//! The C boundary: the only unsafe code of the project.
+//!
+//! Handles are numbers, not addresses: they are looked up in a registry of live instances, so an unknown or freed
+//! handle is an error and never a fault. Every function passes through one of two guards against panics.
+
+#![allow(unsafe_code, reason = "C calls in with raw pointers and takes a logger's C function")]
+#![allow(non_snake_case, reason = "names of the standard")]
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ptr;
+use std::slice;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, TryLockError};
+
+#[allow(clippy::wildcard_imports, reason = "types of the standard, named by its prefix")]
+use super::bindings::*;
+use super::guard::guarded;
+use super::instance::{Instance, identify};
+use super::location;
+use super::log::{Category, Log};
+use super::state::{Call, Ending};
+use super::variable::Value;
+
+type Live = BTreeMap<usize, Arc<Mutex<Instance>>>;
+
+static LIVE: Mutex<Live> = Mutex::new(BTreeMap::new());
+
+/// Instances and saved states share it, so that no handle is ever taken for another.
+static NEXT_HANDLE: AtomicUsize = AtomicUsize::new(1);
+
+/// The host's logger, with what it wants to be called with.
+struct Logger {
+    call: fmi2CallbackLogger,
+    environment: fmi2ComponentEnvironment,
+    instance_name: CString,
+}
+
+// SAFETY: the pointer is only handed back to the host, during a call that the host itself made on this thread.
+unsafe impl Send for Logger {}
+
+impl Logger {
+    fn tell(&self, ending: Ending, category: Category, message: &str) {
+        let Some(call) = self.call else { return };
+        let (category, message) = (c_string(category.name()), c_string(message));
+        let name = self.instance_name.as_ptr();
+        // SAFETY: the host gave this function with this signature; all texts outlive the call.
+        unsafe {
+            call(self.environment, name, status(ending), category.as_ptr(), c"%s".as_ptr(), message.as_ptr());
+        }
+    }
+}
+
+/// Without the zero bytes that C would take for the end.
+fn c_string(text: &str) -> CString {
+    CString::new(text.replace('\0', " ")).unwrap_or_default()
+}
+
+fn status(ending: Ending) -> fmi2Status {
+    match ending {
+        Ending::Ok => fmi2Status::fmi2OK,
+        Ending::Warning => fmi2Status::fmi2Warning,
+        Ending::Discard => fmi2Status::fmi2Discard,
+        Ending::Error => fmi2Status::fmi2Error,
+    }
+}
+
+fn live<T>(work: impl FnOnce(&mut Live) -> T) -> T {
+    work(&mut LIVE.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+fn new_handle() -> usize {
+    NEXT_HANDLE.fetch_add(1, Ordering::Relaxed)
+}
+
+fn pointer(handle: usize) -> *mut c_void {
+    ptr::without_provenance_mut(handle)
+}
+
+/// Does `work` on the instance behind a handle if its state allows `call`; a panic breaks that instance only.
+fn on(
+    component: fmi2Component,
+    name: &str,
+    call: Call,
+    work: impl FnOnce(&mut Instance) -> Ending,
+) -> fmi2Status {
+    let Some(instance) = live(|live| live.get(&component.addr()).cloned()) else {
+        return fmi2Status::fmi2Error;
+    };
+    let mut instance = match instance.try_lock() {
+        Ok(instance) => instance,
+        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+        // The host calls from its logger, or from two threads at once: waiting could be for ever.
+        Err(TryLockError::WouldBlock) => return fmi2Status::fmi2Error,
+    };
+    let done = guarded(|| if instance.allows(call, name) { work(&mut instance) } else { Ending::Error });
+    status(done.unwrap_or_else(|panic| {
+        guarded(|| instance.break_down(&format!("{name}: {panic}"))).unwrap_or(Ending::Error)
+    }))
+}
+
+/// The array of a C caller; a length of zero may come with null.
+///
+/// # Safety
+/// A pointer that is not null must be valid for `length` reads until the function that took it returns.
+unsafe fn array<'a, T>(start: *const T, length: usize) -> Option<&'a [T]> {
+    if length == 0 {
+        return Some(&[]);
+    }
+    let usable =
+        !start.is_null() && start.is_aligned() && length <= isize::MAX.unsigned_abs() / size_of::<T>();
+    // SAFETY: by the contract of this function; null, alignment and size were checked.
+    usable.then(|| unsafe { slice::from_raw_parts(start, length) })
+}
+
+/// The text of a C caller, or `None` for null.
+///
+/// # Safety
+/// A pointer that is not null must point to a zero-terminated string that lives until the caller returns.
+unsafe fn text<'a>(start: fmi2String) -> Option<Cow<'a, str>> {
+    // SAFETY: by the contract of this function.
+    (!start.is_null()).then(|| unsafe { CStr::from_ptr(start) }.to_string_lossy())
+}
+
+/// Writes `values` to the array of a C caller.
+///
+/// # Safety
+/// A pointer that is not null must be valid for as many writes as there are `values`.
+unsafe fn write<T>(instance: &Instance, values: &[T], target: *mut T) -> Ending {
+    if values.is_empty() {
+        return Ending::Ok;
+    }
+    if target.is_null() || !target.is_aligned() {
+        return instance.refuse("the array for the values is null or not aligned");
+    }
+    // SAFETY: by the contract of this function; ours and the host's memory do not overlap.
+    unsafe { ptr::copy_nonoverlapping(values.as_ptr(), target, values.len()) };
+    Ending::Ok
+}
+
+/// # Safety
+/// As [`array`] for `references` and [`write`] for `target`.
+unsafe fn get<T>(
+    instance: &mut Instance,
+    references: Option<&[fmi2ValueReference]>,
+    kind: &str,
+    read: fn(Value) -> Option<T>,
+    target: *mut T,
+) -> Ending {
+    let Some(references) = references else {
+        return instance.refuse("the array of value references is null");
+    };
+    match instance.get(references, kind, read) {
+        // SAFETY: by the contract of this function.
+        Ok((values, ending)) => match unsafe { write(instance, &values, target) } {
+            Ending::Ok => ending,
+            refused => refused,
+        },
+        Err(ending) => ending,
+    }
+}
+
+fn set<T: Copy>(
+    instance: &mut Instance,
+    references: Option<&[fmi2ValueReference]>,
+    values: Option<&[T]>,
+    value: fn(T) -> Value,
+) -> Ending {
+    match (references, values) {
+        (Some(references), Some(values)) => {
+            instance.set(references, values.iter().map(|&given| value(given)))
+        }
+        _ => instance.refuse("an array is null or not aligned"),
+    }
+}
+
+/// The two texts that identify the interface.
+macro_rules! export_text {
+    ($($name:ident: $type:ident = $text:ident;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "` of FMI 2.0.")]
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $name() -> *const c_char {
+            $text.as_ptr().cast()
+        }
+        const _: $type = Some($name);
+    )*};
+}
+
+export_text! {
+    fmi2GetTypesPlatform: fmi2GetTypesPlatformTYPE = fmi2TypesPlatform;
+    fmi2GetVersion: fmi2GetVersionTYPE = fmi2Version;
+}
+
+/// `fmi2Instantiate` of FMI 2.0.
+///
+/// # Safety
+/// As the standard says: texts are null or zero-terminated, `functions` is null or points to the callbacks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: fmi2String,
+    fmuType: fmi2Type,
+    fmuGUID: fmi2String,
+    fmuResourceLocation: fmi2String,
+    functions: *const fmi2CallbackFunctions,
+    _visible: fmi2Boolean,
+    loggingOn: fmi2Boolean,
+) -> fmi2Component {
+    // SAFETY: by the contract of this function. The struct is copied: it is the host's after this call.
+    let (name, guid, location, callbacks) = unsafe {
+        (text(instanceName), text(fmuGUID), text(fmuResourceLocation), array(functions, 1).map(|one| one[0]))
+    };
+    let logger = Logger {
+        call: callbacks.and_then(|callbacks| callbacks.logger),
+        environment: callbacks.map_or(ptr::null_mut(), |callbacks| callbacks.componentEnvironment),
+        instance_name: c_string(name.as_deref().unwrap_or_default()),
+    };
+    let made = guarded(|| {
+        if name.is_none_or(|name| name.is_empty()) {
+            return Err("the instance name is null or empty".to_owned());
+        }
+        if fmuType != fmi2Type::fmi2CoSimulation {
+            return Err("this FMU is for co-simulation only".to_owned());
+        }
+        let guid = guid.ok_or("the GUID is null")?;
+        let paths = location::paths(&location.unwrap_or_default()).map_err(|error| error.to_string())?;
+        identify(&guid, &paths).map_err(|error| error.to_string())
+    });
+    match made.and_then(|made| made) {
+        Ok(package) => {
+            let sink =
+                Box::new(move |ending, category, message: &str| logger.tell(ending, category, message));
+            let instance = Instance::new(Arc::new(package), Log::new(sink, loggingOn != 0));
+            let handle = new_handle();
+            live(|live| live.insert(handle, Arc::new(Mutex::new(instance))));
+            pointer(handle)
+        }
+        Err(reason) => {
+            logger.tell(Ending::Error, Category::Error, &format!("not instantiated: {reason}"));
+            ptr::null_mut()
+        }
+    }
+}
+const _: fmi2InstantiateTYPE = Some(fmi2Instantiate);
+
+/// `fmi2FreeInstance` of FMI 2.0; a null, unknown or freed handle does nothing.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2FreeInstance(component: fmi2Component) {
+    // A panic while dropping is of no use to anybody: the instance is gone either way.
+    let _ = guarded(|| drop(live(|live| live.remove(&component.addr()))));
+}
+
+/// Exports the functions on an instance: panic guard, handle and state are checked before the body runs.
+macro_rules! export {
+    ($($name:ident: $type:ident, $call:ident = |$instance:ident $(, $argument:ident: $of:ty)*| $body:expr;)*) => {$(
+        #[doc = concat!("`", stringify!($name), "` of FMI 2.0.")]
+        ///
+        /// # Safety
+        /// As the standard says: pointers are null or valid for the lengths given, texts are zero-terminated.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(component: fmi2Component $(, $argument: $of)*) -> fmi2Status {
+            on(component, stringify!($name), Call::$call, |$instance| $body)
+        }
+        const _: $type = Some($name);
+    )*};
+}
+
+type References = *const fmi2ValueReference;
+
+// SAFETY of all blocks below: the exported function's contract is that of the helper which the block calls.
+export! {
+    fmi2SetDebugLogging: fmi2SetDebugLoggingTYPE, SetDebugLogging =
+        |instance, on: fmi2Boolean, length: usize, names: *const fmi2String| {
+            // SAFETY: see above.
+            let names = unsafe { array(names, length) }
+                .and_then(|names| names.iter().map(|&name| unsafe { text(name) }).collect::<Option<Vec<_>>>());
+            match names {
+                Some(names) => {
+                    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
+                    instance.set_debug_logging(on != 0, &names)
+                }
+                None => instance.refuse("a log category is null"),
+            }
+        };
+    fmi2SetupExperiment: fmi2SetupExperimentTYPE, SetupExperiment =
+        |instance, _tolerance_defined: fmi2Boolean, _tolerance: fmi2Real, start: fmi2Real, stop_defined: fmi2Boolean,
+         stop: fmi2Real| instance.setup_experiment(start, (stop_defined != 0).then_some(stop));
+    fmi2EnterInitializationMode: fmi2EnterInitializationModeTYPE, EnterInitializationMode =
+        |instance| instance.enter_initialization();
+    fmi2ExitInitializationMode: fmi2ExitInitializationModeTYPE, ExitInitializationMode =
+        |instance| instance.exit_initialization();
+    fmi2Terminate: fmi2TerminateTYPE, Terminate = |instance| instance.terminate();
+    fmi2Reset: fmi2ResetTYPE, Reset = |instance| instance.reset();
+
+    fmi2GetReal: fmi2GetRealTYPE, Get =
+        |instance, references: References, length: usize, values: *mut fmi2Real| {
+            let real = |value| if let Value::Real(value) = value { Some(value) } else { None };
+            // SAFETY: see above.
+            unsafe { get(instance, array(references, length), "Real", real, values) }
+        };
+    fmi2GetInteger: fmi2GetIntegerTYPE, Get =
+        |instance, references: References, length: usize, values: *mut fmi2Integer| {
+            let integer = |value| if let Value::Integer(value) = value { Some(value) } else { None };
+            // SAFETY: see above.
+            unsafe { get(instance, array(references, length), "Integer", integer, values) }
+        };
+    fmi2GetBoolean: fmi2GetBooleanTYPE, Get =
+        |instance, references: References, length: usize, values: *mut fmi2Boolean| {
+            let boolean = |value| if let Value::Boolean(value) = value { Some(c_int::from(value)) } else { None };
+            // SAFETY: see above.
+            unsafe { get(instance, array(references, length), "Boolean", boolean, values) }
+        };
+    fmi2GetString: fmi2GetStringTYPE, Get =
+        |instance, references: References, length: usize, values: *mut fmi2String| {
+            // SAFETY: see above.
+            unsafe { get::<Infallible>(instance, array(references, length), "String", |_| None, values.cast()) }
+        };
+    fmi2SetReal: fmi2SetRealTYPE, Set =
+        |instance, references: References, length: usize, values: *const fmi2Real| {
+            // SAFETY: see above.
+            let (references, values) = unsafe { (array(references, length), array(values, length)) };
+            set(instance, references, values, Value::Real)
+        };
+    fmi2SetInteger: fmi2SetIntegerTYPE, Set =
+        |instance, references: References, length: usize, values: *const fmi2Integer| {
+            // SAFETY: see above.
+            let (references, values) = unsafe { (array(references, length), array(values, length)) };
+            set(instance, references, values, Value::Integer)
+        };
+    fmi2SetBoolean: fmi2SetBooleanTYPE, Set =
+        |instance, references: References, length: usize, values: *const fmi2Boolean| {
+            // SAFETY: see above.
+            let (references, values) = unsafe { (array(references, length), array(values, length)) };
+            set(instance, references, values, |value| Value::Boolean(value != 0))
+        };
+    fmi2SetString: fmi2SetStringTYPE, Set =
+        |instance, _references: References, length: usize, _values: *const fmi2String| {
+            if length == 0 { Ending::Ok } else { instance.refuse("there are no String variables") }
+        };
+
+    fmi2GetFMUstate: fmi2GetFMUstateTYPE, GetFmuState = |instance, state: *mut fmi2FMUstate| {
+        // SAFETY: see above.
+        match unsafe { array(state, 1) } {
+            Some([known]) if !known.is_null() && !instance.has_saved(known.addr()) => {
+                instance.refuse("this FMU state is not, or no longer, one of this instance")
+            }
+            Some([known]) => {
+                let handle = if known.is_null() { new_handle() } else { known.addr() };
+                instance.save(handle);
+                // SAFETY: see above.
+                unsafe { write(instance, &[pointer(handle)], state) }
+            }
+            _ => instance.refuse("the pointer to the FMU state is null"),
+        }
+    };
+    fmi2SetFMUstate: fmi2SetFMUstateTYPE, SetFmuState = |instance, state: fmi2FMUstate| instance.restore(state.addr());
+    fmi2FreeFMUstate: fmi2FreeFMUstateTYPE, FreeFmuState = |instance, state: *mut fmi2FMUstate| {
+        // SAFETY: see above.
+        match unsafe { array(state, 1) } {
+            Some([known]) if !known.is_null() => match instance.forget(known.addr()) {
+                // SAFETY: see above.
+                Ending::Ok => unsafe { write(instance, &[ptr::null_mut()], state) },
+                refused => refused,
+            },
+            _ => Ending::Ok, // the standard: freeing null does nothing
+        }
+    };
+    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE, Unsupported =
+        |_instance, _state: fmi2FMUstate, _size: *mut usize| Ending::Error;
+    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE, Unsupported =
+        |_instance, _state: fmi2FMUstate, _bytes: *mut fmi2Byte, _size: usize| Ending::Error;
+    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE, Unsupported =
+        |_instance, _bytes: *const fmi2Byte, _size: usize, _state: *mut fmi2FMUstate| Ending::Error;
+    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE, Unsupported =
+        |_instance, _unknowns: References, _unknown_count: usize, _knowns: References, _known_count: usize,
+         _seed: *const fmi2Real, _sensitivity: *mut fmi2Real| Ending::Error;
+    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE, Unsupported =
+        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *const fmi2Real|
+            Ending::Error;
+    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, Unsupported =
+        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *mut fmi2Real|
+            Ending::Error;
+
+    fmi2DoStep: fmi2DoStepTYPE, DoStep =
+        |instance, time: fmi2Real, step: fmi2Real, _no_set_state_before: fmi2Boolean| instance.do_step(time, step);
+    // Steps are never pending: there is none to cancel, and nothing to tell about one.
+    fmi2CancelStep: fmi2CancelStepTYPE, Unsupported = |_instance| Ending::Error;
+    fmi2GetStatus: fmi2GetStatusTYPE, GetStatus =
+        |_instance, _kind: fmi2StatusKind, _value: *mut fmi2Status| Ending::Discard;
+    fmi2GetRealStatus: fmi2GetRealStatusTYPE, GetStatus =
+        |instance, kind: fmi2StatusKind, value: *mut fmi2Real| match kind {
+            // SAFETY: see above.
+            fmi2StatusKind::fmi2LastSuccessfulTime => unsafe { write(instance, &[instance.time()], value) },
+            _ => Ending::Discard,
+        };
+    fmi2GetIntegerStatus: fmi2GetIntegerStatusTYPE, GetStatus =
+        |_instance, _kind: fmi2StatusKind, _value: *mut fmi2Integer| Ending::Discard;
+    fmi2GetBooleanStatus: fmi2GetBooleanStatusTYPE, GetStatus =
+        |instance, kind: fmi2StatusKind, value: *mut fmi2Boolean| match kind {
+            // SAFETY: see above.
+            fmi2StatusKind::fmi2Terminated => unsafe { write(instance, &[0], value) },
+            _ => Ending::Discard,
+        };
+    fmi2GetStringStatus: fmi2GetStringStatusTYPE, GetStatus =
+        |_instance, _kind: fmi2StatusKind, _value: *mut fmi2String| Ending::Discard;
+}

@@ -1,0 +1,94 @@
+//! Which call is allowed when.
+
+use super::variable::Role;
+
+/// How a call ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// Done.
+    Ok,
+    /// Done, and the host should look at the log.
+    Warning,
+    /// Not answered; nothing has changed.
+    Discard,
+    /// Refused or failed; the log says why.
+    Error,
+}
+
+/// Where an instance stands in its life.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum State {
+    /// Made, or reset.
+    Instantiated,
+    /// Between entering and leaving initialisation.
+    Initialization,
+    /// At a communication point.
+    Stepping,
+    /// An equilibrium was not found: the last good one can be read.
+    Failed,
+    /// Terminated.
+    Terminated,
+    /// A panic was caught.
+    Broken,
+}
+
+/// The calls of the interface that depend on the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs, reason = "each is the function of the standard with that name")]
+pub enum Call {
+    SetDebugLogging,
+    SetupExperiment,
+    EnterInitializationMode,
+    ExitInitializationMode,
+    Terminate,
+    Reset,
+    Get,
+    Set,
+    GetFmuState,
+    SetFmuState,
+    FreeFmuState,
+    DoStep,
+    GetStatus,
+    /// A function of a capability that the model description denies.
+    Unsupported,
+}
+
+use State::{Broken, Failed, Initialization, Instantiated, Stepping, Terminated};
+
+const UNBROKEN: &[State] = &[Instantiated, Initialization, Stepping, Failed, Terminated];
+
+/// The table: the states in which each call is answered.
+pub const ALLOWED: &[(Call, &[State])] = &[
+    (Call::SetDebugLogging, UNBROKEN),
+    (Call::SetupExperiment, &[Instantiated]),
+    (Call::EnterInitializationMode, &[Instantiated]),
+    (Call::ExitInitializationMode, &[Initialization]),
+    (Call::Terminate, &[Stepping, Failed]),
+    (Call::Reset, &[Instantiated, Initialization, Stepping, Failed, Terminated, Broken]),
+    (Call::Get, &[Initialization, Stepping, Failed, Terminated]),
+    (Call::Set, &[Instantiated, Initialization, Stepping]),
+    (Call::GetFmuState, UNBROKEN),
+    (Call::SetFmuState, UNBROKEN),
+    (Call::FreeFmuState, UNBROKEN),
+    (Call::DoStep, &[Stepping]),
+    (Call::GetStatus, &[Stepping, Failed, Terminated]),
+    (Call::Unsupported, &[]),
+];
+
+impl State {
+    /// Whether `call` is answered in this state.
+    #[must_use]
+    pub fn allows(self, call: Call) -> bool {
+        ALLOWED.iter().any(|(allowed, states)| *allowed == call && states.contains(&self))
+    }
+
+    /// Whether a variable in `role` may be set in this state.
+    #[must_use]
+    pub fn may_set(self, role: Role) -> bool {
+        match role {
+            Role::Input | Role::Tunable => self.allows(Call::Set),
+            Role::Fixed => matches!(self, Instantiated | Initialization),
+            Role::Constant | Role::Output => false,
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Units, and the quantities that are measured in them.
+
+/// A unit in terms of the SI base units, and how people like to read it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    /// Name of the unit.
+    pub name: &'static str,
+    /// Exponents of the SI base units, by their names in the standard.
+    pub base: &'static [(&'static str, i32)],
+    /// A unit for people, and how many of it make one of this unit.
+    pub display: Option<(&'static str, f64)>,
+}
+
+/// A kind of number: becomes a declared type of the model description.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quantity {
+    /// Name of the type.
+    pub name: &'static str,
+    /// Its unit; the table [`UNITS`] has it.
+    pub unit: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    /// Size of a usual value, in the unit.
+    pub nominal: Option<f64>,
+}
+
+const DEGREES_PER_RADIAN: f64 = 180.0 / core::f64::consts::PI;
+
+/// All units of the interface.
+pub const UNITS: &[Unit] = &[
+    Unit { name: "1", base: &[], display: None },
+    Unit { name: "m", base: &[("m", 1)], display: Some(("mm", 1e3)) },
+    Unit { name: "rad", base: &[("rad", 1)], display: Some(("deg", DEGREES_PER_RADIAN)) },
+    Unit { name: "T", base: &[("kg", 1), ("s", -2), ("A", -1)], display: Some(("mT", 1e3)) },
+    Unit { name: "T/m", base: &[("kg", 1), ("m", -1), ("s", -2), ("A", -1)], display: Some(("mT/mm", 1.0)) },
+    Unit { name: "N", base: &[("kg", 1), ("m", 1), ("s", -2)], display: Some(("mN", 1e3)) },
+    Unit { name: "N.m", base: &[("kg", 1), ("m", 2), ("s", -2)], display: Some(("mN.m", 1e3)) },
+    Unit { name: "m/s2", base: &[("m", 1), ("s", -2)], display: None },
+    Unit { name: "Pa", base: &[("kg", 1), ("m", -1), ("s", -2)], display: Some(("MPa", 1e-6)) },
+    Unit { name: "kg/m3", base: &[("kg", 1), ("m", -3)], display: None },
+];
+
+const fn quantity(
+    name: &'static str,
+    unit: &'static str,
+    nominal: Option<f64>,
+    description: &'static str,
+) -> Quantity {
+    Quantity { name, unit, description, nominal }
+}
+
+/// Position in the world frame.
+pub const POSITION: Quantity = quantity("Position", "m", Some(0.01), "Position in the world frame");
+/// Length.
+pub const LENGTH: Quantity = quantity("Length", "m", Some(0.001), "Length");
+/// Angle.
+pub const ANGLE: Quantity = quantity("Angle", "rad", Some(1.0), "Angle");
+/// Component of a unit quaternion.
+pub const QUATERNION: Quantity =
+    quantity("Quaternion", "1", None, "Component of a unit quaternion w, x, y, z, body to world");
+/// Component of a unit vector.
+pub const DIRECTION: Quantity = quantity("Direction", "1", None, "Component of a unit vector, world frame");
+/// Dimensionless number.
+pub const RATIO: Quantity = quantity("Ratio", "1", None, "Dimensionless number");
+/// Shore A hardness.
+pub const HARDNESS: Quantity = quantity("ShoreA", "1", Some(10.0), "Shore A hardness");
+/// Magnetic flux density.
+pub const FIELD: Quantity = quantity("FluxDensity", "T", Some(0.01), "Magnetic flux density, world frame");
+/// Remanence.
+pub const REMANENCE: Quantity = quantity("Remanence", "T", Some(1.0), "Remanent flux density along the axis");
+/// Gradient of the flux density.
+pub const GRADIENT: Quantity =
+    quantity("FieldGradient", "T/m", Some(1.0), "Gradient of the magnetic flux density, world frame");
+/// Force.
+pub const FORCE: Quantity = quantity("Force", "N", Some(0.01), "Force, world frame");
+/// Moment.
+pub const MOMENT: Quantity = quantity("Moment", "N.m", Some(0.001), "Moment or torque, world frame");
+/// Acceleration.
+pub const ACCELERATION: Quantity = quantity("Acceleration", "m/s2", Some(10.0), "Acceleration, world frame");
+/// Elastic modulus.
+pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", Some(1e6), "Young's modulus");
+/// Density.
+pub const DENSITY: Quantity = quantity("Density", "kg/m3", Some(1000.0), "Mass per volume");
+
+/// All quantities, in the order of the model description.
+pub const QUANTITIES: &[Quantity] = &[
+    POSITION,
+    LENGTH,
+    ANGLE,
+    QUATERNION,
+    DIRECTION,
+    RATIO,
+    HARDNESS,
+    FIELD,
+    REMANENCE,
+    GRADIENT,
+    FORCE,
+    MOMENT,
+    ACCELERATION,
+    MODULUS,
+    DENSITY,
+];

@@ -1,0 +1,256 @@
+//! `modelDescription.xml`, written from the table.
+
+use std::io;
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
+
+use super::given::Given;
+use super::log::Category;
+use super::units::{QUANTITIES, UNITS};
+use super::variable::{Enumeration, Kind, Role, Value, Variable};
+use super::variables::Table;
+use crate::error::Error;
+
+/// Name of the model.
+pub const MODEL_NAME: &str = "MagneticContinuumManipulator";
+/// Name of the shared library in the archive, without suffix.
+pub const MODEL_IDENTIFIER: &str = "mcm";
+
+const DESCRIPTION: &str = "Shape, tip angle and forces of a magnetic continuum manipulator from the pose of the \
+                           external magnet";
+const COPYRIGHT: &str = "Copyright (c) 2026 the mcm authors";
+const TOOL: &str = concat!("mcm ", env!("CARGO_PKG_VERSION"));
+
+type Xml = Writer<Vec<u8>>;
+type Attributes<'a> = &'a [(&'a str, &'a str)];
+
+/// The model description of a table with these start values.
+///
+/// `generated` is the date and time in UTC (`2026-01-31T12:00:00Z`), if it is to be told.
+///
+/// # Errors
+/// [`Error::Syntax`] if the text cannot be written.
+pub fn model_description(
+    table: &Table,
+    start: &Given,
+    guid: &str,
+    generated: Option<&str>,
+) -> Result<String, Error> {
+    let refused = |reason: String| Error::Syntax { what: "modelDescription.xml".into(), reason };
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    write(&mut xml, table, start, guid, generated).map_err(|error| refused(error.to_string()))?;
+    let text = String::from_utf8(xml.into_inner()).map_err(|error| refused(error.to_string()))?;
+    Ok(text + "\n")
+}
+
+fn write(xml: &mut Xml, table: &Table, start: &Given, guid: &str, generated: Option<&str>) -> io::Result<()> {
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let mut attributes = vec![
+        ("fmiVersion", "2.0"),
+        ("modelName", MODEL_NAME),
+        ("guid", guid),
+        ("description", DESCRIPTION),
+        ("author", "the mcm authors"),
+        ("version", env!("CARGO_PKG_VERSION")),
+        ("copyright", COPYRIGHT),
+        ("license", "MIT; see documentation/licenses"),
+        ("generationTool", TOOL),
+    ];
+    attributes.extend(generated.map(|generated| ("generationDateAndTime", generated)));
+    attributes.push(("variableNamingConvention", "structured"));
+    within(xml, "fmiModelDescription", &attributes, |xml| {
+        co_simulation(xml)?;
+        within(xml, "UnitDefinitions", &[], units)?;
+        within(xml, "TypeDefinitions", &[], |xml| types(xml, table))?;
+        within(xml, "LogCategories", &[], |xml| {
+            Category::ALL.iter().try_for_each(|category| {
+                empty(xml, "Category", &[("name", category.name()), ("description", category.description())])
+            })
+        })?;
+        empty(xml, "DefaultExperiment", &[("startTime", "0"), ("stopTime", "10"), ("stepSize", "0.01")])?;
+        within(xml, "ModelVariables", &[], |xml| {
+            (table.variables().iter().enumerate())
+                .try_for_each(|(reference, variable)| scalar(xml, reference, variable, start))
+        })?;
+        within(xml, "ModelStructure", &[], |xml| structure(xml, table))
+    })
+}
+
+fn co_simulation(xml: &mut Xml) -> io::Result<()> {
+    empty(
+        xml,
+        "CoSimulation",
+        &[
+            ("modelIdentifier", MODEL_IDENTIFIER),
+            ("needsExecutionTool", "false"),
+            ("canHandleVariableCommunicationStepSize", "true"),
+            ("canInterpolateInputs", "false"),
+            ("maxOutputDerivativeOrder", "0"),
+            ("canRunAsynchronuously", "false"),
+            ("canBeInstantiatedOnlyOncePerProcess", "false"),
+            ("canNotUseMemoryManagementFunctions", "true"),
+            ("canGetAndSetFMUstate", "true"),
+            ("canSerializeFMUstate", "false"),
+            ("providesDirectionalDerivative", "false"),
+        ],
+    )
+}
+
+fn units(xml: &mut Xml) -> io::Result<()> {
+    for unit in UNITS {
+        within(xml, "Unit", &[("name", unit.name)], |xml| {
+            let exponents: Vec<_> =
+                unit.base.iter().map(|(name, exponent)| (*name, exponent.to_string())).collect();
+            let base: Vec<_> = exponents.iter().map(|(name, exponent)| (*name, exponent.as_str())).collect();
+            empty(xml, "BaseUnit", &base)?;
+            match unit.display {
+                Some((name, factor)) => {
+                    empty(xml, "DisplayUnit", &[("name", name), ("factor", &number(factor))])
+                }
+                None => Ok(()),
+            }
+        })?;
+    }
+    Ok(())
+}
+
+fn display_unit(unit: &str) -> Option<&'static str> {
+    UNITS.iter().find(|known| known.name == unit)?.display.map(|(name, _)| name)
+}
+
+fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    for quantity in QUANTITIES {
+        let attributes = [("name", quantity.name), ("description", quantity.description)];
+        within(xml, "SimpleType", &attributes, |xml| {
+            let nominal = quantity.nominal.map(number);
+            let mut real = vec![("quantity", quantity.name), ("unit", quantity.unit)];
+            real.extend(display_unit(quantity.unit).map(|unit| ("displayUnit", unit)));
+            real.extend(nominal.as_deref().map(|nominal| ("nominal", nominal)));
+            empty(xml, "Real", &real)
+        })?;
+    }
+    let mut enumerations: Vec<&Enumeration> = Vec::new();
+    for variable in table.variables() {
+        if let Kind::Enumeration(enumeration) = variable.kind
+            && !enumerations.contains(&enumeration)
+        {
+            enumerations.push(enumeration);
+        }
+    }
+    for enumeration in enumerations {
+        let attributes = [("name", enumeration.name), ("description", enumeration.description)];
+        within(xml, "SimpleType", &attributes, |xml| {
+            within(xml, "Enumeration", &[("quantity", enumeration.name)], |xml| {
+                enumeration.items.iter().try_for_each(|item| {
+                    let value = item.value.to_string();
+                    let attributes =
+                        [("name", item.name), ("value", value.as_str()), ("description", item.description)];
+                    empty(xml, "Item", &attributes)
+                })
+            })
+        })?;
+    }
+    Ok(())
+}
+
+/// Causality, variability and initial of a role.
+fn causality(variable: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
+    match (variable.role, variable.kind) {
+        (Role::Input, Kind::Real(_)) => ("input", "continuous", None),
+        (Role::Input, _) => ("input", "discrete", None),
+        (Role::Fixed, _) => ("parameter", "fixed", Some("exact")),
+        (Role::Tunable, _) => ("parameter", "tunable", Some("exact")),
+        (Role::Constant, _) => ("local", "constant", Some("exact")),
+        (Role::Output, Kind::Real(_)) => ("output", "continuous", Some("calculated")),
+        (Role::Output, _) => ("output", "discrete", Some("calculated")),
+    }
+}
+
+fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &Given) -> io::Result<()> {
+    let reference = reference.to_string();
+    let (causality, variability, initial) = causality(variable);
+    let mut attributes = vec![
+        ("name", variable.name.as_str()),
+        ("valueReference", reference.as_str()),
+        ("description", variable.description.as_str()),
+        ("causality", causality),
+        ("variability", variability),
+    ];
+    attributes.extend(initial.map(|initial| ("initial", initial)));
+    within(xml, "ScalarVariable", &attributes, |xml| {
+        let integral = matches!(variable.kind, Kind::Integer | Kind::Enumeration(_));
+        let bound = |bound: f64| if integral { format!("{bound:.0}") } else { number(bound) };
+        let (min, max) = (variable.min.map(bound), variable.max.map(bound));
+        let start = variable.given(start).map(|value| match value {
+            Value::Real(value) => number(value),
+            Value::Integer(value) => value.to_string(),
+            Value::Boolean(value) => value.to_string(),
+        });
+        let (element, mut attributes) = match &variable.kind {
+            Kind::Real(quantity) => {
+                let mut attributes = vec![("declaredType", quantity.name), ("unit", quantity.unit)];
+                attributes.extend(display_unit(quantity.unit).map(|unit| ("displayUnit", unit)));
+                ("Real", attributes)
+            }
+            Kind::Integer => ("Integer", vec![]),
+            Kind::Boolean => ("Boolean", vec![]),
+            Kind::Enumeration(enumeration) => ("Enumeration", vec![("declaredType", enumeration.name)]),
+        };
+        let optional = [("min", min), ("max", max), ("start", start)];
+        attributes.extend(optional.iter().filter_map(|(name, value)| Some((*name, value.as_deref()?))));
+        empty(xml, element, &attributes)
+    })
+}
+
+fn structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    within(xml, "Outputs", &[], |xml| unknowns(xml, table, &[Role::Input]))?;
+    within(xml, "InitialUnknowns", &[], |xml| {
+        unknowns(xml, table, &[Role::Input, Role::Fixed, Role::Tunable])
+    })
+}
+
+/// All outputs, each with those of the variables in the roles `known` upon which it depends.
+fn unknowns(xml: &mut Xml, table: &Table, known: &[Role]) -> io::Result<()> {
+    let rows = || (1..).zip(table.variables());
+    for (index, output) in rows().filter(|(_, variable)| variable.role == Role::Output) {
+        let dependencies = rows().filter(|(_, variable)| known.contains(&variable.role)).filter_map(
+            |(index, variable): (usize, _)| {
+                let clamped = table.counts().clamped_ring;
+                Some((index.to_string(), output.reach.upon(variable, output.at, clamped)?))
+            },
+        );
+        let (indices, kinds): (Vec<_>, Vec<_>) = dependencies.unzip();
+        let (index, indices) = (index.to_string(), indices.join(" "));
+        let mut attributes = vec![("index", index.as_str()), ("dependencies", indices.as_str())];
+        // Left out, every kind is `dependent`.
+        let said = kinds.iter().any(|&kind| kind != "dependent").then(|| kinds.join(" "));
+        attributes.extend(said.as_deref().map(|kinds| ("dependenciesKind", kinds)));
+        empty(xml, "Unknown", &attributes)?;
+    }
+    Ok(())
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+fn element<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
+    BytesStart::new(name).with_attributes(attributes.iter().copied())
+}
+
+fn empty(xml: &mut Xml, name: &str, attributes: Attributes) -> io::Result<()> {
+    xml.write_event(Event::Empty(element(name, attributes)))
+}
+
+fn within(
+    xml: &mut Xml,
+    name: &str,
+    attributes: Attributes,
+    content: impl FnOnce(&mut Xml) -> io::Result<()>,
+) -> io::Result<()> {
+    xml.write_event(Event::Start(element(name, attributes)))?;
+    content(xml)?;
+    xml.write_event(Event::End(BytesEnd::new(name)))
+}
