@@ -219,7 +219,7 @@ impl Walk<'_> {
 
     fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
         self.work.place(self.scene.chain, &inputs.base, unknowns);
-        self.rules.choose(self.scene.chain, &self.work.nodes, self.scene.settings.pair_accuracy);
+        self.rules.choose(self.scene.chain, &self.work.nodes);
     }
 
     /// Verdict on stability at the shape that the last correction has left in the workspace.

@@ -134,7 +134,7 @@ impl Potential<'_> {
             let dead = force + self.inputs.gravity * body.ring.mass;
             let load = &mut self.work.node_loads[body.node];
             let reach = self.field.distance(&(node.position + arm));
-            let rule = self.rules.external(index, &body.ring, reach, self.settings.pair_accuracy);
+            let rule = self.rules.external(index, reach);
             *load += self.field.on_ring(body, &node, rule)?;
             *load += Load::dead_force(&dead, &node.position, &arm);
         }

@@ -23,7 +23,7 @@ pub struct Settings {
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-8.
+    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-6.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
     pub tolerance: f64,
@@ -43,7 +43,7 @@ impl Default for Settings {
             interaction: Interaction::Rings,
             degree: 3,
             cylinder_elements: 8,
-            pair_accuracy: 1e-8,
+            pair_accuracy: 1e-6,
             tolerance: 1e-11,
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,

@@ -72,7 +72,7 @@ impl Equilibrium {
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain));
+        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain, settings.pair_accuracy));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
@@ -153,7 +153,7 @@ impl Equilibrium {
 
     fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
-        self.rules.choose(&self.chain, &self.work.nodes, self.settings.pair_accuracy);
+        self.rules.choose(&self.chain, &self.work.nodes);
         Potential {
             chain: &self.chain,
             settings: &self.settings,
@@ -244,7 +244,7 @@ impl Equilibrium {
         for (index, body) in self.chain.rings.iter().enumerate() {
             let node = &self.work.nodes[body.node];
             let reach = field.distance(&node.advanced(0.5 * body.ring.length).position);
-            let rule = self.rules.external(index, &body.ring, reach, self.settings.pair_accuracy);
+            let rule = self.rules.external(index, reach);
             add(field.on_ring(body, node, rule), &node.position);
         }
         for (k, element) in self.chain.elements.iter().enumerate() {

@@ -66,7 +66,8 @@ fn rows() {
             inputs.magnet_strength = 1.0;
         }
         let degree = std::env::var("DEGREE").map_or(3, |d| d.parse().unwrap());
-        let settings = Settings { interaction: level, degree, ..Settings::default() };
+        let pair_accuracy = std::env::var("ACC").map_or(1e-8, |d| d.parse().unwrap());
+        let settings = Settings { interaction: level, degree, pair_accuracy, ..Settings::default() };
         let mut eq = Equilibrium::new(&design, assembly.as_ref(), settings, 11).unwrap();
         let now = std::time::Instant::now();
         let report = eq.solve(&inputs).unwrap();
