@@ -106,6 +106,7 @@ impl AxialRule {
 
     /// Positions on the axis (m), ascending, with their weights (m3); the weights add up to the body's volume, single ones
     /// may be negative.
+    #[must_use]
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.points.iter().copied()
     }

@@ -13,7 +13,10 @@ mod peer;
 #[path = "../magnetics/reference.rs"]
 mod reference;
 
+use std::time::Instant;
+
 use mcm::error::Error;
+use mcm::geometry::Pose;
 use mcm::magnetics::Jet;
 use nalgebra::Vector3;
 use reference::{Row, pair, ring, table};
@@ -31,6 +34,38 @@ fn main() {
         "cylinder_pair_hessian_dev.csv",
         |p| two.jet(p),
         peer::pair,
+    );
+    println!("\nring on ring, {WRENCH_TABLE}: error of force and torque relative to |F| + |T|/a");
+    println!("| accuracy asked for | median | max | microseconds, mean |\n| --- | --- | --- | --- |");
+    for accuracy in [1e-3, 1e-6, 1e-9, 1e-12] {
+        wrenches(accuracy);
+    }
+}
+
+const WRENCH_TABLE: &str = "ring_pair_wrench_dev.csv";
+
+fn wrenches(accuracy: f64) {
+    let (source, radius) = (ring(), 2.0e-3);
+    let rows: Vec<Row<10>> = table(WRENCH_TABLE);
+    let start = Instant::now();
+    let mut errors: Vec<f64> = rows
+        .iter()
+        .map(|Row { point, values }| {
+            let orientation = core::array::from_fn(|i| values[i]);
+            let pose = Pose::new((*point).into(), orientation).expect("unit quaternion");
+            let wrench = source.wrench_on(&source, &pose, accuracy).expect("apart");
+            let (force, torque) =
+                (Vector3::from_row_slice(&values[4..7]), Vector3::from_row_slice(&values[7..]));
+            let error = (wrench.force - force).norm().max((wrench.torque - torque).norm() / radius);
+            error / (force.norm() + torque.norm() / radius)
+        })
+        .collect();
+    let time = start.elapsed().as_secs_f64() * 1e6 / rows.len() as f64;
+    errors.sort_by(f64::total_cmp);
+    println!(
+        "| {accuracy:.0e} | {:.1e} | {:.1e} | {time:.1} |",
+        errors[rows.len() / 2],
+        errors[rows.len() - 1]
     );
 }
 

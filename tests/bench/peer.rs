@@ -8,8 +8,13 @@ const REMANENCE: f64 = 1.35;
 /// A cylinder of the given radius and length at the origin.
 pub(crate) fn cylinder(point: &Vector3<f64>, radius: f64, length: f64) -> [f64; 3] {
     let at = [point.x, point.y, point.z].into();
+    #[allow(
+        clippy::default_trait_access,
+        reason = "the unit quaternion of the peer's own version of nalgebra"
+    )]
+    let unturned = Default::default();
     let polarization = [0.0, 0.0, REMANENCE].into();
-    cylinder_B(at, [0.0; 3].into(), Default::default(), polarization, 2.0 * radius, length).into()
+    cylinder_B(at, [0.0; 3].into(), unturned, polarization, 2.0 * radius, length).into()
 }
 
 /// The reference ring: an outer minus an inner cylinder.

@@ -1,1 +1,4 @@
 //! Tests of `design`.
+
+mod limits;
+mod paper;

@@ -168,7 +168,7 @@ fn a_linear_field_is_free_of_divergence_and_curl() {
     assert_eq!(gradient, gradient.transpose());
     assert!(gradient.trace().abs() <= ROUNDING);
     let [xx, xy, xz, yy, yz] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2)].map(|index| gradient[index]);
-    assert_eq!([xx, xy, xz, yy, yz].map(f64::round), [1.0, 2.0, 3.0, 4.0, 5.0]);
+    assert_close("entries", &[xx, xy, xz, yy, yz], &[1.0, 2.0, 3.0, 4.0, 5.0], ROUNDING);
     let point = Vector3::new(0.1, -0.2, 0.3);
     let jet = field.jet(&point);
     assert_eq!((jet.field, jet.gradient), (field.at(&point), gradient));
