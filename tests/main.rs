@@ -20,6 +20,8 @@ mod manipulator;
 
 mod fmi;
 
+mod abi;
+
 mod cli;
 
 mod layers;

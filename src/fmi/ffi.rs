@@ -275,13 +275,8 @@ export! {
             // SAFETY: see above.
             let names = unsafe { array(names, length) }
                 .and_then(|names| names.iter().map(|&name| unsafe { text(name) }).collect::<Option<Vec<_>>>());
-            match names {
-                Some(names) => {
-                    let names: Vec<&str> = names.iter().map(AsRef::as_ref).collect();
-                    instance.set_debug_logging(on != 0, &names)
-                }
-                None => instance.refuse("a log category is null"),
-            }
+            let Some(names) = names else { return instance.refuse("a log category is null") };
+            instance.set_debug_logging(on != 0, &names.iter().map(AsRef::as_ref).collect::<Vec<_>>())
         };
     fmi2SetupExperiment: fmi2SetupExperimentTYPE, SetupExperiment =
         |instance, _tolerance_defined: fmi2Boolean, _tolerance: fmi2Real, start: fmi2Real, stop_defined: fmi2Boolean,
@@ -292,7 +287,6 @@ export! {
         |instance| instance.exit_initialization();
     fmi2Terminate: fmi2TerminateTYPE, Terminate = |instance| instance.terminate();
     fmi2Reset: fmi2ResetTYPE, Reset = |instance| instance.reset();
-
     fmi2GetReal: fmi2GetRealTYPE, Get =
         |instance, references: References, length: usize, values: *mut fmi2Real| {
             let real = |value| if let Value::Real(value) = value { Some(value) } else { None };
@@ -338,7 +332,6 @@ export! {
         |instance, _references: References, length: usize, _values: *const fmi2String| {
             if length == 0 { Ending::Ok } else { instance.refuse("there are no String variables") }
         };
-
     fmi2GetFMUstate: fmi2GetFMUstateTYPE, GetFmuState = |instance, state: *mut fmi2FMUstate| {
         // SAFETY: see above.
         match unsafe { array(state, 1) } {
@@ -381,7 +374,6 @@ export! {
     fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, Unsupported =
         |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *mut fmi2Real|
             Ending::Error;
-
     fmi2DoStep: fmi2DoStepTYPE, DoStep =
         |instance, time: fmi2Real, step: fmi2Real, _no_set_state_before: fmi2Boolean| instance.do_step(time, step);
     // Steps are never pending: there is none to cancel, and nothing to tell about one.

@@ -61,12 +61,11 @@ impl Given {
     /// What [`Scene`] refuses.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
-        let (magnets, magnet) = match &scene.magnets {
-            Some(magnets) => (magnets.clone(), scene.inputs.magnet),
-            None => {
-                let usual = Scene::parse(SWITCHED_OFF, "usual magnet")?;
-                (usual.magnets.unwrap_or_default(), usual.inputs.magnet)
-            }
+        let (magnets, magnet) = if let Some(magnets) = &scene.magnets {
+            (magnets.clone(), scene.inputs.magnet)
+        } else {
+            let usual = Scene::parse(SWITCHED_OFF, "usual magnet")?;
+            (usual.magnets.unwrap_or_default(), usual.inputs.magnet)
         };
         let inputs = &scene.inputs;
         let backbone = match &scene.specification {
@@ -127,7 +126,7 @@ impl Given {
     /// As [`Given::design`], [`Assembly::new`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let magnet = Assembly::new(self.magnets.clone())?;
-        Manipulator::new(&self.design()?, Some(&magnet), self.settings.clone(), shape_points)
+        Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)
     }
 }
 

@@ -110,18 +110,20 @@ impl Instance {
     }
 
     /// Tells the log why a call is refused.
+    #[must_use]
     pub fn refuse(&self, reason: &str) -> Ending {
         self.log.error(reason);
         Ending::Error
     }
 
     /// Whether `call` is allowed now; if not, the log says so.
+    #[must_use]
     pub fn allows(&self, call: Call, name: &str) -> bool {
         let allowed = self.state().allows(call);
         if call == Call::Unsupported {
-            self.refuse(&format!("{name} is not offered: see the capabilities in the model description"));
+            self.log.error(&format!("{name} is not offered: see the capabilities in the model description"));
         } else if !allowed {
-            self.refuse(&format!("{name} is not allowed in state {:?}", self.state()));
+            self.log.error(&format!("{name} is not allowed in state {:?}", self.state()));
         }
         allowed
     }
@@ -216,7 +218,7 @@ impl Instance {
         let find = |&reference: &u32| {
             let found = self.package.table().find(reference);
             if found.is_none() {
-                self.refuse(&format!("there is no variable with value reference {reference}"));
+                self.log.error(&format!("there is no variable with value reference {reference}"));
             }
             found
         };

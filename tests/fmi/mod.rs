@@ -2,3 +2,44 @@
 
 #[cfg(feature = "bindgen")]
 mod bindings;
+
+mod description;
+
+mod instance;
+
+mod package;
+
+mod state;
+
+mod table;
+
+use std::sync::{Arc, Mutex};
+
+use mcm::fmi::log::Log;
+use mcm::fmi::{Instance, Package};
+
+/// One segment in a uniform field: quick to solve, and bent.
+const BENT: &str =
+    "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 10.0, 0.0]\n[model]\ninteraction = \"none\"";
+
+/// What an instance has told its host.
+type Told = Arc<Mutex<Vec<String>>>;
+
+/// An instance of a scene with five shape points, and its log.
+fn instance(scene: &str) -> (Instance, Package, Told) {
+    let package = Package::new(scene, "test scene", 5).unwrap();
+    let told = Told::default();
+    let sink = Arc::clone(&told);
+    let log = Log::new(
+        Box::new(move |_, category, message| {
+            sink.lock().unwrap().push(format!("{}: {message}", category.name()));
+        }),
+        false,
+    );
+    (Instance::new(Arc::new(package.clone()), log), package, told)
+}
+
+/// The last message.
+fn last(told: &Told) -> String {
+    told.lock().unwrap().last().cloned().unwrap_or_default()
+}

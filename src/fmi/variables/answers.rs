@@ -24,6 +24,8 @@ fn count(number: u32) -> i32 {
 
 type Vector = (&'static str, Quantity, &'static str, fn(&Outputs, At) -> f64, Reach);
 
+type Whole = (&'static str, &'static str, fn(&Outputs) -> i32);
+
 impl Rows {
     pub(super) fn answers(&mut self, counts: &Counts) {
         self.real(
@@ -127,7 +129,7 @@ impl Rows {
             "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold",
             answer(|o, _| o.stability_margin),
         ));
-        let integers: [(&str, &str, fn(&Outputs) -> i32); 3] = [
+        let integers: [Whole; 3] = [
             ("stability.snaps", "Jumps to another branch since initialisation", |o| count(o.snaps)),
             ("solver.status", "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved", |o| {
                 status_number(o.status)

@@ -1,0 +1,274 @@
+//! The C interface, driven through the exported functions.
+#![allow(unsafe_code, reason = "the functions under test take raw pointers")]
+
+use std::ffi::{CStr, CString, c_char, c_void};
+use std::ptr;
+use std::sync::{Mutex, PoisonError};
+
+use mcm::fmi::Package;
+use mcm::fmi::bindings::*;
+use mcm::fmi::ffi::*;
+
+const OK: fmi2Status = fmi2Status::fmi2OK;
+const ERROR: fmi2Status = fmi2Status::fmi2Error;
+const DISCARD: fmi2Status = fmi2Status::fmi2Discard;
+
+/// What the logger has heard, by the environment that each test gives it.
+static HEARD: Mutex<Vec<(usize, String)>> = Mutex::new(Vec::new());
+
+/// The standard's logger is variadic; one that ignores what follows the format is compatible with it in C's calling
+/// convention on every platform that FMUs run on. It checks what the FMU promises: a category and the format `%s`.
+unsafe extern "C" fn logger(
+    environment: fmi2ComponentEnvironment,
+    name: fmi2String,
+    _status: fmi2Status,
+    category: fmi2String,
+    format: fmi2String,
+    message: *const c_char,
+) {
+    // SAFETY: the FMU gives zero-terminated texts.
+    let text = |text: *const c_char| unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned();
+    let said = format!("{} {} {}: {}", text(name), text(category), text(format), text(message));
+    HEARD.lock().unwrap_or_else(PoisonError::into_inner).push((environment.addr(), said));
+}
+
+fn heard(environment: usize) -> Vec<String> {
+    let heard = HEARD.lock().unwrap_or_else(PoisonError::into_inner);
+    heard.iter().filter(|(by, _)| *by == environment).map(|(_, said)| said.clone()).collect()
+}
+
+fn callbacks(environment: usize) -> fmi2CallbackFunctions {
+    type Fixed = unsafe extern "C" fn(
+        fmi2ComponentEnvironment,
+        fmi2String,
+        fmi2Status,
+        fmi2String,
+        fmi2String,
+        *const c_char,
+    );
+    // SAFETY: see `logger`.
+    let logger: fmi2CallbackLogger = unsafe { std::mem::transmute::<Option<Fixed>, _>(Some(logger)) };
+    fmi2CallbackFunctions {
+        logger,
+        allocateMemory: None,
+        freeMemory: None,
+        stepFinished: None,
+        componentEnvironment: ptr::without_provenance_mut(environment),
+    }
+}
+
+/// An instance of the default design; `environment` names the test to its logger.
+fn instantiate(environment: usize) -> fmi2Component {
+    let guid = CString::new(Package::built_in().unwrap().guid()).unwrap();
+    let functions = callbacks(environment);
+    // SAFETY: all texts and the callbacks outlive the call.
+    let made = unsafe {
+        fmi2Instantiate(
+            c"one".as_ptr(),
+            fmi2Type::fmi2CoSimulation,
+            guid.as_ptr(),
+            ptr::null(),
+            &raw const functions,
+            0,
+            0,
+        )
+    };
+    assert!(!made.is_null(), "{:?}", heard(environment));
+    made
+}
+
+fn initialise(component: fmi2Component) {
+    // SAFETY: no pointers but the handle.
+    unsafe {
+        assert_eq!(fmi2SetupExperiment(component, 0, 0.0, 0.0, 0, 0.0), OK);
+        assert_eq!(fmi2EnterInitializationMode(component), OK);
+        assert_eq!(fmi2ExitInitializationMode(component), OK);
+    }
+}
+
+fn reference(name: &str) -> fmi2ValueReference {
+    Package::built_in().unwrap().table().reference(name).unwrap()
+}
+
+fn get(component: fmi2Component, name: &str) -> (fmi2Status, f64) {
+    let (reference, mut value) = (reference(name), f64::NAN);
+    // SAFETY: one reference, one value.
+    let status = unsafe { fmi2GetReal(component, &raw const reference, 1, &raw mut value) };
+    (status, value)
+}
+
+fn set(component: fmi2Component, name: &str, value: f64) -> fmi2Status {
+    let reference = reference(name);
+    // SAFETY: one reference, one value.
+    unsafe { fmi2SetReal(component, &raw const reference, 1, &raw const value) }
+}
+
+#[test]
+fn version_and_platform_are_the_headers_own() {
+    // SAFETY: both functions return static texts.
+    let (version, platform) =
+        unsafe { (CStr::from_ptr(fmi2GetVersion()), CStr::from_ptr(fmi2GetTypesPlatform())) };
+    assert_eq!((version, platform), (c"2.0", c"default"));
+}
+
+#[test]
+fn a_run_from_instantiate_to_free() {
+    let component = instantiate(101);
+    initialise(component);
+    let (status, still) = get(component, "tip.angle");
+    assert_eq!(status, OK);
+    assert_eq!(set(component, "magnet.position[2]", -0.115), OK);
+    // SAFETY: no pointers but the handle.
+    assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, OK);
+    let (_, closer) = get(component, "tip.angle");
+    assert!((closer - still).abs() > 1e-6, "{still} {closer}");
+    let (mut time, mut terminated) = (f64::NAN, 7);
+    // SAFETY: each writes one value.
+    unsafe {
+        assert_eq!(fmi2GetRealStatus(component, fmi2StatusKind::fmi2LastSuccessfulTime, &raw mut time), OK);
+        assert_eq!(fmi2GetBooleanStatus(component, fmi2StatusKind::fmi2Terminated, &raw mut terminated), OK);
+        assert_eq!(fmi2GetRealStatus(component, fmi2StatusKind(99), &raw mut time), DISCARD);
+        assert_eq!(fmi2Terminate(component), OK);
+        assert_eq!(fmi2Terminate(component), ERROR, "mosaik does that");
+        fmi2FreeInstance(component);
+        fmi2FreeInstance(component);
+    }
+    assert_eq!((time, terminated), (0.1, 0));
+    // SAFETY: an unknown handle is refused before anything is read.
+    assert_eq!(unsafe { fmi2DoStep(component, 0.1, 0.1, 1) }, ERROR);
+}
+
+#[test]
+fn handles_that_are_none_are_errors() {
+    for handle in [0, 1_000_000_007, usize::MAX] {
+        let component: *mut c_void = ptr::without_provenance_mut(handle);
+        // SAFETY: an unknown handle is refused before anything is read.
+        unsafe {
+            assert_eq!(fmi2Reset(component), ERROR);
+            assert_eq!(fmi2GetReal(component, ptr::null(), 1, ptr::null_mut()), ERROR);
+            fmi2FreeInstance(component);
+        }
+    }
+}
+
+#[test]
+fn null_is_survived_and_length_zero_may_come_with_it() {
+    let component = instantiate(102);
+    initialise(component);
+    let reference = reference("tip.angle");
+    // SAFETY: null is what is tested; the reference is one.
+    unsafe {
+        assert_eq!(fmi2GetReal(component, ptr::null(), 0, ptr::null_mut()), OK);
+        assert_eq!(fmi2SetReal(component, ptr::null(), 0, ptr::null()), OK);
+        assert_eq!(fmi2GetString(component, ptr::null(), 0, ptr::null_mut()), OK);
+        assert_eq!(fmi2SetString(component, ptr::null(), 0, ptr::null()), OK);
+        assert_eq!(fmi2SetDebugLogging(component, 1, 0, ptr::null()), OK);
+        assert_eq!(fmi2GetReal(component, ptr::null(), 3, ptr::null_mut()), ERROR);
+        assert_eq!(fmi2GetReal(component, &raw const reference, 1, ptr::null_mut()), ERROR);
+        assert_eq!(fmi2SetReal(component, &raw const reference, 1, ptr::null()), ERROR);
+        assert_eq!(fmi2SetDebugLogging(component, 1, 2, ptr::null()), ERROR);
+        assert_eq!(fmi2GetFMUstate(component, ptr::null_mut()), ERROR);
+        assert_eq!(fmi2FreeFMUstate(component, ptr::null_mut()), OK);
+        assert_eq!(
+            fmi2GetRealStatus(component, fmi2StatusKind::fmi2LastSuccessfulTime, ptr::null_mut()),
+            ERROR
+        );
+        fmi2FreeInstance(component);
+    }
+}
+
+#[test]
+fn refusals_are_told_with_category_and_format() {
+    let component = instantiate(103);
+    // SAFETY: no pointers but the handle.
+    assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, ERROR);
+    let said = heard(103).pop().unwrap();
+    assert_eq!(said, "one logStatusError %s: fmi2DoStep is not allowed in state Instantiated");
+    initialise(component);
+    assert_eq!(set(component, "magnet.strength", f64::NAN), ERROR);
+    assert!(heard(103).pop().unwrap().contains("magnet.strength = NaN"));
+    // SAFETY: no pointers but the handle.
+    assert_eq!(unsafe { fmi2CancelStep(component) }, ERROR);
+    assert!(heard(103).pop().unwrap().contains("not offered"));
+    assert_eq!(get(component, "magnet.strength"), (OK, 1.0), "still usable");
+    fmi2FreeInstance(component);
+}
+
+#[test]
+fn instantiation_is_refused_with_a_reason() {
+    let guid = CString::new(Package::built_in().unwrap().guid()).unwrap();
+    let functions = callbacks(104);
+    let attempt = |name: fmi2String, kind, guid: fmi2String, location: fmi2String, functions| {
+        // SAFETY: texts are null or zero-terminated, `functions` is null or the callbacks above.
+        unsafe { fmi2Instantiate(name, kind, guid, location, functions, 0, 1) }
+    };
+    let (own, one, kind) = (guid.as_ptr(), c"one".as_ptr(), fmi2Type::fmi2CoSimulation);
+    let refused: [(_, _, _, _, &str); 6] = [
+        (ptr::null(), kind, own, ptr::null(), "instance name"),
+        (c"".as_ptr(), kind, own, ptr::null(), "instance name"),
+        (one, fmi2Type::fmi2ModelExchange, own, ptr::null(), "co-simulation"),
+        (one, kind, ptr::null(), ptr::null(), "GUID is null"),
+        (one, kind, c"{wrong}".as_ptr(), ptr::null(), "{wrong}"),
+        (one, kind, own, c"http://example.org/".as_ptr(), "file:"),
+    ];
+    for (name, kind, guid, location, reason) in refused {
+        assert!(attempt(name, kind, guid, location, &raw const functions).is_null(), "{reason}");
+        let said = heard(104).pop().unwrap();
+        assert!(said.contains(reason), "{said}");
+    }
+    for location in [c"", c"file:///nowhere/at%20all/", c"file:////nowhere/at all"] {
+        let silent = attempt(one, kind, own, location.as_ptr(), ptr::null());
+        assert!(!silent.is_null(), "no callbacks, no resources: {location:?}");
+        fmi2FreeInstance(silent);
+    }
+}
+
+#[test]
+fn saved_states_belong_to_their_instance() {
+    let (first, second) = (instantiate(105), instantiate(105));
+    initialise(first);
+    initialise(second);
+    let (mut state, unmoved) = (ptr::null_mut(), get(first, "tip.angle").1);
+    // SAFETY: `state` is one handle that the FMU wrote, or null.
+    unsafe {
+        assert_eq!(fmi2GetFMUstate(first, &raw mut state), OK);
+        assert_eq!(set(first, "magnet.strength", 0.5), OK);
+        assert_eq!(fmi2DoStep(first, 0.0, 1.0, 0), OK);
+        assert_ne!(get(first, "tip.angle").1.to_bits(), unmoved.to_bits());
+        assert_eq!(fmi2SetFMUstate(second, state), ERROR, "of another instance");
+        assert_eq!(fmi2SetFMUstate(first, state), OK);
+        assert_eq!(get(first, "tip.angle").1.to_bits(), unmoved.to_bits());
+        let kept = state;
+        assert_eq!(fmi2GetFMUstate(first, &raw mut state), OK, "overwritten");
+        assert_eq!(state, kept);
+        assert_eq!(fmi2FreeFMUstate(first, &raw mut state), OK);
+        assert!(state.is_null());
+        assert_eq!(fmi2FreeFMUstate(first, &raw mut state), OK, "null is nothing to free");
+        assert_eq!(fmi2SetFMUstate(first, kept), ERROR);
+        let mut size = 0;
+        assert_eq!(fmi2SerializedFMUstateSize(first, kept, &raw mut size), ERROR);
+    }
+    fmi2FreeInstance(first);
+    fmi2FreeInstance(second);
+}
+
+#[test]
+fn instances_live_in_their_own_threads() {
+    let runs: Vec<_> = (0..4)
+        .map(|row| {
+            std::thread::spawn(move || {
+                let component = instantiate(106);
+                initialise(component);
+                assert_eq!(set(component, "magnet.strength", 0.5 + 0.1 * f64::from(row % 2)), OK);
+                // SAFETY: no pointers but the handle.
+                assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, OK);
+                let angle = get(component, "tip.angle").1.to_bits();
+                fmi2FreeInstance(component);
+                angle
+            })
+        })
+        .collect();
+    let angles: Vec<u64> = runs.into_iter().map(|run| run.join().unwrap()).collect();
+    assert_eq!(angles[..2], angles[2..]);
+    assert_ne!(angles[0], angles[1]);
+}

@@ -1,0 +1,196 @@
+//! The life of an instance.
+
+use mcm::fmi::Instance;
+use mcm::fmi::state::{Ending, State};
+use mcm::fmi::variable::Value;
+use mcm::fmi::variables::Table;
+
+use super::{BENT, instance, last};
+
+fn reference(table: &Table, name: &str) -> u32 {
+    table.reference(name).unwrap_or_else(|| panic!("{name}"))
+}
+
+fn real(value: Value) -> Option<f64> {
+    if let Value::Real(value) = value { Some(value) } else { None }
+}
+
+fn get(instance: &mut Instance, table: &Table, name: &str) -> f64 {
+    instance.get(&[reference(table, name)], "Real", real).unwrap().0[0]
+}
+
+fn set(instance: &mut Instance, table: &Table, name: &str, value: f64) -> Ending {
+    instance.set(&[reference(table, name)], [Value::Real(value)].into_iter())
+}
+
+fn initialised(scene: &str) -> (Instance, Table, super::Told) {
+    let (mut instance, package, told) = instance(scene);
+    assert_eq!(instance.setup_experiment(0.0, None), Ending::Ok);
+    assert_eq!(instance.enter_initialization(), Ending::Ok);
+    assert_eq!(instance.exit_initialization(), Ending::Ok, "{}", last(&told));
+    (instance, package.table().clone(), told)
+}
+
+#[test]
+fn outputs_are_those_of_the_inputs_now_set() {
+    let (mut instance, table, _) = initialised(BENT);
+    let before = get(&mut instance, &table, "tip.angle");
+    assert!(before > 0.1);
+    assert_eq!(set(&mut instance, &table, "field.uniform[2]", 0.02), Ending::Ok);
+    let bent = get(&mut instance, &table, "tip.angle");
+    assert!(bent > before);
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+    assert_eq!(
+        get(&mut instance, &table, "tip.angle").to_bits(),
+        bent.to_bits(),
+        "the step finds its work done"
+    );
+    assert!((instance.time() - 0.1).abs() < 1e-15);
+}
+
+#[test]
+fn reading_does_not_change_the_run() {
+    let run = |reads: bool| {
+        let (mut instance, table, _) = initialised(BENT);
+        for step in 0..5 {
+            let field = 0.01 + 0.002 * f64::from(step);
+            assert_eq!(set(&mut instance, &table, "field.uniform[2]", field), Ending::Ok);
+            if reads {
+                get(&mut instance, &table, "tip.angle");
+            }
+            assert_eq!(instance.do_step(0.1 * f64::from(step), 0.1), Ending::Ok);
+        }
+        get(&mut instance, &table, "tip.angle").to_bits()
+    };
+    assert_eq!(run(true), run(false));
+}
+
+#[test]
+fn bad_values_are_refused_by_name_and_the_instance_goes_on() {
+    let (mut instance, table, told) = initialised(BENT);
+    let angle = get(&mut instance, &table, "tip.angle");
+    assert_eq!(set(&mut instance, &table, "magnet.position[1]", f64::NAN), Ending::Error);
+    assert!(last(&told).contains("magnet.position[1] = NaN"), "{}", last(&told));
+    assert_eq!(set(&mut instance, &table, "base.orientation[2]", 0.5), Ending::Ok, "component by component");
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Error);
+    assert!(last(&told).contains("base.orientation"), "{}", last(&told));
+    assert_eq!(set(&mut instance, &table, "base.orientation[2]", 0.0), Ending::Ok);
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+    assert!((get(&mut instance, &table, "tip.angle") - angle).abs() < 1e-12);
+}
+
+#[test]
+fn wrong_references_and_types_are_refused_whole() {
+    let (mut instance, table, told) = initialised(BENT);
+    let strength = reference(&table, "magnet.strength");
+    let ending = instance.set(&[strength, 123_456], [Value::Real(0.5), Value::Real(0.5)].into_iter());
+    assert_eq!(ending, Ending::Error);
+    assert!(last(&told).contains("123456"), "{}", last(&told));
+    assert_eq!(
+        get(&mut instance, &table, "magnet.strength").to_bits(),
+        0,
+        "nothing of a refused call is kept"
+    );
+    assert_eq!(instance.set(&[strength], [Value::Integer(1)].into_iter()), Ending::Error);
+    assert_eq!(instance.get(&[reference(&table, "solver.status")], "Real", real), Err(Ending::Error));
+    assert!(last(&told).contains("solver.status is no Real"), "{}", last(&told));
+    let status = set(&mut instance, &table, "tip.angle", 1.0);
+    assert_eq!(status, Ending::Error, "{}", last(&told));
+    let status = set(&mut instance, &table, "design.helix.length", 0.005);
+    assert_eq!(status, Ending::Error, "{}", last(&told));
+}
+
+#[test]
+fn parameters_are_checked_at_the_end_of_initialisation() {
+    let (mut instance, package, told) = instance(BENT);
+    let table = package.table();
+    instance.enter_initialization();
+    assert_eq!(set(&mut instance, table, "design.helix.core_inner_radius", 0.003), Ending::Ok);
+    assert_eq!(instance.exit_initialization(), Ending::Error);
+    assert_eq!(instance.state(), State::Initialization, "{}", last(&told));
+    assert_eq!(set(&mut instance, table, "design.helix.core_inner_radius", 0.0007), Ending::Ok);
+    assert_eq!(instance.exit_initialization(), Ending::Ok, "{}", last(&told));
+    let soft = get(&mut instance, table, "tip.angle");
+    instance.reset();
+    instance.enter_initialization();
+    let reference_angle = get(&mut instance, table, "tip.angle");
+    assert!((soft - reference_angle).abs() > 1e-3, "the parameter had an effect, and reset took it back");
+}
+
+#[test]
+fn the_first_equilibrium_does_not_depend_on_what_was_read_before() {
+    let run = |reads: bool| {
+        let (mut instance, package, _) = instance(BENT);
+        instance.enter_initialization();
+        if reads {
+            set(&mut instance, package.table(), "field.uniform[1]", 0.02);
+            get(&mut instance, package.table(), "tip.angle");
+            set(&mut instance, package.table(), "field.uniform[1]", 0.0);
+        }
+        assert_eq!(instance.exit_initialization(), Ending::Ok);
+        get(&mut instance, package.table(), "tip.angle").to_bits()
+    };
+    assert_eq!(run(true), run(false));
+}
+
+#[test]
+fn a_saved_state_repeats_the_run() {
+    let (mut instance, table, told) = initialised(BENT);
+    instance.save(7);
+    let run = |instance: &mut Instance| {
+        assert_eq!(set(instance, &table, "field.uniform[2]", 0.017), Ending::Ok);
+        assert_eq!(instance.do_step(0.0, 0.5), Ending::Ok);
+        (get(instance, &table, "tip.angle").to_bits(), instance.time().to_bits())
+    };
+    let first = run(&mut instance);
+    assert_eq!(instance.restore(7), Ending::Ok);
+    assert_eq!(run(&mut instance), first);
+    assert_eq!(instance.restore(8), Ending::Error);
+    assert!(last(&told).contains("FMU state"));
+    assert_eq!(instance.forget(7), Ending::Ok);
+    assert_eq!(instance.forget(7), Ending::Error);
+}
+
+#[test]
+fn times_are_compared_with_slack_and_strange_ones_refused() {
+    let (mut instance, package, told) = instance(BENT);
+    assert_eq!(instance.setup_experiment(1.0, Some(0.0)), Ending::Error);
+    assert_eq!(instance.setup_experiment(f64::NAN, None), Ending::Error);
+    assert_eq!(instance.setup_experiment(0.0, Some(0.3)), Ending::Ok);
+    instance.enter_initialization();
+    assert_eq!(instance.exit_initialization(), Ending::Ok);
+    let quiet = told.lock().unwrap().len();
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+    assert_eq!(instance.do_step(0.1, 0.1), Ending::Ok);
+    assert_eq!(instance.do_step(0.2, 0.099_999_999_999_999_98), Ending::Ok);
+    assert_eq!(told.lock().unwrap().len(), quiet, "{}", last(&told));
+    for (time, step) in [(f64::NAN, 0.1), (0.3, f64::INFINITY), (0.3, -0.1), (0.3, 0.1)] {
+        assert_eq!(instance.do_step(time, step), Ending::Error, "{time} {step}");
+    }
+    assert_eq!(instance.do_step(0.05, 0.1), Ending::Warning, "another time than expected");
+    assert!(get(&mut instance, package.table(), "tip.angle") > 0.1);
+}
+
+#[test]
+fn after_a_panic_a_reset_gives_a_fresh_start() {
+    let (mut instance, table, told) = initialised(BENT);
+    let angle = get(&mut instance, &table, "tip.angle").to_bits();
+    instance.save(1);
+    assert_eq!(instance.break_down("for the test"), Ending::Error);
+    assert!(last(&told).contains("for the test"));
+    assert_eq!(instance.state(), State::Broken);
+    assert_eq!(instance.reset(), Ending::Ok);
+    assert_eq!(instance.restore(1), Ending::Error, "nothing from before is trusted");
+    instance.enter_initialization();
+    assert_eq!(instance.exit_initialization(), Ending::Ok);
+    assert_eq!(get(&mut instance, &table, "tip.angle").to_bits(), angle);
+}
+
+#[test]
+fn log_categories_are_those_declared() {
+    let (mut instance, _, told) = instance(BENT);
+    assert_eq!(instance.set_debug_logging(true, &[]), Ending::Ok);
+    assert_eq!(instance.set_debug_logging(true, &["logEvents", "logAll"]), Ending::Ok);
+    assert_eq!(instance.set_debug_logging(true, &["logNothing"]), Ending::Error);
+    assert!(last(&told).contains("logNothing"));
+}

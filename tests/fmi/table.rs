@@ -1,0 +1,161 @@
+//! The table: names, units, get and set.
+
+use std::collections::BTreeSet;
+
+use mcm::fmi::Package;
+use mcm::fmi::units::{QUANTITIES, UNITS};
+use mcm::fmi::variable::{Access, Kind, Role, Value};
+
+const SCENES: [&str; 4] = [
+    "",
+    "[design]\nsegments = 2\nbase_magnet = false\n[design.backbone]\nouter_radius_mm = 0.74\ninner_radius_mm = 0.7\n\
+     elastic_modulus_mpa = 500.0\npoisson = 0.46",
+    "[design]\nkind = \"cylinder\"\nlength_mm = 10.0\nradius_mm = 1.0\nshore_a = 33.0",
+    "[design]\nkind = \"cylinder\"\nlength_mm = 10.0\nradius_mm = 1.0\nelastic_modulus_mpa = 1.0\nremanence_t = 0.2",
+];
+
+fn packages() -> impl Iterator<Item = Package> {
+    SCENES.iter().map(|scene| Package::new(scene, "test scene", 4).unwrap())
+}
+
+#[test]
+fn names_are_unique_and_found_by_reference() {
+    for package in packages() {
+        let table = package.table();
+        let names: BTreeSet<_> = table.variables().iter().map(|variable| &variable.name).collect();
+        assert_eq!(names.len(), table.variables().len());
+        for name in names {
+            let reference = table.reference(name).unwrap();
+            assert_eq!(&table.find(reference).unwrap().name, name);
+        }
+        assert!(table.find(u32::try_from(table.variables().len()).unwrap()).is_none());
+        assert!(table.find(u32::MAX).is_none());
+    }
+}
+
+#[test]
+fn the_names_that_users_rely_on_are_there() {
+    let package = Package::built_in().unwrap();
+    let names = [
+        "magnet.position[3]",
+        "magnet.orientation[4]",
+        "magnet.strength",
+        "field.uniform[1]",
+        "field.gradient[5]",
+        "base.position[1]",
+        "base.orientation[1]",
+        "tip.load_force[3]",
+        "tip.load_moment[3]",
+        "ring[10].load_force[3]",
+        "gravity[3]",
+        "model.interaction",
+        "magnet.design.cylinder[2].remanence",
+        "tip.angle",
+        "tip.position[3]",
+        "tip.orientation[4]",
+        "force.magnetic[3]",
+        "torque.magnetic[3]",
+        "base.reaction_force[3]",
+        "base.reaction_moment[3]",
+        "magnet.reaction_force[3]",
+        "magnet.reaction_torque[3]",
+        "field.tip[3]",
+        "shape.position[21,3]",
+        "shape.arc_length[21]",
+        "ring[10].position[3]",
+        "ring[10].axis[3]",
+        "core[9].angle",
+        "stability.stable",
+        "stability.margin",
+        "stability.snaps",
+        "solver.status",
+        "solver.iterations",
+        "solver.residual",
+        "model.level",
+    ];
+    for name in names {
+        assert!(package.table().reference(name).is_some(), "{name}");
+    }
+    let start = |name: &str| {
+        let variable = package.table().find(package.table().reference(name).unwrap()).unwrap();
+        variable.given(package.start()).unwrap()
+    };
+    let magnet = [1, 2, 3, 4].map(|k| start(&format!("magnet.orientation[{k}]")));
+    assert_eq!(magnet, [0.0, 1.0, 0.0, 0.0].map(Value::Real));
+    assert_eq!(start("magnet.position[2]"), Value::Real(-0.12));
+    assert_eq!(start("magnet.design.cylinder[1].radius"), Value::Real(0.0225));
+}
+
+#[test]
+fn what_is_set_is_read_back_and_touches_nothing_else() {
+    for package in packages() {
+        let table = package.table();
+        let settable = || {
+            (table.variables().iter()).filter(|v| matches!(v.role, Role::Input | Role::Fixed | Role::Tunable))
+        };
+        for (row, variable) in settable().enumerate() {
+            let mut given = package.start().clone();
+            let value = match variable.access {
+                Access::Real { .. } => Value::Real(0.125 + row as f64),
+                Access::Boolean { get, .. } => Value::Boolean(!get(&given)),
+                Access::Choice { .. } => Value::Integer(1),
+                _ => panic!("{} has no place", variable.name),
+            };
+            assert!(variable.set(&mut given, value), "{}", variable.name);
+            assert_eq!(variable.given(&given), Some(value), "{}", variable.name);
+            for other in settable().filter(|other| other.name != variable.name) {
+                assert_eq!(
+                    other.given(&given),
+                    other.given(package.start()),
+                    "{} by {}",
+                    other.name,
+                    variable.name
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn start_values_lie_within_their_bounds() {
+    for package in packages() {
+        for variable in package.table().variables() {
+            let Some(Value::Real(start)) = variable.given(package.start()) else { continue };
+            let within =
+                variable.min.is_none_or(|min| start >= min) && variable.max.is_none_or(|max| start <= max);
+            assert!(start.is_finite() && within, "{} = {start}", variable.name);
+        }
+    }
+}
+
+#[test]
+fn values_that_are_none_are_refused() {
+    let package = Package::built_in().unwrap();
+    let mut given = package.start().clone();
+    for variable in package.table().variables() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(!variable.set(&mut given, Value::Real(value)), "{}", variable.name);
+        }
+        if let Access::Choice { .. } = variable.access {
+            assert!(!variable.set(&mut given, Value::Integer(99)), "{}", variable.name);
+        }
+    }
+    assert_eq!(&given, package.start());
+}
+
+#[test]
+fn every_real_has_a_known_quantity_and_unit() {
+    for variable in Package::built_in().unwrap().table().variables() {
+        if let Kind::Real(quantity) = variable.kind {
+            assert!(QUANTITIES.contains(&quantity), "{}", variable.name);
+            assert!(UNITS.iter().any(|unit| unit.name == quantity.unit), "{}", variable.name);
+        }
+    }
+}
+
+#[test]
+fn shape_points_have_bounds() {
+    for points in [0, 1, 1001] {
+        assert!(Package::new("", "test scene", points).is_err(), "{points}");
+    }
+}

@@ -1,0 +1,129 @@
+"""The archive: valid, and sound where validators do not look."""
+
+import subprocess
+import zipfile
+from collections.abc import Callable
+
+import pytest
+from conftest import PACKAGE, Archive, Device, run
+from fmpy.validation import validate_fmu
+from lxml import etree
+
+SCENES = {
+    "default": None,
+    "one segment": "[design]\nsegments = 1\nbase_magnet = false",
+    "cylinder": '[design]\nkind = "cylinder"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0',
+    "backbone": "[design]\nsegments = 2\n[design.backbone]\nouter_radius_mm = 0.7\ninner_radius_mm = 0.25\n"
+    "shore_a = 50.0\npoisson = 0.4",
+}
+
+
+def tree(archive: Archive) -> etree._Element:
+    """The model description."""
+    return etree.parse(archive.folder / "modelDescription.xml").getroot()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_validator_finds_nothing(pack: Callable[..., Archive], name: str) -> None:
+    assert validate_fmu(str(pack(SCENES[name]).path)) == []
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_guid_fits_the_library(pack: Callable[..., Archive], name: str) -> None:
+    device = Device(pack(SCENES[name])).start()
+    assert device.status() == 0
+    device.slave.freeInstance()
+
+
+def test_library_is_named_after_the_model_identifier(default: Archive) -> None:
+    identifier = tree(default).find("CoSimulation").get("modelIdentifier")
+    with zipfile.ZipFile(default.path) as archive:
+        libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
+    assert libraries == [f"binaries/linux64/{identifier}.so"]
+
+
+def test_serialisation_is_only_promised_with_saved_states(default: Archive) -> None:
+    flags = tree(default).find("CoSimulation").attrib
+    assert flags["canGetAndSetFMUstate"] == "true" or flags["canSerializeFMUstate"] == "false"
+
+
+def test_unknowns_are_sorted(default: Archive) -> None:
+    for group in tree(default).find("ModelStructure"):
+        indices = [int(unknown.get("index")) for unknown in group]
+        assert indices == sorted(set(indices))
+        for unknown in group:
+            known = [int(index) for index in unknown.get("dependencies").split()]
+            assert known == sorted(set(known))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_start_values_are_those_of_the_library(pack: Callable[..., Archive], name: str) -> None:
+    device = Device(pack(SCENES[name]))
+    device.slave.setupExperiment(startTime=0.0)
+    device.slave.enterInitializationMode()
+    read = {
+        "Real": (device.slave.getReal, float),
+        "Integer": (device.slave.getInteger, int),
+        "Enumeration": (device.slave.getInteger, int),
+        "Boolean": (device.slave.getBoolean, lambda text: text == "true"),
+    }
+    started = [v for v in device.archive.variables.values() if v.start is not None]
+    assert len(started) > 50
+    for variable in started:
+        getter, parse = read[variable.type]
+        assert getter([variable.valueReference])[0] == parse(variable.start), variable.name
+    device.slave.freeInstance()
+
+
+def test_only_the_functions_of_the_standard_are_exported(default: Archive) -> None:
+    library = default.folder / "binaries" / "linux64" / "mcm.so"
+    listed = subprocess.run(
+        ["nm", "-D", "--defined-only", library], capture_output=True, text=True, check=True
+    )
+    symbols = sorted(line.split()[-1] for line in listed.stdout.splitlines())
+    headers = (PACKAGE / "fmu" / "headers" / "fmi2Functions.h").read_text()
+    common = headers[headers.index("FMI2_Export fmi2GetTypesPlatformTYPE") :]
+    promised = {
+        line.split()[2].rstrip(";") for line in common.splitlines() if line.strip().startswith("FMI2_Export")
+    }
+    model_exchange = {
+        "fmi2EnterEventMode",
+        "fmi2NewDiscreteStates",
+        "fmi2EnterContinuousTimeMode",
+        "fmi2CompletedIntegratorStep",
+        "fmi2SetTime",
+        "fmi2SetContinuousStates",
+        "fmi2GetDerivatives",
+        "fmi2GetEventIndicators",
+        "fmi2GetContinuousStates",
+        "fmi2GetNominalsOfContinuousStates",
+    }
+    assert set(symbols) == promised - model_exchange
+    assert len(symbols) == 34
+
+
+def test_archive_is_plain_deflate_with_licences_and_documentation(default: Archive) -> None:
+    with zipfile.ZipFile(default.path) as archive:
+        assert archive.testzip() is None
+        entries = archive.infolist()
+        page = archive.read("documentation/index.html").decode()
+    assert {entry.compress_type for entry in entries} <= {zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED}
+    assert all(entry.extract_version <= 20 and "\\" not in entry.filename for entry in entries)
+    names = {entry.filename for entry in entries}
+    assert {"documentation/licenses/license.txt", "model.png", "resources/scene.toml"} <= names
+    assert all(f"<code>{name}</code>" in page for name in default.variables)
+
+
+def test_checked_in_description_is_the_packed_one(default: Archive) -> None:
+    packed = (default.folder / "modelDescription.xml").read_text()
+    kept = (PACKAGE / "modelDescription" / "modelDescription.xml").read_text()
+    date = tree(default).get("generationDateAndTime")
+    assert packed.replace(f' generationDateAndTime="{date}"', "") == kept
+
+
+def test_missing_library_is_said(tmp_path: PACKAGE.__class__) -> None:
+    done = run("pack", "--library", tmp_path / "none.so", "--out", tmp_path / "mcm.fmu")
+    assert done.returncode == 1
+    assert "none.so" in done.stderr
+    assert "--library" in done.stderr
+    assert not (tmp_path / "mcm.fmu").exists()

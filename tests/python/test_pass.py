@@ -1,0 +1,158 @@
+"""The magnet passes: the FMU answers what the command line answers."""
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+import pytest
+from conftest import Archive, Device
+from fmpy import simulate_fmu
+
+SLACK = 1e-9  # both converge to 1e-11; relative to a quantity's usual size
+STOP = 2.0
+
+SCENE = """
+[magnet]
+position_mm = [{x!r}, {y!r}, {z!r}]
+orientation_wxyz = [{w!r}, {i!r}, 0.0, 0.0]
+"""
+
+# JSON name, FMU name, components, usual size.
+QUANTITIES = [
+    ("alpha_rad", "tip.angle", 0, 1.0),
+    ("tip_position_m", "tip.position", 3, 0.01),
+    ("tip_orientation_wxyz", "tip.orientation", 4, 1.0),
+    ("magnetic_force_n", "force.magnetic", 3, 0.01),
+    ("magnetic_torque_nm", "torque.magnetic", 3, 0.001),
+    ("base_reaction_force_n", "base.reaction_force", 3, 0.01),
+    ("base_reaction_moment_nm", "base.reaction_moment", 3, 0.001),
+    ("magnet_reaction_force_n", "magnet.reaction_force", 3, 0.01),
+    ("magnet_reaction_torque_nm", "magnet.reaction_torque", 3, 0.001),
+    ("stability_margin", "stability.margin", 0, 1.0),
+]
+
+
+def pose(time: float) -> dict[str, float]:
+    """Where the magnet is: it passes along the manipulator, sideways and turning a little."""
+    half = (math.pi + 0.3 * time) / 2
+    return {
+        "magnet.position[1]": 0.01 * time,
+        "magnet.position[2]": -0.125,
+        "magnet.position[3]": -0.03 + 0.05 * time,
+        "magnet.orientation[1]": math.cos(half),
+        "magnet.orientation[2]": math.sin(half),
+    }
+
+
+def scene(values: dict[str, float]) -> str:
+    """The same as a scene."""
+    x, y, z, w, i = values.values()
+    return SCENE.format(x=1e3 * x, y=1e3 * y, z=1e3 * z, w=w, i=i)
+
+
+def compare(device: Device, expected: dict) -> None:
+    """Asserts that the outputs of a device are those of the command line."""
+    rows = [(expected[key], name, n, size) for key, name, n, size in QUANTITIES]
+    rows += [(p, f"ring[{k}].position", 3, 0.01) for k, p in enumerate(expected["ring_positions_m"], 1)]
+    rows += [(angle, f"core[{k}].angle", 0, 1.0) for k, angle in enumerate(expected["core_angles_rad"], 1)]
+    for value, name, count, size in rows:
+        names = [f"{name}[{k}]" for k in range(1, count + 1)] if count else [name]
+        np.testing.assert_allclose(
+            device.get(names), np.atleast_1d(value), rtol=SLACK, atol=SLACK * size, err_msg=name
+        )
+    for point, position in enumerate(expected["shape_m"], 1):
+        names = [f"shape.position[{point},{axis}]" for axis in (1, 2, 3)]
+        np.testing.assert_allclose(
+            device.get(names), position, rtol=SLACK, atol=SLACK * 0.01, err_msg=names[0]
+        )
+
+
+def times(step: float) -> Iterator[float]:
+    """Ends of the steps."""
+    return (step * (index + 1) for index in range(round(STOP / step)))
+
+
+@pytest.mark.parametrize("step", [0.25, 0.1])
+def test_pass_equals_the_command_line(device: Device, solve: Callable[..., dict], step: float) -> None:
+    device.start(pose(0.0))
+    compare(device, solve(scene(pose(0.0))))
+    for end in times(step):
+        device.step(step, pose(end))
+        compare(device, solve(scene(pose(end))))
+    assert device.status() == 0
+    assert device.log == []
+
+
+def test_inputs_by_signal(default: Archive, solve: Callable[..., dict]) -> None:
+    names = list(pose(0.0))
+    signals = np.array(
+        [(time, *pose(time).values()) for time in np.linspace(0, 1, 11)],
+        dtype=[("time", float), *((name, float) for name in names)],
+    )
+    outputs = [*names, "tip.angle", "force.magnetic[2]"]
+    result = simulate_fmu(
+        str(default.path), stop_time=1.0, output_interval=0.1, input=signals, output=outputs
+    )
+    # The first row is the state after initialisation with the first input.
+    expected = solve(scene(pose(0.0)))
+    assert result["tip.angle"][0] == pytest.approx(expected["alpha_rad"], rel=SLACK)
+    assert np.ptp(result["tip.angle"]) > 1e-3
+    assert np.isfinite(result["force.magnetic[2]"]).all()
+
+
+def test_parameters_by_start_values(default: Archive, solve: Callable[..., dict]) -> None:
+    values = {
+        "design.helix.length": 4.5e-3,
+        "design.helix.shore_a": 30.0,
+        "design.backbone.present": True,
+        "design.backbone.outer_radius": 0.5e-3,
+        "magnet.design.cylinder[1].remanence": 1.2,
+        "model.interaction": "none",
+        "gravity[2]": -9.81,
+    }
+    outputs = ["tip.angle", "tip.position[2]"]
+    result = simulate_fmu(
+        str(default.path), stop_time=0.1, output_interval=0.1, start_values=values, output=outputs
+    )
+    cylinder = "{{ radius_mm = 22.5, length_mm = 30.0, offset_mm = {}, remanence_t = {} }}"
+    expected = solve(
+        f"""
+[design.helix]
+length_mm = 4.5
+shore_a = 30.0
+[design.backbone]
+outer_radius_mm = 0.5
+inner_radius_mm = 0.25
+shore_a = 50.0
+poisson = 0.4
+[magnet]
+position_mm = [0.0, -120.0, 23.0]
+cylinders = [{cylinder.format(-20.0, 1.2)}, {cylinder.format(20.0, 1.35)}]
+[gravity]
+acceleration_m_s2 = [0.0, -9.81, 0.0]
+[model]
+interaction = "none"
+"""
+    )
+    assert result["tip.angle"][-1] == pytest.approx(expected["alpha_rad"], rel=SLACK)
+    assert result["tip.position[2]"][-1] == pytest.approx(expected["tip_position_m"][1], rel=SLACK)
+
+
+def test_a_packed_scene_starts_as_the_command_line_solves_it(
+    pack: Callable[..., Archive], solve: Callable[..., dict]
+) -> None:
+    text = """
+[design]
+segments = 3
+[field]
+uniform_mt = [1.0, 5.0, 0.0]
+gradient_t_per_m = [0.1, 0.0, 0.2, -0.05, 0.0]
+[base]
+position_mm = [1.0, 2.0, 3.0]
+orientation_wxyz = [0.6, 0.0, 0.8, 0.0]
+[load]
+tip_force_n = [0.0, 0.001, 0.0]
+"""
+    device = Device(pack(text, "--shape-points", "7")).start()
+    compare(device, solve(text, 7))
+    device.slave.freeInstance()

@@ -1,0 +1,105 @@
+"""What is wrong is refused with a status and a message, and the instance goes on."""
+
+import math
+
+import pytest
+from conftest import Archive, Device
+from fmpy.fmi1 import FMICallException
+
+
+def refused(device: Device, call: str, *arguments: object) -> str:
+    """Asserts that a call is refused with an error; its message."""
+    before = len(device.log)
+    with pytest.raises(FMICallException) as refusal:
+        getattr(device.slave, call)(*arguments)
+    assert refusal.value.status == 3
+    assert len(device.log) == before + 1
+    return device.log[-1]
+
+
+def test_wrong_guid(default: Archive) -> None:
+    heard: list[str] = []
+
+    class Listening(Device):
+        def tell(self, *arguments: object) -> None:
+            heard.append(arguments[-1].decode())
+
+    with pytest.raises(Exception, match="Failed to instantiate"):
+        Listening(default, guid="{00000000-0000-0000-0000-000000000000}")
+    assert default.guid in heard[0]
+    assert "00000000-0000" in heard[0]
+
+
+def test_unknown_value_reference(device: Device) -> None:
+    device.start()
+    for call, arguments in [("getReal", [[99999]]), ("setReal", [[99999], [1.0]]), ("getString", [[0]])]:
+        message = refused(device, call, *arguments)
+        assert "99999" in message or "no String" in message
+    device.step(0.1)
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_number_that_is_none(device: Device, value: float) -> None:
+    device.start()
+    angle = device.get(["tip.angle"])
+    message = refused(device, "setReal", device.references(["magnet.position[2]"]), [value])
+    assert "magnet.position[2]" in message
+    assert "finite" in message
+    device.step(0.1)
+    assert device.get(["tip.angle"]) == pytest.approx(angle, rel=1e-9)
+
+
+def test_quaternion_that_is_no_rotation(device: Device) -> None:
+    device.start()
+    device.set({"magnet.orientation[1]": 0.5})
+    assert "magnet.orientation" in refused(device, "doStep", 0.0, 0.1)
+    device.step(0.1, {"magnet.orientation[1]": 0.0})
+
+
+def test_call_in_the_wrong_state(device: Device) -> None:
+    assert "Instantiated" in refused(device, "doStep", 0.0, 0.1)
+    assert "Instantiated" in refused(device, "getReal", [0])
+    assert "Instantiated" in refused(device, "exitInitializationMode")
+    device.start()
+    assert "Stepping" in refused(device, "enterInitializationMode")
+    assert "Stepping" in refused(device, "setReal", device.references(["design.helix.length"]), [0.005])
+    device.step(0.1)
+    device.slave.terminate()
+    assert "Terminated" in refused(device, "doStep", 0.1, 0.1)
+
+
+def test_design_that_cannot_be_built(device: Device) -> None:
+    device.slave.setupExperiment(startTime=0.0)
+    device.slave.enterInitializationMode()
+    device.set({"design.helix.core_inner_radius": 0.003})
+    message = refused(device, "exitInitializationMode")
+    assert "radius" in message
+    device.set({"design.helix.core_inner_radius": 0.00075})
+    device.slave.exitInitializationMode()
+    device.step(0.1)
+
+
+def test_outputs_cannot_be_set(device: Device) -> None:
+    device.start()
+    assert "tip.angle" in refused(device, "setReal", device.references(["tip.angle"]), [0.0])
+
+
+def test_what_is_not_offered(device: Device) -> None:
+    device.start()
+    state = device.slave.getFMUstate()
+    assert "not offered" in refused(device, "serializeFMUstate", state)
+    device.slave.freeFMUstate(state)
+    device.step(0.1)
+
+
+def test_magnet_upon_the_manipulator(device: Device) -> None:
+    """A pose inside the magnet has no field: an error, and a reset recovers."""
+    device.start()
+    angle = device.get(["tip.angle"])
+    device.set({"magnet.position[2]": -0.02, "magnet.position[3]": 0.02})
+    refused(device, "doStep", 0.0, 0.1)
+    if device.status() == 3:
+        assert all(math.isfinite(value) for value in device.get(device.reals()))
+        device.slave.reset()
+        device.start()
+        assert device.get(["tip.angle"]) == angle
