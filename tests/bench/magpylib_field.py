@@ -40,7 +40,7 @@ def microseconds(function, calls: int) -> float:
 
 def rows(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Points and fields of a reference table; an empty one is an error."""
-    with open(REFERENCE / name, newline="", encoding="utf-8") as table:
+    with (REFERENCE / name).open(newline="", encoding="utf-8") as table:
         values = np.array([[float(entry) for entry in row] for row in list(csv.reader(table))[1:]])
     if values.size == 0:
         raise SystemExit(f"{name} is empty")
