@@ -32,6 +32,69 @@ pub(crate) const PRINTED: f64 = 1.5e-4;
 /// A few operations in floating point.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
+/// Tip and rings of the independent energy model, relative to the length.
+pub(crate) const STATICS_LENGTH: f64 = 1e-5;
+
+/// Its angles, deg.
+pub(crate) const STATICS_ANGLE_DEG: f64 = 1e-3;
+
+/// Its forces and torques.
+pub(crate) const STATICS_WRENCH: f64 = 1e-4;
+
+/// Its energies, a minimum: of second order in the error of the shape.
+pub(crate) const STATICS_ENERGY: f64 = 1e-5;
+
+/// Accuracy that the ring pairs are asked for beside a table: a tenth of what it is good to.
+pub(crate) const PAIRS: f64 = 1e-10;
+
+/// Where a turned field loses the branch, deg.
+pub(crate) const FOLD_ANGLE_DEG: f64 = 0.5;
+
+/// At which relative strength of the magnet the branch is lost: the table's ramp has steps of up to 10 percent.
+pub(crate) const FOLD_STRENGTH: f64 = 0.03;
+
+/// The last stable shape before a fold, over the length: it moves with the square root of the distance.
+pub(crate) const FOLD_SHAPE: f64 = 1e-3;
+
+/// Critical loads.
+pub(crate) const CRITICAL: f64 = 1e-5;
+
+/// Width at which a bisection ends: well inside [`CRITICAL`].
+pub(crate) const BISECTION: f64 = 1e-8;
+
+/// A straight shape's distance from its axis over its length.
+pub(crate) const ON_AXIS: f64 = 1e-9;
+
+/// Laws that hold exactly, between two solves that each end at a residual of 1e-11.
+pub(crate) const LAW: f64 = 1e-9;
+
+/// Balance of forces, relative to the largest: rounding, and the residual of the solve.
+pub(crate) const BALANCE: f64 = 1e-9;
+
+/// Wrenches by two formulas at the shape of one solve.
+pub(crate) const RECIPROCITY: f64 = 1e-7;
+
+/// Slope of the energy by a central difference of step 1e-5: rounding of the energy, 1e-16/1e-5.
+pub(crate) const SLOPE_DIFFERENCE: f64 = 1e-7;
+
+/// Slope of the gradient by the same.
+pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
+
+/// Tip over the length at the default degree, uniform field of 20 mT.
+pub(crate) const DEGREE_NONE: f64 = 2e-6;
+
+/// The same with ring pairs.
+pub(crate) const DEGREE_RINGS: f64 = 1e-5;
+
+/// Tip over the length by the default accuracy of the ring pairs.
+pub(crate) const PAIRS_BY_DEFAULT: f64 = 1e-5;
+
+/// Residual of a solved shape: the default setting.
+pub(crate) const RESIDUAL: f64 = 1e-11;
+
+/// Shapes reached on two ways, over a length of 5 cm and in rotation.
+pub(crate) const RETURN: f64 = 1e-8;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)
