@@ -2,12 +2,20 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
+use super::trust_region::spread;
+
 /// Lanczos vectors at most.
 const LARGEST: usize = 40;
 
 /// Residual of the eigenvector, relative to its eigenvalue, at which the search ends. The eigenvalue's error
 /// is of second order in it.
 const SETTLED: f64 = 1e-3;
+
+/// Part of a vector with components in all directions that is mixed into the guess.
+///
+/// A guess from a subspace that `H` leaves alone, such as the bending out of a plane of symmetry, would never see
+/// a softer direction outside of it.
+const MIXED_IN: f64 = 0.3;
 
 /// The smallest `lambda`, and its vector (`x^T K x = 1`) in `vector`, which is also the first guess.
 ///
@@ -20,7 +28,7 @@ pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl 
     let inner = |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut next = vector.to_vec();
+    let mut next = mixed(metric, vector);
     loop {
         let norm = inner(&next, &next).sqrt();
         if !(norm.is_finite() && norm > 0.0) {
@@ -51,6 +59,19 @@ pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl 
         beside.push(rest);
         next = image;
     }
+}
+
+/// The guess, with a small part of every direction (all of them at the same size in the metric).
+fn mixed(metric: &[f64], guess: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; guess.len()];
+    spread(&mut out);
+    let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+    let all = square(&mut out.iter().copied());
+    let size = square(&mut guess.iter().zip(metric).map(|(x, k)| x * k.sqrt()));
+    for ((entry, k), x) in out.iter_mut().zip(metric).zip(guess) {
+        *entry = x + *entry * MIXED_IN * size / (all * k.sqrt());
+    }
+    out
 }
 
 /// Largest eigenvalue of a symmetric tridiagonal matrix, with its vector.
