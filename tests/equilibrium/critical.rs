@@ -1,11 +1,11 @@
 //! Straight shapes: where they lose their stability, and how the rings' attraction shortens them.
 
 use mcm::design::{Helix, gent_modulus};
-use mcm::equilibrium::{Equilibrium, Inputs};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction};
 use nalgebra::Vector3;
 
 use super::rows::{Row, number, row, rows, vector};
-use crate::tolerance::{BISECTION, CRITICAL, ON_AXIS, STATICS_LENGTH};
+use crate::tolerance::{BISECTION, CRITICAL, CRITICAL_WITHOUT_PAIRS, ON_AXIS, STATICS_LENGTH};
 
 /// Bisects between `low`, where `holds` is true, and `high`, where it is not.
 pub(crate) fn last_true(mut low: f64, mut high: f64, mut holds: impl FnMut(f64) -> bool) -> f64 {
@@ -47,7 +47,9 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
             is_stable(&mut equilibrium, &antiparallel(row, size), &straight)
         });
         let error = (found / expected - 1.0).abs();
-        assert!(error <= CRITICAL, "{}: got {found}, expected {expected}: {error:e}", row.id);
+        let pairs = row.interaction() != Some(Interaction::None);
+        let bound = if pairs { CRITICAL } else { CRITICAL_WITHOUT_PAIRS };
+        assert!(error <= bound, "{}: got {found}, expected {expected}: {error:e}", row.id);
         println!("{}: {error:e}", row.id);
         // The solver sees the same: straight up to there, bent beyond.
         let mut solver = row.equilibrium();
@@ -88,20 +90,33 @@ fn the_rings_own_attraction_buckles_a_soft_enough_core() {
     let row = row("c5_crit_Br_S1_rings");
     let (remanence, hardness) = (row.segmented.ring.remanence, Helix::paper().shore_a);
     let equivalent = |shore_a: f64| remanence * (gent_modulus(hardness) / gent_modulus(shore_a)).sqrt();
-    let is_straight = |softening: f64| {
+    let is_stable_straight = |softening: f64| {
         let mut softer = row_with_hardness(hardness - softening);
-        let report = softer.solve(&row.inputs).expect("finite inputs");
-        report.solved && off_axis(&softer) < ON_AXIS
+        let straight = straight(&mut softer, &row.inputs);
+        is_stable(&mut softer, &row.inputs, &straight)
     };
-    let found = equivalent(hardness - last_true(5.0, 32.0, is_straight));
+    let found = equivalent(hardness - last_true(5.0, 31.0, is_stable_straight));
     let expected = number(&row.outputs, "critical_Br_ring_T");
     let error = (found / expected - 1.0).abs();
-    assert!(error <= CRITICAL, "got {found} T, expected {expected} T: {error:e}");
     println!("critical remanence: {error:e}");
+    assert!(error <= CRITICAL, "got {found} T, expected {expected} T: {error:e}");
 }
 
 fn row_with_hardness(shore_a: f64) -> Equilibrium {
     let mut row = row("c5_crit_Br_S1_rings");
     row.segmented.helix.shore_a = shore_a;
     row.equilibrium()
+}
+
+/// The unknowns of the straight equilibrium, stable or not: Newton's method, damped so that every step is a descent;
+/// by symmetry it stays on the axis.
+fn straight(equilibrium: &mut Equilibrium, inputs: &Inputs) -> Vec<f64> {
+    const DAMPING: f64 = 0.5;
+    let mut unknowns = vec![0.0; equilibrium.freedoms()];
+    for _ in 0..100 {
+        let (_, gradient) = equilibrium.gradient(inputs, &unknowns).expect("apart");
+        let step = equilibrium.solve_at(inputs, &unknowns, DAMPING, &gradient).expect("positive definite");
+        unknowns.iter_mut().zip(step).for_each(|(x, s)| *x -= s);
+    }
+    unknowns
 }

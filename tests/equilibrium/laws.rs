@@ -134,7 +134,8 @@ fn all_forces_and_moments_on_the_manipulator_are_in_balance() {
 #[test]
 fn the_reaction_is_the_slope_of_the_energy_by_the_base_pose() {
     for interaction in [Interaction::None, Interaction::Rings] {
-        let inputs = everything();
+        // A moment that is dead in space has no energy: it stays away.
+        let inputs = Inputs { tip_moment: Vector3::zeros(), ..everything() };
         let mut equilibrium = manipulator(interaction);
         solve(&mut equilibrium, &inputs);
         let reaction = equilibrium.base_reaction();
