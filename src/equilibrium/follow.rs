@@ -13,6 +13,12 @@ use crate::numerics::trust_region::{self, Objective, Region, dual_norm, norm, sp
 /// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
 const CONTRACTION: f64 = 0.5;
 
+/// The same for steps with an earlier factorisation, which are only worth while if they contract better.
+const CHORD_CONTRACTION: f64 = 0.1;
+
+/// Part of every direction that is mixed into the last softest one before it is looked for again.
+const EVERY_DIRECTION: f64 = 0.05;
+
 /// Newton corrections at most for one part of an input change.
 const CORRECTIONS: u32 = 12;
 
@@ -43,7 +49,7 @@ pub(super) struct Branch {
 impl Branch {
     pub(super) fn new(chain: &Chain) -> Self {
         let mut softest = vec![0.0; chain.freedoms()];
-        spread(&mut softest);
+        spread(&chain.metric, &mut softest, 1.0);
         Self { unknowns: vec![0.0; chain.freedoms()], inputs: None, softest }
     }
 }
@@ -164,6 +170,7 @@ impl Walk<'_> {
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
+        self.approach(inputs, unknowns);
         let mut step = vec![0.0; unknowns.len()];
         let first = settings.follow_step / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
@@ -199,6 +206,35 @@ impl Walk<'_> {
             previous = length;
         }
         None
+    }
+
+    /// Steps with the last factorisation, as long as they contract well: cheap, for small input changes.
+    fn approach(&mut self, inputs: &Inputs, unknowns: &mut [f64]) {
+        let Scene { chain, settings, .. } = self.scene;
+        if !self.work.factored {
+            return;
+        }
+        let unit = chain.unit();
+        let mut step = vec![0.0; unknowns.len()];
+        let mut longest = settings.follow_step;
+        for _ in 0..CORRECTIONS {
+            let mut potential = self.potential(inputs);
+            if potential.slope(unknowns).is_none() {
+                return;
+            }
+            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
+                return;
+            }
+            step.iter_mut().zip(potential.gradient()).for_each(|(s, g)| *s = -g);
+            potential.solve(&mut step);
+            let length = norm(&chain.metric, &step) / unit;
+            if length.is_nan() || length > longest {
+                return;
+            }
+            unknowns.iter_mut().zip(&step).for_each(|(x, s)| *x += s);
+            self.report.iterations += 1;
+            longest = CHORD_CONTRACTION * length;
+        }
     }
 
     /// Downhill to the next minimum; counts a snap if it is far.
@@ -239,9 +275,11 @@ impl Walk<'_> {
         let mut potential = self.potential(inputs);
         // The last correction has factorised here; its factor serves the eigenvalue too.
         debug_assert_eq!(unknowns.len(), chain.freedoms());
+        // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
+        spread(&chain.metric, softest, EVERY_DIRECTION);
         let margin = eigenvalue::smallest(&chain.metric, 0.0, softest, |x| potential.solve(x));
         if margin.is_nan() {
-            spread(softest);
+            softest.fill(0.0);
         }
         self.report.margin = margin;
         self.report.solved = margin.is_finite();

@@ -86,7 +86,7 @@ impl Manipulator {
         let (equilibrium, out) = (&self.equilibrium, &mut self.outputs);
         out.tip = equilibrium.tip();
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        let magnetic = equilibrium.magnetic_wrench(inputs);
+        let magnetic = equilibrium.magnetic_wrench();
         (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
         let base = equilibrium.base_reaction();
         (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);

@@ -170,8 +170,9 @@ fn escape(objective: &mut impl Objective, radius: f64, step: &mut [f64]) -> f64 
     while !objective.factorise(shift) && shift < 1e12 {
         shift *= 2.0;
     }
-    spread(step);
     let metric = objective.metric().to_vec();
+    step.fill(0.0);
+    spread(&metric, step, 1.0);
     let value = eigenvalue::smallest(&metric, shift, step, |x| objective.solve(x));
     let length = norm(&metric, step);
     // The tie is broken towards positive first components, for repeatability.
@@ -180,10 +181,11 @@ fn escape(objective: &mut impl Objective, radius: f64, step: &mut [f64]) -> f64 
     -0.5 * value * radius * radius
 }
 
-/// Fills `x` with a fixed vector that has a part in every direction.
-pub fn spread(x: &mut [f64]) {
+/// Adds to `x` a fixed vector of norm `size` in the metric with a part in every direction.
+pub fn spread(metric: &[f64], x: &mut [f64], size: f64) {
     let golden = 0.618_033_988_749_894_9;
-    for (i, entry) in x.iter_mut().enumerate() {
-        *entry = 0.5 + (golden * (i + 1) as f64).fract();
+    let scale = size / (metric.len() as f64).sqrt();
+    for (i, (entry, k)) in x.iter_mut().zip(metric).enumerate() {
+        *entry += scale * (0.5 + (golden * (i + 1) as f64).fract()) / k.sqrt();
     }
 }

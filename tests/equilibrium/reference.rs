@@ -78,7 +78,7 @@ fn rows() {
             let tip = eq.tip();
             let alpha = tip.axis().angle(&Vector3::z()).to_degrees();
             let t = vector(&out["tip_p"]);
-            let w = eq.magnetic_wrench(&inputs);
+            let w = eq.magnetic_wrench();
             let (f, q) = (vector(&out["force"]), vector(&out["torque_about_base"]));
             println!(
                 "{id:28} dalpha {:9.1e} dtip/L {:8.1e} df {:8.1e} dt {:8.1e} margin {:.3} it {} snaps {} {} us digits {}",
