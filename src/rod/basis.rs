@@ -64,7 +64,10 @@ impl Modes {
                     .iter()
                     .zip(&weights)
                     .map(|(x, w)| {
-                        (self.raw(index, part.start + scale * (1.0 + x)), scale * w * part.compliance / self.total)
+                        (
+                            self.raw(index, part.start + scale * (1.0 + x)),
+                            scale * w * part.compliance / self.total,
+                        )
                     })
                     .collect::<Vec<_>>()
             })

@@ -106,7 +106,8 @@ impl Element {
         let mut tables = Vec::new();
         let mut first = 0;
         for piece in pieces {
-            let points = if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { degree + 1 + EXTRA_POINTS };
+            let points =
+                if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { degree + 1 + EXTRA_POINTS };
             tables.push((piece.length, gauss_legendre(points).0, first));
             first += points;
         }

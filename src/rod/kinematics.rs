@@ -114,7 +114,9 @@ impl Configuration {
             let bending = curvature.x * curvature.x + curvature.y * curvature.y;
             energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
         }
-        for ((component, stiffness), amplitude) in element.component.iter().zip(&element.metric).zip(amplitudes) {
+        for ((component, stiffness), amplitude) in
+            element.component.iter().zip(&element.metric).zip(amplitudes)
+        {
             if *component >= ROTATIONS {
                 energy += 0.5 * stiffness * amplitude * amplitude;
             }

@@ -91,10 +91,8 @@ fn tip_dipole(criterion: &mut Criterion) {
 fn closed_form(design: &Design, field: f64) -> f64 {
     let ring = design.rings().next().expect("a tip ring");
     let section = ring.outer_radius.powi(2) - ring.inner_radius.powi(2);
-    let moment = ring.remanence / mcm::constants::VACUUM_PERMEABILITY
-        * core::f64::consts::PI
-        * section
-        * ring.length;
+    let moment =
+        ring.remanence / mcm::constants::VACUUM_PERMEABILITY * core::f64::consts::PI * section * ring.length;
     let spans = design.segments().iter().flat_map(|segment| &segment.spans);
     let lambda = moment * field * spans.map(|span| span.length / span.stiffness.bending).sum::<f64>();
     (0..50).fold(0.5, |theta: f64, _| theta - (theta - lambda * theta.cos()) / (1.0 + lambda * theta.sin()))
