@@ -55,7 +55,10 @@ def draw_magnet(axes, row, colour, label) -> None:
             axes.add_patch(Polygon(corners, facecolor=pole, alpha=0.10, lw=0, zorder=1))
         corners = box(y + offset * axis[0], z + offset * axis[1], axis, *MAGNET)
         axes.add_patch(Polygon(corners, fill=False, edgecolor=colour, lw=1.6, zorder=2))
-    axes.text(z, y, label, color=colour, ha="center", va="center", fontsize=8, fontweight="bold", zorder=5)
+    # Above a magnet that lies along the manipulator, below one that is turned.
+    turned = row["magnet_turn_deg"] > 1
+    place = {"y": y - 45, "va": "top"} if turned else {"y": y + 25, "va": "bottom"}
+    axes.text(z, place["y"], label, color=colour, ha="center", va=place["va"], fontweight="bold", zorder=5)
 
 
 def tidy(axes) -> None:
@@ -71,10 +74,11 @@ def draw_scene(axes, rows, instants, colours) -> None:
         row = rows[index]
         draw_manipulator(axes, row, colour)
         draw_magnet(axes, row, colour, f"{row['time_s']:.0f} s")
+    axes.text(1, 4, "base", ha="right", va="bottom", fontsize=8)
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.margins(0.02)
-    axes.set(xlabel="z (mm), along the straight manipulator", ylabel="y (mm)")
+    axes.set(xlabel="z (mm), along the straight manipulator", ylabel="y (mm)", ylim=(-180, None))
     axes.set_title("Magnet pair and manipulator, to scale", loc="left")
     tidy(axes)
 

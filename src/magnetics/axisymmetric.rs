@@ -23,7 +23,8 @@ impl Meridian {
             return Self { x, y, rho: 0.0, cosine: 1.0, sine: 0.0 };
         }
         let rho = rho2.sqrt();
-        Self { x, y, rho, cosine: x / rho, sine: y / rho }
+        let inverse = 1.0 / rho;
+        Self { x, y, rho, cosine: x * inverse, sine: y * inverse }
     }
 }
 

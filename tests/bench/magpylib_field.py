@@ -19,7 +19,9 @@ POLARIZATION = (0.0, 0.0, 1.35)
 def cylinder(diameter: float, height: float, z: float = 0.0, sign: float = 1.0):
     """Axially magnetised cylinder, dimensions in m, remanence 1.35 T."""
     return magpylib.magnet.Cylinder(
-        polarization=tuple(sign * p for p in POLARIZATION), dimension=(diameter, height), position=(0.0, 0.0, z)
+        polarization=tuple(sign * p for p in POLARIZATION),
+        dimension=(diameter, height),
+        position=(0.0, 0.0, z),
     )
 
 
@@ -38,7 +40,7 @@ def microseconds(function, calls: int) -> float:
 
 def rows(name: str) -> tuple[np.ndarray, np.ndarray]:
     """Points and fields of a reference table; an empty one is an error."""
-    with open(REFERENCE / name, newline="", encoding="utf-8") as table:
+    with (REFERENCE / name).open(newline="", encoding="utf-8") as table:
         values = np.array([[float(entry) for entry in row] for row in list(csv.reader(table))[1:]])
     if values.size == 0:
         raise SystemExit(f"{name} is empty")
@@ -51,7 +53,9 @@ def main() -> None:
     pair = magpylib.Collection(cylinder(45e-3, 30e-3, z=-20e-3), cylinder(45e-3, 30e-3, z=20e-3))
     one = cylinder(45e-3, 30e-3)
     print(f"magpylib {magpylib.__version__}, Python {platform.python_version()}, {platform.machine()}\n")
-    print("| source | field, microseconds per single call | per point of 65536 in one call |\n| --- | --- | --- |")
+    print(
+        "| source | field, microseconds per single call | per point of 65536 in one call |\n| --- | --- | --- |"
+    )
     for name, source, radius in (("cylinder", one, 22.5e-3), ("ring", ring, 2e-3)):
         few = points(radius)
         many = np.tile(few, (1024, 1))

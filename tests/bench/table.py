@@ -14,7 +14,6 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-import magpylib_peer
 import solve_bvp_peer
 
 PACKAGE = Path(__file__).resolve().parents[2]
@@ -77,18 +76,13 @@ def solves() -> None:
 
 
 def fields() -> None:
-    """Field of a ring and of a cylinder at single points."""
-    times, _ = bench("field")
-    rows = []
-    for body in ("ring", "cylinder"):
-        ours = times[f"{body}/B+G"]
-        peers = {f"mcm {what}": times[f"{body}/{what}"] for what in ("B", "B+G", "B+G+H")}
-        peers["magba B"] = times[f"{body}/magba B"]
-        single, batch = magpylib_peer.measure(body)
-        name = f"magpylib {version('magpylib')} B"
-        peers |= {f"{name}, a call": single, f"{name}, a point of a batch": batch}
-        rows += [[body, peer, f"{1e9 * time:.0f}", f"{time / ours:.2f}"] for peer, time in peers.items()]
-    table(["body", "what", "time (ns)", "times our B+G"], rows)
+    """Fields at single points: time and accuracy beside magba, then those of magpylib."""
+    for example in ("field_speed", "field_accuracy"):
+        subprocess.run(
+            ["cargo", "run", "--quiet", "--release", "--example", example], cwd=PACKAGE, check=True
+        )
+        print(flush=True)
+    subprocess.run([sys.executable, PACKAGE / "tests" / "bench" / "magpylib_field.py"], check=True)
 
 
 def main() -> None:
@@ -101,7 +95,10 @@ def main() -> None:
     info = Path("/proc/cpuinfo")
     model = re.search(r"model name\s*: (.*)", info.read_text()) if info.exists() else None
     machine = model[1] if model else platform.machine()
-    print(f"{machine}, {os.cpu_count()} cores; rustc {rustc}, Python {platform.python_version()}; medians\n")
+    print(
+        f"{machine}, {os.cpu_count()} cores; rustc {rustc}, Python {platform.python_version()}; medians\n",
+        flush=True,
+    )
     for name in wanted:
         parts[name]()
 

@@ -73,6 +73,6 @@ impl Scene {
     /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let magnet = self.assembly()?;
-        Manipulator::new(&self.design()?, magnet.as_ref(), self.settings.clone(), shape_points)
+        Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)
     }
 }
