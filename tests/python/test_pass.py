@@ -30,8 +30,9 @@ QUANTITIES = [
     ("magnet_reaction_torque_nm", "magnet.reaction_torque", 3, 0.001),
 ]
 
-# The margin is an eigenvalue, found by iteration only as well as a verdict on stability needs it.
-MARGIN_SLACK = 1e-3
+# The margin is an eigenvalue, found by iteration from the last one's vector and only as well as a verdict on stability
+# needs it; where the two softest modes are nearly equal it may be either's.
+MARGIN_SLACK = 1e-2
 
 
 def pose(time: float) -> dict[str, float]:
