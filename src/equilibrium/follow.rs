@@ -16,6 +16,9 @@ const CONTRACTION: f64 = 0.5;
 /// Newton corrections at most for one part of an input change.
 const CORRECTIONS: u32 = 12;
 
+/// How often the rules may change at a solved shape: a distance at which two rules meet could swap them for ever.
+const RULE_CHOICES: u32 = 3;
+
 /// Where rounding, not Newton's method, decides the length of a step (in the chain's unit).
 const ROUNDING: f64 = 1e-9;
 
@@ -162,7 +165,8 @@ impl Walk<'_> {
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
         let mut step = vec![0.0; unknowns.len()];
-        let mut previous = settings.follow_step / CONTRACTION;
+        let first = settings.follow_step / CONTRACTION;
+        let (mut previous, mut choices) = (first, RULE_CHOICES);
         for _ in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             let energy = potential.linearise(unknowns)?;
@@ -178,12 +182,18 @@ impl Walk<'_> {
             let length = norm(&chain.metric, &step) / unit;
             self.report.residual = residual;
             self.report.energy = energy;
-            if solved {
-                return Some(());
+            let behaves = length <= CONTRACTION * previous;
+            if solved || (!behaves && length < ROUNDING) {
+                // The rules must be those of the solved shape, or the answer would depend on the way to it.
+                if choices == 0 || !self.choose_rules(inputs, unknowns) {
+                    return Some(());
+                }
+                (previous, choices) = (first, choices - 1);
+                continue;
             }
             self.report.iterations += 1;
-            if length.is_nan() || length > CONTRACTION * previous {
-                return (length < ROUNDING).then_some(());
+            if !behaves {
+                return None;
             }
             unknowns.iter_mut().zip(&step).for_each(|(x, s)| *x += s);
             previous = length;
@@ -217,9 +227,10 @@ impl Walk<'_> {
         true
     }
 
-    fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
+    /// Whether any rule is another one than before.
+    fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
         self.work.place(self.scene.chain, &inputs.base, unknowns);
-        self.rules.choose(self.scene.chain, &self.work.nodes);
+        self.rules.choose(self.scene.chain, &self.work.nodes)
     }
 
     /// Verdict on stability at the shape that the last correction has left in the workspace.

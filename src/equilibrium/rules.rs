@@ -27,8 +27,9 @@ impl PairRules {
         Self { tables, chosen: vec![0; count] }
     }
 
-    /// Chooses the rules for the present node poses.
-    pub(super) fn choose(&mut self, chain: &Chain, nodes: &[Pose]) {
+    /// Chooses the rules for the present node poses; whether any is another one than before.
+    pub(super) fn choose(&mut self, chain: &Chain, nodes: &[Pose]) -> bool {
+        let mut changed = false;
         let mut chosen = self.chosen.iter_mut();
         for (i, first) in chain.rings.iter().enumerate() {
             for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
@@ -36,10 +37,12 @@ impl PairRules {
                 let to = nodes[second.node].advanced(0.5 * second.ring.length);
                 let local = from.rotation.tr_mul(&(to.position - from.position));
                 if let Some(slot) = chosen.next() {
-                    *slot = fewest(&self.tables[j], first.source.distance(&local));
+                    let rule = fewest(&self.tables[j], first.source.distance(&local));
+                    changed |= rule != std::mem::replace(slot, rule);
                 }
             }
         }
+        changed
     }
 
     /// The rule of pair number `pair`, whose second ring is number `second`.

@@ -9,8 +9,8 @@ use super::jet::{FieldHessian, Jet};
 /// ```
 /// use mcm::magnetics::LinearField;
 /// use nalgebra::Vector3;
-/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, 0.25, 0.0]);
-/// assert_eq!(field.at(&Vector3::new(0.1, 0.1, 0.1)), Vector3::new(0.05, 0.045, -0.075));
+/// let field = LinearField::new(Vector3::new(0.0, 0.02, 0.0), [0.5, 0.0, 0.0, -0.25, 0.0]);
+/// assert_eq!(field.at(&Vector3::new(2.0, 0.0, 4.0)), Vector3::new(1.0, 0.02, -1.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearField {
