@@ -17,7 +17,8 @@ const SETTLED: f64 = 1e-3;
 /// a good guess it takes two or three solves. NaN for a vector or a solver that is not finite.
 pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl FnMut(&mut [f64])) -> f64 {
     let size = vector.len();
-    let inner = |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
+    let inner =
+        |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut next = vector.to_vec();

@@ -140,7 +140,7 @@ impl Rows {
             let draft = Draft::new(name, Kind::Integer, description, Access::IntegerAnswer(get)).min(0.0);
             self.real(if name == "solver.status" { draft.max(3.0) } else { draft });
         }
-        let residual = answer(|o, _| o.residual);
+        let residual = answer(|o, _| o.residual.min(f64::MAX)); // infinite when a solve never began
         let description = "Residual of the last solve relative to the elastic forces";
         self.real(Draft::real("solver.residual", RATIO, description, residual).min(0.0));
         let level = Access::IntegerAnswer(|o| interaction_number(o.interaction));
