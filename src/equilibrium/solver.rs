@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::external::{ExternalField, add_load};
-use super::follow::{Branch, Report, Scene};
+use super::follow::{Branch, Report, Scene, measure};
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
@@ -98,6 +98,16 @@ impl Equilibrium {
         inputs.check(self.chain.rings.len())?;
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules))
+    }
+
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
+    /// unloaded manipulator without internal forces, 0 at a fold. `None` before the first solve.
+    pub fn margin(&mut self) -> Option<f64> {
+        let inputs = self.branch.inputs.clone()?;
+        let unknowns = self.branch.unknowns.clone();
+        let mut potential = self.potential(&inputs, &unknowns);
+        potential.linearise(&unknowns)?;
+        potential.factorise(0.0).then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// Number of unknowns.
