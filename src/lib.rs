@@ -21,3 +21,7 @@ pub mod equilibrium; // the potential, its minimum, its stability
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
 pub mod fmi; // the FMI 2.0 co-simulation FMU
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {} // its Rust example is a doctest

@@ -5,8 +5,16 @@ use nalgebra::{Matrix3, Vector3};
 use super::chain::RingBody;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, LinearField};
-use crate::rod::{Load, Station};
+use crate::magnetics::{Assembly, AxialRule, LinearField, Wrench};
+use crate::rod::{Load, Order, Station};
+
+/// The external field at one point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Local {
+    pub(super) field: Vector3<f64>,
+    gradient: Matrix3<f64>,
+    along: Option<Matrix3<f64>>,
+}
 
 /// The field around the manipulator: the external magnet and the linear background.
 #[derive(Debug, Clone, Copy)]
@@ -14,6 +22,13 @@ pub(super) struct ExternalField<'a> {
     magnet: Option<(&'a Assembly, &'a Pose, f64)>,
     background: LinearField,
     uniform: bool,
+}
+
+impl Local {
+    /// Adds a dipole along `axis` in this field to a load.
+    fn add(&self, load: &mut Load, moment: f64, axis: &Vector3<f64>, arm: &Vector3<f64>) {
+        load.add_dipole(moment, axis, arm, &self.field, &self.gradient, self.along.as_ref());
+    }
 }
 
 impl<'a> ExternalField<'a> {
@@ -34,25 +49,33 @@ impl<'a> ExternalField<'a> {
         }
     }
 
-    /// Field, gradient, and second derivatives along `axis`, at `point`; `None` inside a magnet.
-    pub(super) fn along(
-        &self,
-        point: &Vector3<f64>,
-        axis: &Vector3<f64>,
-    ) -> Option<(Vector3<f64>, Matrix3<f64>, Matrix3<f64>)> {
+    /// Field, gradient and, for the Hessian, second derivatives along `axis`, at `point`; `None` inside a
+    /// magnet.
+    pub(super) fn along(&self, point: &Vector3<f64>, axis: &Vector3<f64>, order: Order) -> Option<Local> {
         let background = self.background.jet(point);
+        let second = order == Order::Hessian;
         let Some((assembly, pose, strength)) = self.magnet else {
-            return Some((background.field, background.gradient, Matrix3::zeros()));
+            let along = second.then(Matrix3::zeros);
+            return Some(Local { field: background.field, gradient: background.gradient, along });
         };
         let turn = &pose.rotation;
         let local = turn.tr_mul(&(point - pose.position));
         if assembly.contains(&local) {
             return None;
         }
-        let jet = assembly.jet(&local).ok()?;
-        let gradient = turn * (jet.gradient * strength) * turn.transpose();
-        let along = turn * (jet.hessian_along(&turn.tr_mul(axis)) * strength) * turn.transpose();
-        Some((background.field + turn * jet.field * strength, background.gradient + gradient, along))
+        let turned = |m: &Matrix3<f64>| turn * (m * strength) * turn.transpose();
+        let (field, gradient, along) = if second {
+            let jet = assembly.jet(&local).ok()?;
+            (jet.field, jet.gradient, Some(turned(&jet.hessian_along(&turn.tr_mul(axis)))))
+        } else {
+            let (field, gradient) = assembly.field_gradient(&local).ok()?;
+            (field, gradient, None)
+        };
+        Some(Local {
+            field: background.field + turn * field * strength,
+            gradient: background.gradient + turned(&gradient),
+            along,
+        })
     }
 
     /// Distance from `point` to the nearest external magnet, m; infinite without one.
@@ -67,20 +90,26 @@ impl<'a> ExternalField<'a> {
     }
 
     /// Energy of a ring whose node is at `node`; `None` where it touches a magnet.
-    pub(super) fn on_ring(&self, body: &RingBody, node: &Pose, rule: &AxialRule) -> Option<Load> {
+    pub(super) fn on_ring(
+        &self,
+        body: &RingBody,
+        node: &Pose,
+        rule: &AxialRule,
+        order: Order,
+    ) -> Option<Load> {
         let axis = node.axis();
         let centre = 0.5 * body.ring.length;
         let mut load = Load::zero();
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
-            let (field, gradient, along) = self.along(&(node.position + arm), &axis)?;
-            load.add_dipole(body.magnetisation * volume, &axis, &arm, &field, &gradient, &along);
+            let local = self.along(&(node.position + arm), &axis, order)?;
+            local.add(&mut load, body.magnetisation * volume, &axis, &arm);
         }
         Some(load)
     }
 
     /// Energy of a station's material; `pose` is the station's, in world axes.
-    pub(super) fn on_station(&self, station: &Station, pose: &Pose) -> Option<Load> {
+    pub(super) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
         let axis = pose.axis();
         let mut load = Load::zero();
         if station.magnetisation == 0.0 {
@@ -96,8 +125,8 @@ impl<'a> ExternalField<'a> {
         let moment = station.magnetisation * station.material.volume / 4.0;
         for point in station.material.points() {
             let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
-            let (field, gradient, along) = self.along(&(pose.position + arm), &axis)?;
-            load.add_dipole(moment, &axis, &arm, &field, &gradient, &along);
+            let local = self.along(&(pose.position + arm), &axis, order)?;
+            local.add(&mut load, moment, &axis, &arm);
         }
         Some(load)
     }
@@ -115,4 +144,10 @@ pub(super) fn weight(station: &Station, pose: &Pose, gravity: &Vector3<f64>) -> 
         couple: gravity * lever.transpose() * -1.0,
         ..Load::zero()
     }
+}
+
+/// Adds the wrench of a load whose frame's origin is at `arm` (m) from the reference point.
+pub(super) fn add_load(wrench: &mut Wrench, load: &Load, arm: &Vector3<f64>) {
+    wrench.force -= load.force;
+    wrench.torque -= load.moment() + arm.cross(&load.force);
 }

@@ -7,11 +7,23 @@ use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
 use crate::magnetics::Assembly;
-use crate::numerics::eigenvalue;
+use crate::numerics::eigenvalue::{self, Search};
 use crate::numerics::trust_region::{self, Objective, Region, dual_norm, norm, spread};
 
 /// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
 const CONTRACTION: f64 = 0.5;
+
+/// The same for steps with an earlier factorisation, which are only worth while if they contract better.
+const CHORD_CONTRACTION: f64 = 0.1;
+
+/// The look at the margin after every solve: enough to see a fold come.
+const GLANCE: Search = Search { vectors: 3, settled: 0.1 };
+
+/// The look at the margin when it is asked for.
+const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
+
+/// Part of every direction that is mixed into the last softest one before it is looked for again.
+const EVERY_DIRECTION: f64 = 0.05;
 
 /// Newton corrections at most for one part of an input change.
 const CORRECTIONS: u32 = 12;
@@ -43,7 +55,7 @@ pub(super) struct Branch {
 impl Branch {
     pub(super) fn new(chain: &Chain) -> Self {
         let mut softest = vec![0.0; chain.freedoms()];
-        spread(&mut softest);
+        spread(&chain.metric, &mut softest, 1.0);
         Self { unknowns: vec![0.0; chain.freedoms()], inputs: None, softest }
     }
 }
@@ -57,7 +69,8 @@ pub struct Report {
     pub iterations: u32,
     /// Dual norm of the gradient, relative to turning one element by a radian.
     pub residual: f64,
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
+    /// Upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the elastic
+    /// energy; see [`super::Equilibrium::margin`].
     pub margin: f64,
     /// Jumps to another branch in this solve.
     pub snaps: u32,
@@ -87,7 +100,7 @@ impl Scene<'_> {
         if walk.run(branch.inputs.as_ref(), target, &mut unknowns) {
             branch.unknowns.copy_from_slice(&unknowns);
             branch.inputs = Some(target.clone());
-            walk.judge(target, &unknowns, &mut branch.softest);
+            walk.judge(target, &mut branch.softest);
         }
         walk.report
     }
@@ -164,6 +177,7 @@ impl Walk<'_> {
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
+        self.approach(inputs, unknowns);
         let mut step = vec![0.0; unknowns.len()];
         let first = settings.follow_step / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
@@ -174,7 +188,9 @@ impl Walk<'_> {
             if !potential.factorise(0.0) {
                 return None;
             }
-            step.iter_mut().zip(potential.gradient()).for_each(|(s, g)| *s = -g);
+            for (s, g) in step.iter_mut().zip(potential.gradient()) {
+                *s = -g;
+            }
             let solved = residual <= settings.tolerance;
             if !solved {
                 potential.solve(&mut step);
@@ -195,10 +211,45 @@ impl Walk<'_> {
             if !behaves {
                 return None;
             }
-            unknowns.iter_mut().zip(&step).for_each(|(x, s)| *x += s);
+            for (x, s) in unknowns.iter_mut().zip(&step) {
+                *x += s;
+            }
             previous = length;
         }
         None
+    }
+
+    /// Steps with the last factorisation, as long as they contract well: cheap, for small input changes.
+    fn approach(&mut self, inputs: &Inputs, unknowns: &mut [f64]) {
+        let Scene { chain, settings, .. } = self.scene;
+        if !self.work.factored {
+            return;
+        }
+        let unit = chain.unit();
+        let mut step = vec![0.0; unknowns.len()];
+        let mut longest = settings.follow_step;
+        for _ in 0..CORRECTIONS {
+            let mut potential = self.potential(inputs);
+            if potential.slope(unknowns).is_none() {
+                return;
+            }
+            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
+                return;
+            }
+            for (s, g) in step.iter_mut().zip(potential.gradient()) {
+                *s = -g;
+            }
+            potential.solve(&mut step);
+            let length = norm(&chain.metric, &step) / unit;
+            if length.is_nan() || length > longest {
+                return;
+            }
+            for (x, s) in unknowns.iter_mut().zip(&step) {
+                *x += s;
+            }
+            self.report.iterations += 1;
+            longest = CHORD_CONTRACTION * length;
+        }
     }
 
     /// Downhill to the next minimum; counts a snap if it is far.
@@ -233,17 +284,25 @@ impl Walk<'_> {
         self.rules.choose(self.scene.chain, &self.work.nodes)
     }
 
-    /// Verdict on stability at the shape that the last correction has left in the workspace.
-    fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64]) {
-        let chain = self.scene.chain;
+    /// An upper bound of the margin at the shape where the last correction has factorised.
+    fn judge(&mut self, inputs: &Inputs, softest: &mut [f64]) {
+        let metric = &self.scene.chain.metric;
+        // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
+        spread(metric, softest, EVERY_DIRECTION);
         let mut potential = self.potential(inputs);
-        // The last correction has factorised here; its factor serves the eigenvalue too.
-        debug_assert_eq!(unknowns.len(), chain.freedoms());
-        let margin = eigenvalue::smallest(&chain.metric, 0.0, softest, |x| potential.solve(x));
+        let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve(x));
         if margin.is_nan() {
-            spread(softest);
+            softest.fill(0.0);
         }
         self.report.margin = margin;
         self.report.solved = margin.is_finite();
     }
+}
+
+/// The margin at the shape and with the factorisation of `potential`, to about nine digits.
+pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
+    let metric = &potential.chain.metric;
+    let mut softest = vec![0.0; metric.len()];
+    spread(metric, &mut softest, 1.0);
+    eigenvalue::smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve(x))
 }

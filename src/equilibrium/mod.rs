@@ -14,4 +14,4 @@ mod solver;
 pub use follow::Report;
 pub use inputs::Inputs;
 pub use settings::{Interaction, Settings};
-pub use solver::{Equilibrium, Wrench};
+pub use solver::Equilibrium;

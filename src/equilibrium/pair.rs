@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use super::chain::RingBody;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::AxialRule;
-use crate::rod::{Load, turning};
+use crate::rod::{Load, Order, turning};
 
 /// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
 #[derive(Debug, Clone)]
@@ -57,6 +57,7 @@ impl PairLoad {
         second: &RingBody,
         second_node: &Pose,
         rule: &AxialRule,
+        order: Order,
     ) -> Option<Self> {
         let from = first_node.advanced(0.5 * first.ring.length);
         let axis = second_node.axis();
@@ -65,17 +66,17 @@ impl PairLoad {
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
             let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
-            let jet = first.source.jet(&local).ok()?;
-            let along = jet.hessian_along(&from.rotation.tr_mul(&axis));
             let turn = |m: &Matrix3<f64>| from.rotation * m * from.rotation.transpose();
-            load.add_dipole(
-                second.magnetisation * volume,
-                &axis,
-                &arm,
-                &(from.rotation * jet.field),
-                &turn(&jet.gradient),
-                &turn(&along),
-            );
+            let (field, gradient, along) = if order == Order::Hessian {
+                let jet = first.source.jet(&local).ok()?;
+                (jet.field, jet.gradient, Some(turn(&jet.hessian_along(&from.rotation.tr_mul(&axis)))))
+            } else {
+                let (field, gradient) = first.source.field_gradient(&local).ok()?;
+                (field, gradient, None)
+            };
+            let field = from.rotation * field;
+            let moment = second.magnetisation * volume;
+            load.add_dipole(moment, &axis, &arm, &field, &turn(&gradient), along.as_ref());
         }
         Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
     }

@@ -3,16 +3,17 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::chain::Chain;
-use super::external::{ExternalField, weight};
+use super::external::{ExternalField, add_load, weight};
 use super::inputs::Inputs;
 use super::pair::{PairLoad, blocks, overlap};
 use super::reduction::{Reduction, turn_nodes};
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use crate::geometry::Pose;
+use crate::magnetics::Wrench;
 use crate::numerics::cholesky;
 use crate::numerics::trust_region::Objective;
-use crate::rod::{Configuration, Load, Tangent};
+use crate::rod::{Configuration, Load, Order, Tangent};
 
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
@@ -21,6 +22,8 @@ pub(super) struct Workspace {
     pub(super) nodes: Vec<Pose>,
     station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
+    /// External magnetic force, and torque about the base position.
+    pub(super) magnetic: Wrench,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     tangents: Vec<Tangent>,
@@ -28,6 +31,10 @@ pub(super) struct Workspace {
     gradient: Vec<f64>,
     node_hessian: Vec<f64>,
     factor: Vec<f64>,
+    /// Whether `factor` and the reductions hold a factorisation, of this shape or an earlier one.
+    pub(super) factored: bool,
+    /// Axes of the elements' start nodes in that factorisation.
+    axes: Vec<Matrix3<f64>>,
     rhs: Vec<f64>,
 }
 
@@ -40,12 +47,15 @@ impl Workspace {
             nodes: vec![Pose::identity(); count + 1],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
+            magnetic: Wrench { force: Vector3::zeros(), torque: Vector3::zeros() },
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
             reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms())).collect(),
             gradient: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
             factor: vec![0.0; size * size],
+            factored: false,
+            axes: vec![Matrix3::identity(); count],
             rhs: vec![0.0; size],
         }
     }
@@ -75,20 +85,28 @@ pub(super) struct Potential<'a> {
 }
 
 impl Potential<'_> {
+    /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
+    pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
+        let energy = self.load(x, Order::Gradient)?;
+        self.backward(x, Order::Gradient).then_some(energy)
+    }
+
     /// Places the chain and adds up all loads; the energy, or `None` where something touches.
-    fn load(&mut self, unknowns: &[f64], hessian: bool) -> Option<f64> {
+    fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
+        let hessian = order == Order::Hessian;
         self.work.place(self.chain, &self.inputs.base, unknowns);
         let mut energy = 0.0;
         for (k, element) in self.chain.elements.iter().enumerate() {
             energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
         }
-        energy += self.load_stations()?;
+        self.work.magnetic = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
+        energy += self.load_stations(order)?;
         self.work.node_loads.fill(Load::zero());
-        self.load_rings()?;
+        self.load_rings(order)?;
         if hessian {
             self.work.node_hessian.fill(0.0);
         }
-        energy += self.load_pairs(hessian)?;
+        energy += self.load_pairs(order)?;
         self.load_tip();
         for (node, load) in self.work.node_loads.iter().enumerate().skip(1) {
             if hessian {
@@ -105,7 +123,7 @@ impl Potential<'_> {
         energy.is_finite().then_some(energy)
     }
 
-    fn load_stations(&mut self) -> Option<f64> {
+    fn load_stations(&mut self, order: Order) -> Option<f64> {
         let mut energy = 0.0;
         let gravity = self.inputs.gravity;
         for (k, element) in self.chain.elements.iter().enumerate() {
@@ -116,7 +134,8 @@ impl Potential<'_> {
                     position: start.transform(&state.position),
                     rotation: start.rotation * state.directors,
                 };
-                let mut load = self.field.on_station(station, &pose)?;
+                let mut load = self.field.on_station(station, &pose, order)?;
+                add_load(&mut self.work.magnetic, &load, &(pose.position - self.inputs.base.position));
                 if gravity != Vector3::zeros() {
                     load += weight(station, &pose, &gravity);
                 }
@@ -127,21 +146,23 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    fn load_rings(&mut self) -> Option<()> {
+    fn load_rings(&mut self, order: Order) -> Option<()> {
         for (index, (body, force)) in self.chain.rings.iter().zip(&self.inputs.ring_forces).enumerate() {
             let node = self.work.nodes[body.node];
             let arm = node.axis() * (0.5 * body.ring.length);
             let dead = force + self.inputs.gravity * body.ring.mass;
-            let load = &mut self.work.node_loads[body.node];
             let reach = self.field.distance(&(node.position + arm));
             let rule = self.rules.external(index, reach);
-            *load += self.field.on_ring(body, &node, rule)?;
+            let magnetic = self.field.on_ring(body, &node, rule, order)?;
+            add_load(&mut self.work.magnetic, &magnetic, &(node.position - self.inputs.base.position));
+            let load = &mut self.work.node_loads[body.node];
+            *load += magnetic;
             *load += Load::dead_force(&dead, &node.position, &arm);
         }
         Some(())
     }
 
-    fn load_pairs(&mut self, hessian: bool) -> Option<f64> {
+    fn load_pairs(&mut self, order: Order) -> Option<f64> {
         if self.settings.interaction == Interaction::None {
             return Some(0.0);
         }
@@ -156,7 +177,7 @@ impl Potential<'_> {
                 if overlap(first, from, second, to) {
                     return None;
                 }
-                let pair = PairLoad::new(first, from, second, to, rule)?;
+                let pair = PairLoad::new(first, from, second, to, rule, order)?;
                 energy += pair.on_second.energy;
                 for (node, load) in [(first.node, &pair.on_first), (second.node, &pair.on_second)] {
                     let target = &mut self.work.node_loads[node];
@@ -164,7 +185,7 @@ impl Potential<'_> {
                     // The turning of the couple is in the pair's own second derivatives.
                     target.couple += antisymmetric(&load.couple);
                 }
-                if hessian {
+                if order == Order::Hessian {
                     let matrix = &mut self.work.node_hessian;
                     add_block(matrix, count, first.node, first.node, &pair.first_first);
                     add_block(matrix, count, second.node, second.node, &pair.second_second);
@@ -186,7 +207,7 @@ impl Potential<'_> {
     }
 
     /// Gradient and element Hessians, from the tip to the base.
-    fn backward(&mut self, unknowns: &[f64]) -> bool {
+    fn backward(&mut self, unknowns: &[f64], order: Order) -> bool {
         let mut force = Vector3::zeros();
         let mut moment = Vector3::zeros();
         for (k, element) in self.chain.elements.iter().enumerate().rev() {
@@ -201,12 +222,15 @@ impl Potential<'_> {
                 self.chain.part(k, unknowns),
                 &self.work.station_loads[k],
                 (&axes.tr_mul(&force), &axes.tr_mul(&moment)),
+                order,
             );
             let g = &tangent.gradient;
             force = axes * Vector3::new(g[0], g[1], g[2]);
             moment = axes * Vector3::new(g[3], g[4], g[5]);
             self.work.gradient[self.chain.first[k]..self.chain.first[k + 1]].copy_from_slice(&g[6..]);
-            if !self.work.reductions[k].linearise(&self.work.configurations[k], &self.work.tangents[k]) {
+            let linear = order == Order::Gradient
+                || self.work.reductions[k].linearise(&self.work.configurations[k], &self.work.tangents[k]);
+            if !linear {
                 return false;
             }
         }
@@ -218,12 +242,13 @@ impl Potential<'_> {
 
 impl Objective for Potential<'_> {
     fn value(&mut self, x: &[f64]) -> Option<f64> {
-        self.load(x, false)
+        self.load(x, Order::Gradient)
     }
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
-        let energy = self.load(x, true)?;
-        self.backward(x).then_some(energy)
+        self.work.factored = false;
+        let energy = self.load(x, Order::Hessian)?;
+        self.backward(x, Order::Hessian).then_some(energy)
     }
 
     fn gradient(&self) -> &[f64] {
@@ -233,6 +258,7 @@ impl Objective for Potential<'_> {
     fn factorise(&mut self, shift: f64) -> bool {
         let work = &mut *self.work;
         let size = 6 * self.chain.elements.len();
+        work.factored = false;
         work.factor.copy_from_slice(&work.node_hessian);
         for (k, reduction) in work.reductions.iter_mut().enumerate() {
             if !reduction.condense(&work.tangents[k], &self.chain.elements[k].metric, shift) {
@@ -257,7 +283,10 @@ impl Objective for Potential<'_> {
                 }
             }
         }
-        cholesky::factorise(&mut work.factor, size)
+        // Solves turn into the axes in which this factor was made, wherever the chain moves afterwards.
+        work.axes.iter_mut().zip(&work.nodes).for_each(|(axes, node)| *axes = node.rotation);
+        work.factored = cholesky::factorise(&mut work.factor, size);
+        work.factored
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -265,7 +294,7 @@ impl Objective for Potential<'_> {
         work.rhs.fill(0.0);
         for (k, reduction) in work.reductions.iter().enumerate() {
             let mut nodes = reduction.eliminate(&mut x[self.chain.first[k]..self.chain.first[k + 1]]);
-            turn_nodes(&work.nodes[k].rotation, &mut nodes);
+            turn_nodes(&work.axes[k], &mut nodes);
             for (i, value) in nodes.iter().enumerate() {
                 if let Some(row) = (6 * k + i).checked_sub(6) {
                     work.rhs[row] += value;
@@ -276,7 +305,7 @@ impl Objective for Potential<'_> {
         for (k, reduction) in work.reductions.iter().enumerate() {
             let mut nodes =
                 core::array::from_fn(|i| (6 * k + i).checked_sub(6).map_or(0.0, |row| work.rhs[row]));
-            turn_nodes(&work.nodes[k].rotation.transpose(), &mut nodes);
+            turn_nodes(&work.axes[k].transpose(), &mut nodes);
             reduction.recover(&nodes, &mut x[self.chain.first[k]..self.chain.first[k + 1]]);
         }
     }

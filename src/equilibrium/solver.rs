@@ -5,8 +5,8 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::Chain;
-use super::external::ExternalField;
-use super::follow::{Branch, Report, Scene};
+use super::external::{ExternalField, add_load};
+use super::follow::{Branch, Report, Scene, measure};
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
@@ -14,18 +14,9 @@ use super::settings::Settings;
 use crate::design::Design;
 use crate::error::{Error, check};
 use crate::geometry::Pose;
-use crate::magnetics::Assembly;
+use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
-use crate::rod::Row;
-
-/// A force and a torque.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wrench {
-    /// Force, N.
-    pub force: Vector3<f64>,
-    /// Torque about a point that the method names, N m.
-    pub torque: Vector3<f64>,
-}
+use crate::rod::{Load, Order, Row};
 
 /// Where on the centreline a shape point lies.
 #[derive(Debug, Clone)]
@@ -107,6 +98,16 @@ impl Equilibrium {
         inputs.check(self.chain.rings.len())?;
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules))
+    }
+
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
+    /// unloaded manipulator without internal forces, 0 at a fold. `None` before the first solve.
+    pub fn margin(&mut self) -> Option<f64> {
+        let inputs = self.branch.inputs.clone()?;
+        let unknowns = self.branch.unknowns.clone();
+        let mut potential = self.potential(&inputs, &unknowns);
+        potential.linearise(&unknowns)?;
+        potential.factorise(0.0).then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// Number of unknowns.
@@ -209,17 +210,18 @@ impl Equilibrium {
         Wrench { force: self.work.base.0, torque: self.work.base.1 }
     }
 
-    /// Total external magnetic wrench on the manipulator, torque about the base position.
+    /// Total external magnetic wrench on the manipulator in the last solved shape, torque about the base
+    /// position.
     #[must_use]
-    pub fn magnetic_wrench(&self, inputs: &Inputs) -> Wrench {
-        self.wrench_in(&ExternalField::new(self.magnet.as_ref(), inputs))
+    pub fn magnetic_wrench(&self) -> Wrench {
+        self.work.magnetic
     }
 
     /// Wrench on the external magnet about its centre.
     #[must_use]
     pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        let whole = self.magnetic_wrench(inputs);
-        let background = self.wrench_in(&ExternalField::background(inputs));
+        let whole = self.magnetic_wrench();
+        let background = self.background_wrench(inputs);
         let force = background.force - whole.force;
         let about_base = background.torque - whole.torque;
         Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
@@ -229,23 +231,24 @@ impl Equilibrium {
     #[must_use]
     pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         let field = ExternalField::new(self.magnet.as_ref(), inputs);
-        field.along(point, &Vector3::z()).map(|(field, _, _)| field)
+        field.along(point, &Vector3::z(), Order::Gradient).map(|local| local.field)
     }
 
-    fn wrench_in(&self, field: &ExternalField<'_>) -> Wrench {
+    /// What the background field alone does.
+    fn background_wrench(&self, inputs: &Inputs) -> Wrench {
+        let field = ExternalField::background(inputs);
         let origin = self.work.nodes[0].position;
         let mut out = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
-        let mut add = |load: Option<crate::rod::Load>, at: &Vector3<f64>| {
+        let mut add = |load: Option<Load>, at: &Vector3<f64>| {
             if let Some(load) = load {
-                out.force -= load.force;
-                out.torque -= load.moment() + (at - origin).cross(&load.force);
+                add_load(&mut out, &load, &(at - origin));
             }
         };
         for (index, body) in self.chain.rings.iter().enumerate() {
             let node = &self.work.nodes[body.node];
             let reach = field.distance(&node.advanced(0.5 * body.ring.length).position);
             let rule = self.rules.external(index, reach);
-            add(field.on_ring(body, node, rule), &node.position);
+            add(field.on_ring(body, node, rule, Order::Gradient), &node.position);
         }
         for (k, element) in self.chain.elements.iter().enumerate() {
             for (station, state) in element.stations.iter().zip(&self.work.configurations[k].stations) {
@@ -254,7 +257,7 @@ impl Equilibrium {
                     position: start.transform(&state.position),
                     rotation: start.rotation * state.directors,
                 };
-                add(field.on_station(station, &pose), &pose.position);
+                add(field.on_station(station, &pose, Order::Gradient), &pose.position);
             }
         }
         out

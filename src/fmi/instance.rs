@@ -9,6 +9,7 @@ use super::log::Log;
 use super::package::Package;
 use super::state::{Call, Ending, State};
 use super::variable::{Role, Value, Variable};
+use super::variables::MARGIN;
 use crate::error::Error;
 use crate::manipulator::{Manipulator, Status};
 
@@ -240,11 +241,15 @@ impl Instance {
         let variables = self.find(references).ok_or(Ending::Error)?;
         let mut ending = Ending::Ok;
         let live = matches!(self.state(), State::Initialization | State::Stepping);
+        let margin = variables.iter().any(|variable| variable.name == MARGIN);
         if live && variables.iter().any(|variable| variable.role == Role::Output) {
             ending = self.ensure_solved();
             if ending == Ending::Error {
                 return Err(ending);
             }
+        }
+        if let Some(device) = self.condition.device.as_mut().filter(|_| margin) {
+            device.measure_margin();
         }
         let outputs = self.condition.device.as_ref().map(Manipulator::outputs);
         let variables = self.find(references).ok_or(Ending::Error)?;

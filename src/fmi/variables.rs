@@ -17,6 +17,9 @@ macro_rules! place {
 }
 use place;
 
+/// The output that takes a measurement of its own, made when it is asked for.
+pub const MARGIN: &str = "stability.margin";
+
 /// Numbers of bodies and points, which fix the length of the arrays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Counts {

@@ -17,6 +17,24 @@ const SERIES_LIMIT: f64 = 12.0;
 /// Terms of the series: at `SERIES_LIMIT` the first one left out is below 1e-17 of the sum.
 const SERIES_TERMS: usize = 12;
 
+/// Below this squared angle, half the terms do.
+const SHORT_LIMIT: f64 = 0.5;
+
+/// Coefficients `(-1)^j k! / (2j + k)!` of the series of `k! c_k`.
+const fn series(k: usize) -> [f64; SERIES_TERMS] {
+    let mut out = [1.0; SERIES_TERMS];
+    let mut j = 1;
+    while j < SERIES_TERMS {
+        let n = (2 * j + k) as f64;
+        out[j] = -out[j - 1] / (n * (n - 1.0));
+        j += 1;
+    }
+    out
+}
+
+const SIXTH: [f64; SERIES_TERMS] = series(6);
+const SEVENTH: [f64; SERIES_TERMS] = series(7);
+
 /// The matrix of the cross product, `hat(a) b = a x b`.
 #[must_use]
 pub fn hat(a: &Vector3<f64>) -> Matrix3<f64> {
@@ -43,11 +61,11 @@ fn stumpff(z: f64) -> [f64; 8] {
         }
         return c;
     }
-    let (mut six, mut seven) = (1.0, 1.0);
-    for j in (1..SERIES_TERMS).rev() {
-        let n = (2 * j) as f64;
-        six = 1.0 - z * six / ((n + 5.0) * (n + 6.0));
-        seven = 1.0 - z * seven / ((n + 6.0) * (n + 7.0));
+    let terms = if z < SHORT_LIMIT { SERIES_TERMS / 2 } else { SERIES_TERMS };
+    let (mut six, mut seven) = (0.0, 0.0);
+    for (sixth, seventh) in SIXTH[..terms].iter().zip(&SEVENTH[..terms]).rev() {
+        six = six * z + sixth;
+        seven = seven * z + seventh;
     }
     c[6] = six / 720.0;
     c[7] = seven / 5040.0;
@@ -102,6 +120,16 @@ impl RotationVector {
     #[must_use]
     pub fn contract_rotation(&self, n: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         self.contract(0, 1.0, n.trace(), &axial(n), n)
+    }
+
+    /// Gradient, by the vector, of `N : exp(theta)`.
+    #[must_use]
+    pub fn rotation_gradient(&self, n: &Matrix3<f64>) -> Vector3<f64> {
+        let v = &self.vector;
+        let w = axial(n);
+        let g = n * v + n.tr_mul(v);
+        let first = self.slope(0) * n.trace() + self.slope(1) * v.dot(&w) + self.slope(2) * 0.5 * v.dot(&g);
+        v * (2.0 * first) + w * self.c[1] + g * self.c[2]
     }
 
     /// Hessian, by the vector, of `m . J_r(theta) rate`.

@@ -76,6 +76,15 @@ impl Manipulator {
         &self.outputs
     }
 
+    /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
+    /// it into the outputs.
+    pub fn measure_margin(&mut self) -> &Outputs {
+        if let Some(margin) = self.equilibrium.margin() {
+            self.outputs.stability_margin = margin;
+        }
+        &self.outputs
+    }
+
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.equilibrium.reset();
@@ -86,7 +95,7 @@ impl Manipulator {
         let (equilibrium, out) = (&self.equilibrium, &mut self.outputs);
         out.tip = equilibrium.tip();
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        let magnetic = equilibrium.magnetic_wrench(inputs);
+        let magnetic = equilibrium.magnetic_wrench();
         (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
         let base = equilibrium.base_reaction();
         (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);
@@ -94,7 +103,7 @@ impl Manipulator {
         (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
         out.tip_field = equilibrium.field_at(inputs, &out.tip.position).unwrap_or_default();
         copy_shape(equilibrium, out);
-        out.stable = Some(report.margin > 0.0);
+        out.stable = Some(true); // the Hessian was positive definite, or nothing would be solved
         out.stability_margin = report.margin;
         out.snaps += report.snaps;
         out.status = if report.snaps > 0 {

@@ -49,7 +49,8 @@ pub struct Outputs {
     pub core_angles: Vec<f64>,
     /// Whether the equilibrium is stable; `None` when the model has no potential to tell.
     pub stable: Option<bool>,
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold. An upper
+    /// bound, close near a fold, until [`super::Manipulator::measure_margin`] measures it.
     pub stability_margin: f64,
     /// Jumps to another branch since the first solve.
     pub snaps: u32,

@@ -2,39 +2,43 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::trust_region::spread;
-
-/// Lanczos vectors at most.
-const LARGEST: usize = 40;
-
-/// Residual of the eigenvector, relative to its eigenvalue, at which the search ends. The eigenvalue's error
-/// is of second order in it.
-const SETTLED: f64 = 1e-3;
-
-/// Part of a vector with components in all directions that is mixed into the guess.
-///
-/// A guess from a subspace that `H` leaves alone, such as the bending out of a plane of symmetry, would never see
-/// a softer direction outside of it.
-const MIXED_IN: f64 = 0.3;
+/// How hard the eigenvalue is looked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// Lanczos vectors at most.
+    pub vectors: usize,
+    /// Residual of the eigenvector, relative to its eigenvalue, at which the search ends; the eigenvalue's
+    /// error is of second order in it.
+    pub settled: f64,
+}
 
 /// The smallest `lambda`, and its vector (`x^T K x = 1`) in `vector`, which is also the first guess.
 ///
 /// `solve` replaces its argument by `(H + shift K)^-1` times it and must belong to a positive definite matrix;
 /// the method is Lanczos' on `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation
-/// (Golub and Van Loan, Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. From
-/// a good guess it takes two or three solves. NaN for a vector or a solver that is not finite.
-pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl FnMut(&mut [f64])) -> f64 {
+/// (Golub and Van Loan, Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. A
+/// search that ends early answers an upper bound. NaN for a vector or a solver that is not finite.
+pub fn smallest(
+    metric: &[f64],
+    shift: f64,
+    vector: &mut [f64],
+    search: Search,
+    mut solve: impl FnMut(&mut [f64]),
+) -> f64 {
     let size = vector.len();
-    let inner = |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
+    let inner =
+        |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut next = mixed(metric, vector);
+    let mut next = vector.to_vec();
     loop {
         let norm = inner(&next, &next).sqrt();
         if !(norm.is_finite() && norm > 0.0) {
             return f64::NAN;
         }
-        next.iter_mut().for_each(|entry| *entry /= norm);
+        for entry in &mut next {
+            *entry /= norm;
+        }
         let mut image: Vec<f64> = next.iter().zip(metric).map(|(x, k)| x * k).collect();
         solve(&mut image);
         diagonal.push(inner(&next, &image));
@@ -42,36 +46,27 @@ pub fn smallest(metric: &[f64], shift: f64, vector: &mut [f64], mut solve: impl 
         // Once more against rounding.
         for earlier in basis.iter().chain(&basis) {
             let along = inner(earlier, &image);
-            image.iter_mut().zip(earlier).for_each(|(entry, e)| *entry -= along * e);
+            for (entry, e) in image.iter_mut().zip(earlier) {
+                *entry -= along * e;
+            }
         }
         let (value, weights) = largest(&diagonal, &beside);
         let rest = inner(&image, &image).sqrt();
         let last = weights.last().copied().unwrap_or(0.0).abs();
         // One vector alone is its own guess: it is confirmed by a second.
-        let settled = basis.len() > 1 && rest * last <= SETTLED * value;
-        if settled || basis.len() == LARGEST.min(size) || rest <= f64::EPSILON * value {
+        let settled = basis.len() > 1 && rest * last <= search.settled * value;
+        if settled || basis.len() == search.vectors.min(size) || rest <= f64::EPSILON * value {
             vector.fill(0.0);
             for (weight, direction) in weights.iter().zip(&basis) {
-                vector.iter_mut().zip(direction).for_each(|(entry, d)| *entry += weight * d);
+                for (entry, d) in vector.iter_mut().zip(direction) {
+                    *entry += weight * d;
+                }
             }
             return 1.0 / value - shift;
         }
         beside.push(rest);
         next = image;
     }
-}
-
-/// The guess, with a small part of every direction (all of them at the same size in the metric).
-fn mixed(metric: &[f64], guess: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; guess.len()];
-    spread(&mut out);
-    let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
-    let all = square(&mut out.iter().copied());
-    let size = square(&mut guess.iter().zip(metric).map(|(x, k)| x * k.sqrt()));
-    for ((entry, k), x) in out.iter_mut().zip(metric).zip(guess) {
-        *entry = x + *entry * MIXED_IN * size / (all * k.sqrt());
-    }
-    out
 }
 
 /// Largest eigenvalue of a symmetric tridiagonal matrix, with its vector.

@@ -4,7 +4,7 @@
 //! `shift` that puts `s` on the rim (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983). It ends at a
 //! minimum, not at a saddle: from a saddle it leaves along the direction of negative curvature.
 
-use super::eigenvalue;
+use super::eigenvalue::{self, Search};
 
 /// What is minimised.
 pub trait Objective {
@@ -85,7 +85,9 @@ pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) 
             end.tie = true;
             escape(objective, radius, &mut step)
         };
-        trial.iter_mut().zip(x.iter().zip(&step)).for_each(|(t, (a, b))| *t = a + b);
+        for (t, (a, b)) in trial.iter_mut().zip(x.iter().zip(&step)) {
+            *t = a + b;
+        }
         let gain = objective.value(&trial).map(|next| (value - next) / predicted);
         // Below the rounding of the value the ratio says nothing; the model is then trusted.
         let rounding = predicted.abs() <= 1e-13 * value.abs();
@@ -117,7 +119,9 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
     let mut factored = definite;
     for _ in 0..40 {
         if factored {
-            step.iter_mut().zip(objective.gradient()).for_each(|(s, g)| *s = -g);
+            for (s, g) in step.iter_mut().zip(objective.gradient()) {
+                *s = -g;
+            }
             objective.solve(step);
             let length = norm(objective.metric(), step);
             if (length <= radius && shift == 0.0) || (length - radius).abs() <= 0.1 * radius {
@@ -147,7 +151,9 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
     }
     let length = norm(objective.metric(), step);
     if length > radius {
-        step.iter_mut().for_each(|s| *s *= radius / length);
+        for s in step.iter_mut() {
+            *s *= radius / length;
+        }
     }
     // g.s + s.H s / 2 with H s = -g - shift K s holds for the unscaled step; scaling errs on the safe side.
     let linear: f64 = objective.gradient().iter().zip(step.iter()).map(|(g, s)| g * s).sum();
@@ -170,20 +176,25 @@ fn escape(objective: &mut impl Objective, radius: f64, step: &mut [f64]) -> f64 
     while !objective.factorise(shift) && shift < 1e12 {
         shift *= 2.0;
     }
-    spread(step);
     let metric = objective.metric().to_vec();
-    let value = eigenvalue::smallest(&metric, shift, step, |x| objective.solve(x));
+    step.fill(0.0);
+    spread(&metric, step, 1.0);
+    let search = Search { vectors: 40, settled: 1e-2 };
+    let value = eigenvalue::smallest(&metric, shift, step, search, |x| objective.solve(x));
     let length = norm(&metric, step);
     // The tie is broken towards positive first components, for repeatability.
     let sign = if step.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    step.iter_mut().for_each(|s| *s *= sign * radius / length);
+    for s in step.iter_mut() {
+        *s *= sign * radius / length;
+    }
     -0.5 * value * radius * radius
 }
 
-/// Fills `x` with a fixed vector that has a part in every direction.
-pub fn spread(x: &mut [f64]) {
+/// Adds to `x` a fixed vector of norm `size` in the metric with a part in every direction.
+pub fn spread(metric: &[f64], x: &mut [f64], size: f64) {
     let golden = 0.618_033_988_749_894_9;
-    for (i, entry) in x.iter_mut().enumerate() {
-        *entry = 0.5 + (golden * (i + 1) as f64).fract();
+    let scale = size / (metric.len() as f64).sqrt();
+    for (i, (entry, k)) in x.iter_mut().zip(metric).enumerate() {
+        *entry += scale * (0.5 + (golden * (i + 1) as f64).fract()) / k.sqrt();
     }
 }

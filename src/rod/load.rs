@@ -79,8 +79,8 @@ impl Load {
         out
     }
 
-    /// Adds the dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin in a field with gradient and
-    /// `hessian_along = sum_i axis_i d2B_i/dx_j dx_k`.
+    /// Adds the dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin in a field with gradient and,
+    /// for the second derivatives, `hessian_along = sum_i axis_i d2B_i/dx_j dx_k`.
     pub fn add_dipole(
         &mut self,
         moment: f64,
@@ -88,12 +88,13 @@ impl Load {
         arm: &Vector3<f64>,
         field: &Vector3<f64>,
         gradient: &Matrix3<f64>,
-        hessian_along: &Matrix3<f64>,
+        hessian_along: Option<&Matrix3<f64>>,
     ) {
         let force = gradient * axis * -moment;
         self.energy -= moment * axis.dot(field);
         self.force += force;
         self.couple += force * arm.transpose() - field * (axis.transpose() * moment);
+        let Some(hessian_along) = hessian_along else { return };
         let (turn, lever) = (hat(axis), hat(arm));
         let second = hessian_along * moment;
         let swing = gradient * turn * moment;

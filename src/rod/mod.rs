@@ -11,4 +11,4 @@ pub use element::{COMPONENTS, Element, Piece, Row, Station};
 pub use kinematics::{Configuration, StationState};
 pub use load::{Load, turning};
 pub use moments::SectionMoments;
-pub use tangent::{START, Tangent};
+pub use tangent::{Order, START, Tangent};

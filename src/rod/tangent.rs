@@ -9,6 +9,16 @@ use nalgebra::{Matrix3, Vector3};
 use super::element::{COMPONENTS, Element, ROTATIONS};
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
+use crate::design::Stiffness;
+
+/// How far an evaluation goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Gradient only.
+    Gradient,
+    /// Gradient and Hessian.
+    Hessian,
+}
 
 /// Columns that belong to the start node.
 pub const START: usize = 6;
@@ -55,11 +65,15 @@ impl Tangent {
         amplitudes: &[f64],
         loads: &[Load],
         end: (&Vector3<f64>, &Vector3<f64>),
+        order: Order,
     ) {
+        let second = order == Order::Hessian;
         self.gradient.fill(0.0);
-        self.hessian.fill(0.0);
-        self.end_position.fill(Vector3::zeros());
-        self.fill_tangents(element, configuration);
+        if second {
+            self.hessian.fill(0.0);
+            self.end_position.fill(Vector3::zeros());
+            self.fill_tangents(element, configuration);
+        }
         let mut whole = end.0 * configuration.end.position.transpose();
         let mut start_force = *end.0;
         let mut start_moment = configuration.end.position.cross(end.0) + end.1;
@@ -72,27 +86,42 @@ impl Tangent {
             for (other, distant) in element.stations.iter().zip(loads) {
                 beyond += distant.force * other.row.position[index];
             }
-            self.add_station(element, index, state, load, &beyond);
-            if load.stiff {
-                self.add_stiffness(element, index, state, load);
+            if second {
+                self.add_station(element, index, state, load, &beyond);
+                if load.stiff {
+                    self.add_stiffness(element, index, state, load);
+                }
+            } else {
+                self.add_station_gradient(element, index, state, load, &beyond);
             }
         }
-        self.add_end(configuration, end.1);
+        self.add_end(configuration, end.1, second);
         for i in 0..3 {
             self.gradient[i] = start_force[i];
             self.gradient[3 + i] = start_moment[i];
-        }
-        let turned = turning(&whole);
-        for i in 0..3 {
-            for j in 0..3 {
-                self.hessian[(3 + i) * self.size + 3 + j] += turned[(i, j)];
-            }
         }
         for (((row, stiffness), amplitude), component) in
             (START..).zip(&element.metric).zip(amplitudes).zip(&element.component)
         {
             if *component >= ROTATIONS {
                 self.gradient[row] += stiffness * amplitude;
+            }
+        }
+        if second {
+            self.complete(element, &whole);
+        }
+    }
+
+    /// The turning of the start node, the stiffness against strain, and the lower triangle.
+    fn complete(&mut self, element: &Element, whole: &Matrix3<f64>) {
+        let turned = turning(whole);
+        for i in 0..3 {
+            for j in 0..3 {
+                self.hessian[(3 + i) * self.size + 3 + j] += turned[(i, j)];
+            }
+        }
+        for ((row, stiffness), component) in (START..).zip(&element.metric).zip(&element.component) {
+            if *component >= ROTATIONS {
                 self.hessian[row * self.size + row] += stiffness;
             }
         }
@@ -122,6 +151,28 @@ impl Tangent {
         }
     }
 
+    /// The part of a station in the gradient alone.
+    fn add_station_gradient(
+        &mut self,
+        element: &Element,
+        index: usize,
+        state: &StationState,
+        load: &Load,
+        beyond: &Vector3<f64>,
+    ) {
+        let station = &element.stations[index];
+        let (bend, rate) = bending_gradient(state, &station.stiffness, station.weight);
+        let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
+        let slope = state.theta.rotation_gradient(&pull) + bend;
+        let along = state.directors.tr_mul(beyond);
+        let per_phi = [slope.x, slope.y, slope.z, 0.0, 0.0, 0.0];
+        let per_psi = [rate.x, rate.y, rate.z, along.x, along.y, along.z];
+        let rows = self.gradient[START..].iter_mut().zip(&element.component);
+        for ((entry, c), (phi, psi)) in rows.zip(station.row.integral.iter().zip(&station.row.rate)) {
+            *entry += per_phi[*c] * phi + per_psi[*c] * psi;
+        }
+    }
+
     /// Elastic bending of a station, and the second variation of its directors and tangent.
     fn add_station(
         &mut self,
@@ -132,7 +183,7 @@ impl Tangent {
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let bend = bending(state, station.stiffness.bending, station.stiffness.torsion, station.weight);
+        let bend = bending(state, &station.stiffness, station.weight);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let (slope, curve) = state.theta.contract_rotation(&pull);
         let slope = slope + bend.slope;
@@ -216,13 +267,18 @@ impl Tangent {
     }
 
     /// The moment on the end acts on the rotation vector from start to end alone.
-    fn add_end(&mut self, configuration: &Configuration, moment: &Vector3<f64>) {
+    fn add_end(&mut self, configuration: &Configuration, moment: &Vector3<f64>, second: bool) {
         let theta = &configuration.end_theta;
         let left = theta.left_jacobian();
         let slope = left.tr_mul(moment);
-        let product = theta.right_product_derivative(moment);
         for a in 0..3 {
             self.gradient[START + a] += slope[a];
+        }
+        if !second {
+            return;
+        }
+        let product = theta.right_product_derivative(moment);
+        for a in 0..3 {
             let cross = left.column(a).cross(moment) * 0.5;
             for b in 0..3 {
                 self.hessian[(START + a) * self.size + START + b] +=
@@ -242,10 +298,25 @@ struct Bending {
     rate_curve: Matrix3<f64>,
 }
 
-fn bending(state: &StationState, bending: f64, torsion: f64, weight: f64) -> Bending {
+/// Weighted section stiffness against curvature, as a diagonal.
+fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
+    Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
+}
+
+fn bending_gradient(
+    state: &StationState,
+    stiffness: &Stiffness,
+    weight: f64,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let curvature = state.left.tr_mul(&state.rate);
+    let moment = curvature_stiffness(stiffness, weight).component_mul(&curvature);
+    (state.theta.right_product_derivative(&state.rate).tr_mul(&moment), state.left * moment)
+}
+
+fn bending(state: &StationState, stiffness: &Stiffness, weight: f64) -> Bending {
     let right = state.left.transpose();
     let curvature = right * state.rate;
-    let stiffness = Vector3::new(bending * weight, bending * weight, torsion * weight);
+    let stiffness = curvature_stiffness(stiffness, weight);
     let moment = stiffness.component_mul(&curvature);
     let by_vector = state.theta.right_product_derivative(&state.rate);
     let weighted = Matrix3::from_diagonal(&stiffness);

@@ -23,7 +23,7 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", PACKAGE / "target"))
 def bench(name: str) -> tuple[dict[str, float], str]:
     """Runs one bench; median times (s) by identifier, and what it printed."""
     done = subprocess.run(
-        ["cargo", "bench", "--quiet", "--bench", name],
+        ["cargo", "bench", "--quiet", "--bench", name, "--", "--quiet"],
         cwd=PACKAGE,
         check=True,
         text=True,

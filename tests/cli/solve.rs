@@ -4,7 +4,6 @@ use serde_json::Value;
 
 use super::{assert_status, stderr, with_scene};
 
-/// A straight manipulator in an opposing field balances on its tip.
 const ONE_SEGMENT: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
 
 fn json(test: &str, scene: &str, status: i32) -> Value {
@@ -83,4 +82,13 @@ fn bad_numbers_are_refused_with_quantity_and_range() {
     }
     let (_, output) = with_scene("points", ONE_SEGMENT, &["solve", "scene.toml", "--shape-points", "1"]);
     assert_status(&output, 1);
+}
+
+#[test]
+fn scene_of_the_readme_is_solved() {
+    let readme = include_str!("../../README.md");
+    let scene = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let answer = json("readme", scene, 0);
+    assert_eq!(answer["ring_positions_m"].as_array().unwrap().len(), 4);
+    assert_eq!(answer["stable"], true);
 }

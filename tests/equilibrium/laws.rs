@@ -69,7 +69,7 @@ fn from_the_base(equilibrium: &Equilibrium, inputs: &Inputs) -> [Vec<f64>; 4] {
     }
     let (mut forces, mut torques) = (Vec::new(), Vec::new());
     for wrench in
-        [equilibrium.magnetic_wrench(inputs), equilibrium.base_reaction(), equilibrium.magnet_reaction(inputs)]
+        [equilibrium.magnetic_wrench(), equilibrium.base_reaction(), equilibrium.magnet_reaction(inputs)]
     {
         forces.extend((axes * wrench.force).iter());
         torques.extend((axes * wrench.torque).iter());
@@ -109,7 +109,7 @@ fn all_forces_and_moments_on_the_manipulator_are_in_balance() {
             }
             let mut equilibrium = manipulator(interaction);
             solve(&mut equilibrium, &inputs);
-            let (base, magnetic) = (equilibrium.base_reaction(), equilibrium.magnetic_wrench(&inputs));
+            let (base, magnetic) = (equilibrium.base_reaction(), equilibrium.magnetic_wrench());
             let mut force = base.force + magnetic.force + inputs.gravity * design().mass();
             let mut moment = base.torque + magnetic.torque + inputs.tip_moment;
             let rings: Vec<Pose> = equilibrium.rings().collect();
@@ -170,7 +170,7 @@ fn internal_forces_cancel() {
     inputs.uniform_field = Vector3::new(0.002, 0.009, 0.001);
     let mut equilibrium = manipulator(Interaction::Rings);
     solve(&mut equilibrium, &inputs);
-    let (base, magnetic) = (equilibrium.base_reaction(), equilibrium.magnetic_wrench(&inputs));
+    let (base, magnetic) = (equilibrium.base_reaction(), equilibrium.magnetic_wrench());
     let attraction = 0.1; // N, the least force between two neighbouring rings
     let left_over = base.force.norm() / attraction;
     assert!(left_over <= BALANCE, "the clamp holds {} N against internal forces", base.force.norm());
@@ -188,6 +188,6 @@ fn the_torque_of_a_uniform_field_is_moment_cross_field() {
     let mut equilibrium = manipulator(Interaction::None);
     solve(&mut equilibrium, &inputs);
     let expected = hat(&(inputs.base.axis() * design.moment())) * field;
-    let got = equilibrium.magnetic_wrench(&inputs).torque;
+    let got = equilibrium.magnetic_wrench().torque;
     assert_close("straight", got.as_slice(), expected.as_slice(), 1e-5); // it bends by 1e-6 rad
 }

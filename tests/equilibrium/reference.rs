@@ -68,7 +68,7 @@ fn errors(row: &Row, equilibrium: &Equilibrium, report: &Report) -> [(&'static s
     let turn = rotation_log(&expected.rotation.tr_mul(&tip.rotation)).norm().to_degrees();
     let angle_bound = STATICS_ANGLE_DEG.max(digits("alpha") * alpha);
     let length_bound = STATICS_LENGTH.max(digits("tip_p"));
-    let wrench = equilibrium.magnetic_wrench(&row.inputs);
+    let wrench = equilibrium.magnetic_wrench();
     let (force, torque) = (vector(&out["force"]), vector(&out["torque_about_base"]));
     let energy = number(out, "energy");
     let expected_rings = out["ring_positions"].as_array().expect("a list of rings");

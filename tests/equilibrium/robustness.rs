@@ -39,7 +39,7 @@ fn build(segments: usize, rings: bool, size: f64, cosine: f64, azimuth: f64) -> 
 }
 
 fn is_finite(equilibrium: &Equilibrium, inputs: &Inputs) -> bool {
-    let (magnetic, base) = (equilibrium.magnetic_wrench(inputs), equilibrium.base_reaction());
+    let (magnetic, base) = (equilibrium.magnetic_wrench(), equilibrium.base_reaction());
     let poses = equilibrium.rings().chain([equilibrium.tip()]);
     poses.flat_map(|pose| pose.position.iter().chain(pose.rotation.iter()).copied().collect::<Vec<_>>())
         .chain(equilibrium.shape().flat_map(|(_, point)| point.iter().copied().collect::<Vec<_>>()))

@@ -69,11 +69,14 @@ fn without_resources_only_the_default_design_is_known() {
     }
 }
 
+/// From a file's name and text to what is left of it.
+type Spoil = dyn Fn(&str, &str) -> Option<String>;
+
 #[test]
 fn resources_that_do_not_fit_are_refused() {
     let package = Package::new(BENT, "test scene", 5).unwrap();
     let other = Package::built_in().unwrap();
-    let spoiled: [(&str, &dyn Fn(&str, &str) -> Option<String>); 5] = [
+    let spoiled: [(&str, &Spoil); 5] = [
         ("altered", &|_, text| Some(text.replace("segments = 1", "segments = 2"))),
         ("truncated", &|file, text| (file == "scene.toml").then(|| text[..text.len() / 2].to_owned())),
         ("no stamp", &|file, text| (file == "scene.toml").then(|| text.to_owned())),

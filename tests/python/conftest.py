@@ -105,7 +105,7 @@ class Device:
 
 @pytest.fixture(scope="session")
 def pack(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Archive]:
-    """Packs a scene's text (`None`: the default) and unpacks it, in a folder with a blank and a percent sign."""
+    """Packs a scene's text (`None`: the default); unpacks it into a folder with blanks and a percent sign."""
 
     def packed(scene: str | None = None, *options: str) -> Archive:
         folder = tmp_path_factory.mktemp("100% packed here")

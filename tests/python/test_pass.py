@@ -28,8 +28,11 @@ QUANTITIES = [
     ("base_reaction_moment_nm", "base.reaction_moment", 3, 0.001),
     ("magnet_reaction_force_n", "magnet.reaction_force", 3, 0.01),
     ("magnet_reaction_torque_nm", "magnet.reaction_torque", 3, 0.001),
-    ("stability_margin", "stability.margin", 0, 1.0),
 ]
+
+# The margin is an eigenvalue, found by iteration from the last one's vector and only as well as a verdict on stability
+# needs it; where the two softest modes are nearly equal it may be either's.
+MARGIN_SLACK = 1e-2
 
 
 def pose(time: float) -> dict[str, float]:
@@ -60,6 +63,9 @@ def compare(device: Device, expected: dict) -> None:
         np.testing.assert_allclose(
             device.get(names), np.atleast_1d(value), rtol=SLACK, atol=SLACK * size, err_msg=name
         )
+    assert device.get(["stability.margin"])[0] == pytest.approx(
+        expected["stability_margin"], rel=MARGIN_SLACK
+    )
     for point, position in enumerate(expected["shape_m"], 1):
         names = [f"shape.position[{point},{axis}]" for axis in (1, 2, 3)]
         np.testing.assert_allclose(
@@ -107,7 +113,7 @@ def test_parameters_by_start_values(default: Archive, solve: Callable[..., dict]
         "design.backbone.present": True,
         "design.backbone.outer_radius": 0.5e-3,
         "magnet.design.cylinder[1].remanence": 1.2,
-        "model.interaction": "none",
+        "model.interaction": 0,  # none
         "gravity[2]": -9.81,
     }
     outputs = ["tip.angle", "tip.position[2]"]

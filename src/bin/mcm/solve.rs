@@ -33,7 +33,8 @@ impl Solve {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let scene = read_scene(&self.scene)?.scene()?;
         let mut manipulator = scene.manipulator(self.shape_points)?;
-        let outputs = manipulator.solve(&scene.inputs)?;
+        manipulator.solve(&scene.inputs)?;
+        let outputs = manipulator.measure_margin();
         let mut stdout = std::io::stdout().lock();
         if self.json {
             serde_json::to_writer_pretty(&mut stdout, &as_json(outputs))?;

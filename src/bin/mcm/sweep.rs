@@ -126,7 +126,8 @@ fn branch(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) ->
             Some((_, manipulator)) => manipulator,
             None => scene.manipulator(2)?,
         };
-        let outputs = manipulator.solve(&scene.inputs)?;
+        manipulator.solve(&scene.inputs)?;
+        let outputs = manipulator.measure_margin();
         let varied = [&[value], others].concat();
         rows.push(row(varied, outputs));
         last = Some((scene, manipulator));

@@ -5,7 +5,7 @@ use super::super::units::{
 };
 use super::super::variable::{Access, At, Kind, Reach, Role};
 use super::parameters::{INTERACTION, interaction_number};
-use super::{Counts, Draft, Rows};
+use super::{Counts, Draft, MARGIN, Rows};
 use crate::manipulator::{Outputs, Status};
 
 /// An Integer and no enumeration, because some hosts hide those.
@@ -124,7 +124,7 @@ impl Rows {
         let description = "Whether the equilibrium is known to be stable";
         self.real(Draft::new("stability.stable", Kind::Boolean, description, stable));
         self.real(Draft::real(
-            "stability.margin",
+            MARGIN,
             RATIO,
             "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold",
             answer(|o, _| o.stability_margin),
@@ -140,7 +140,7 @@ impl Rows {
             let draft = Draft::new(name, Kind::Integer, description, Access::IntegerAnswer(get)).min(0.0);
             self.real(if name == "solver.status" { draft.max(3.0) } else { draft });
         }
-        let residual = answer(|o, _| o.residual);
+        let residual = answer(|o, _| o.residual.min(f64::MAX)); // infinite when a solve never began
         let description = "Residual of the last solve relative to the elastic forces";
         self.real(Draft::real("solver.residual", RATIO, description, residual).min(0.0));
         let level = Access::IntegerAnswer(|o| interaction_number(o.interaction));
