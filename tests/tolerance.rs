@@ -59,17 +59,20 @@ pub(crate) const FOLD_STRENGTH: f64 = 0.03;
 /// A shape some tenths of a degree before its fold, where it moves with the square root of the distance, over the length.
 pub(crate) const FOLD_SHAPE: f64 = 0.02;
 
-/// Critical loads: those of ring pairs are good to [`ADJACENT`] and the softening goes with the field's second derivative.
-pub(crate) const CRITICAL: f64 = 2e-5;
+/// Critical loads of ring pairs: these are good to [`ADJACENT`], and worse the closer they have pulled each other.
+pub(crate) const CRITICAL: f64 = 5e-5;
 
 /// Critical loads without ring pairs, closed forms and tables of 6.6 digits.
 pub(crate) const CRITICAL_WITHOUT_PAIRS: f64 = 5e-7;
 
-/// Smallest eigenvalue by iteration: of second order in the residual of 1e-3 at which it ends.
-pub(crate) const MARGIN: f64 = 1e-4;
+/// Smallest eigenvalue by Lanczos' method and from the whole inverse.
+pub(crate) const MARGIN: f64 = 1e-8;
 
 /// Width at which a bisection ends: well inside [`CRITICAL`].
 pub(crate) const BISECTION: f64 = 1e-8;
+
+/// The quick look at the margin after every solve: from above, in units of the unloaded margin.
+pub(crate) const MARGIN_BOUND: f64 = 0.02;
 
 /// A straight shape's distance from its axis over its length.
 pub(crate) const ON_AXIS: f64 = 1e-9;
@@ -83,9 +86,9 @@ pub(crate) const BALANCE: f64 = 1e-9;
 /// Wrenches by two formulas at the shape of one solve.
 pub(crate) const RECIPROCITY: f64 = 1e-7;
 
-/// Slope of the energy by a central difference of step 1e-3: the energy of ring pairs has a noise of 1e-10, which
+/// Slope of the energy by differences with steps of 1e-3, no shorter: the energy of ring pairs has a noise of 1e-10, which
 /// the large weights of their rules make out of the rounding of the field.
-pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-6;
+pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-7;
 
 /// Slope of the gradient by the same.
 pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
