@@ -10,4 +10,3 @@ mod reference;
 mod robustness;
 mod rows;
 mod scaling;
-mod scratch;
