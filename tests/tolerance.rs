@@ -108,6 +108,15 @@ pub(crate) const RESIDUAL: f64 = 1e-10;
 /// Shapes reached on two ways, over a length of 5 cm and in rotation.
 pub(crate) const RETURN: f64 = 1e-8;
 
+/// Closed forms of inextensible rods: the slender rod stretches by up to 1e-7 under its tip load.
+pub(crate) const ELASTICA: f64 = 1e-7;
+
+/// Stiffness at a fold by differences with a step of 1e-4, relative to the unloaded.
+pub(crate) const NEUTRAL: f64 = 1e-7;
+
+/// Sums over some million cells: of second order in their size.
+pub(crate) const BRUTE_FORCE: f64 = 2e-4;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)
