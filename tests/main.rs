@@ -8,6 +8,10 @@
 
 mod tolerance;
 
+mod numerics;
+
+mod geometry;
+
 mod design;
 
 mod magnetics;

@@ -60,7 +60,11 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         // Exactly antiparallel, all directions of bending are alike: an answer there may be refused, but is never straight.
         let beyond = antiparallel(row, 1.05 * expected);
         let after = solver.solve(&beyond).expect("finite inputs");
-        assert!(!after.solved || off_axis(&solver) > 1e-3, "{}: on the unstable straight shape: {after:?}", row.id);
+        assert!(
+            !after.solved || off_axis(&solver) > 1e-3,
+            "{}: on the unstable straight shape: {after:?}",
+            row.id
+        );
         // A hundredth aside it is bent and stable.
         let mut aside = antiparallel(row, 1.01 * expected);
         aside.uniform_field.y = 0.01 * expected;
@@ -75,7 +79,8 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
 #[test]
 fn without_a_field_the_manipulator_is_straight_stable_and_shorter() {
     let mut count = 0;
-    for row in rows().iter().filter(|row| row.id.starts_with("c5_zero_field") && row.interaction().is_some()) {
+    for row in rows().iter().filter(|row| row.id.starts_with("c5_zero_field") && row.interaction().is_some())
+    {
         let mut equilibrium = row.equilibrium();
         let report = equilibrium.solve(&row.inputs).expect("finite inputs");
         assert!(report.solved && report.snaps == 0, "{}: {report:?}", row.id);

@@ -54,9 +54,10 @@ fn the_stations_stand_for_all_of_the_material() {
     for (number, span) in spans.iter().enumerate() {
         let end = start + span.length;
         let own = || {
-            element.stations.iter().filter(|station| {
-                station.row.arc_length > start && station.row.arc_length < end
-            })
+            element
+                .stations
+                .iter()
+                .filter(|station| station.row.arc_length > start && station.row.arc_length < end)
         };
         assert!(own().count() >= 2, "span {number}");
         for power in 0..2 {
