@@ -1,11 +1,11 @@
 //! Following a stable branch while the inputs change, and falling to the next one past a fold.
 
 use super::chain::Chain;
-use super::external::ExternalField;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
+use super::source::Source;
 use crate::magnetics::Assembly;
 use crate::numerics::eigenvalue::{self, Search};
 use crate::numerics::trust_region::{self, Objective, Region, dual_norm, norm, spread};
@@ -166,7 +166,7 @@ impl Walk<'_> {
             chain: self.scene.chain,
             settings: self.scene.settings,
             inputs,
-            field: ExternalField::new(self.scene.magnet, inputs),
+            field: Source::external(self.scene.magnet, inputs),
             rules: self.rules,
             work: self.work,
         }
@@ -228,12 +228,10 @@ impl Walk<'_> {
         let unit = chain.unit();
         let mut step = vec![0.0; unknowns.len()];
         let mut longest = settings.follow_step;
+        let mut last = None;
         for _ in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             if potential.slope(unknowns).is_none() {
-                return;
-            }
-            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
                 return;
             }
             for (s, g) in step.iter_mut().zip(potential.gradient()) {
@@ -248,7 +246,13 @@ impl Walk<'_> {
                 *x += s;
             }
             self.report.iterations += 1;
+            // What is left shrinks like the steps do.
+            let shrinks = last.map_or(CHORD_CONTRACTION, |last| length / last);
+            if length * shrinks <= settings.tolerance {
+                return;
+            }
             longest = CHORD_CONTRACTION * length;
+            last = Some(length);
         }
     }
 

@@ -1,7 +1,7 @@
 //! The potential of the whole chain, its minimum, its stability.
 
 mod chain;
-mod external;
+mod dead;
 mod follow;
 mod inputs;
 mod pair;
@@ -10,6 +10,7 @@ mod reduction;
 mod rules;
 mod settings;
 mod solver;
+mod source;
 
 pub use follow::Report;
 pub use inputs::Inputs;

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::chain::RingBody;
+use super::source::Source;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::AxialRule;
 use crate::rod::{Load, Order, turning};
@@ -59,25 +60,7 @@ impl PairLoad {
         rule: &AxialRule,
         order: Order,
     ) -> Option<Self> {
-        let from = first_node.advanced(0.5 * first.ring.length);
-        let axis = second_node.axis();
-        let centre = 0.5 * second.ring.length;
-        let mut load = Load::zero();
-        for (height, volume) in rule.points() {
-            let arm = axis * (centre + height);
-            let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
-            let turn = |m: &Matrix3<f64>| from.rotation * m * from.rotation.transpose();
-            let (field, gradient, along) = if order == Order::Hessian {
-                let jet = first.source.jet(&local).ok()?;
-                (jet.field, jet.gradient, Some(turn(&jet.hessian_along(&from.rotation.tr_mul(&axis)))))
-            } else {
-                let (field, gradient) = first.source.field_gradient(&local).ok()?;
-                (field, gradient, None)
-            };
-            let field = from.rotation * field;
-            let moment = second.magnetisation * volume;
-            load.add_dipole(moment, &axis, &arm, &field, &turn(&gradient), along.as_ref());
-        }
+        let load = Source::ring(first, first_node).on_ring(second, second_node, rule, order)?;
         Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
     }
 

@@ -3,12 +3,13 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::chain::Chain;
-use super::external::{ExternalField, add_load, weight};
+use super::dead::{add_wrench, no_wrench, weight};
 use super::inputs::Inputs;
 use super::pair::{PairLoad, blocks, overlap};
 use super::reduction::{Reduction, turn_nodes};
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
+use super::source::Source;
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
 use crate::numerics::cholesky;
@@ -47,7 +48,7 @@ impl Workspace {
             nodes: vec![Pose::identity(); count + 1],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
-            magnetic: Wrench { force: Vector3::zeros(), torque: Vector3::zeros() },
+            magnetic: no_wrench(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
             reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms())).collect(),
@@ -79,7 +80,7 @@ pub(super) struct Potential<'a> {
     pub(super) chain: &'a Chain,
     pub(super) settings: &'a Settings,
     pub(super) inputs: &'a Inputs,
-    pub(super) field: ExternalField<'a>,
+    pub(super) field: Source<'a>,
     pub(super) rules: &'a PairRules,
     pub(super) work: &'a mut Workspace,
 }
@@ -99,7 +100,7 @@ impl Potential<'_> {
         for (k, element) in self.chain.elements.iter().enumerate() {
             energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
         }
-        self.work.magnetic = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
+        self.work.magnetic = no_wrench();
         energy += self.load_stations(order)?;
         self.work.node_loads.fill(Load::zero());
         self.load_rings(order)?;
@@ -134,13 +135,17 @@ impl Potential<'_> {
                     position: start.transform(&state.position),
                     rotation: start.rotation * state.directors,
                 };
-                let mut load = self.field.on_station(station, &pose, order)?;
-                add_load(&mut self.work.magnetic, &load, &(pose.position - self.inputs.base.position));
+                let magnetic = self.field.on_station(station, &pose, order)?;
+                let axes = self.field.axes();
+                let arm = pose.position - self.inputs.base.position;
+                let (force, moment) = (axes * magnetic.force, axes * magnetic.moment());
+                add_wrench(&mut self.work.magnetic, &force, &moment, &arm);
+                let mut load = magnetic.in_axes(&axes.tr_mul(&start.rotation));
                 if gravity != Vector3::zeros() {
-                    load += weight(station, &pose, &gravity);
+                    load += weight(station, &pose, &gravity).in_axes(&start.rotation);
                 }
                 energy += load.energy;
-                self.work.station_loads[k][index] = load.in_axes(&start.rotation);
+                self.work.station_loads[k][index] = load;
             }
         }
         Some(energy)
@@ -154,7 +159,8 @@ impl Potential<'_> {
             let reach = self.field.distance(&(node.position + arm));
             let rule = self.rules.external(index, reach);
             let magnetic = self.field.on_ring(body, &node, rule, order)?;
-            add_load(&mut self.work.magnetic, &magnetic, &(node.position - self.inputs.base.position));
+            let lever = node.position - self.inputs.base.position;
+            add_wrench(&mut self.work.magnetic, &magnetic.force, &magnetic.moment(), &lever);
             let load = &mut self.work.node_loads[body.node];
             *load += magnetic;
             *load += Load::dead_force(&dead, &node.position, &arm);
