@@ -192,6 +192,7 @@ impl Potential<'_> {
                     target.couple += antisymmetric(&load.couple);
                 }
                 if order == Order::Hessian {
+                    let pair = pair.hessian();
                     let matrix = &mut self.work.node_hessian;
                     add_block(matrix, count, first.node, first.node, &pair.first_first);
                     add_block(matrix, count, second.node, second.node, &pair.second_second);

@@ -23,7 +23,8 @@ pub struct Settings {
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-6.
+    /// Largest error of a ring's energy in a field, relative to that energy, and of the energy of two rings,
+    /// relative to that of two dipoles as far apart as a ring is wide; default 1e-5.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
     pub tolerance: f64,
@@ -43,7 +44,7 @@ impl Default for Settings {
             interaction: Interaction::Rings,
             degree: 3,
             cylinder_elements: 8,
-            pair_accuracy: 1e-6,
+            pair_accuracy: 1e-5,
             tolerance: 1e-11,
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
