@@ -144,7 +144,7 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
             low = low.max(shift);
             shift = middle(low, high);
         }
-        if high - low <= 1e-3 * high {
+        if high.is_finite() && high - low <= 1e-3 * high {
             shift = high;
         }
         factored = objective.factorise(shift);

@@ -1,1 +1,6 @@
-//! Tests of `rod`.
+//! Tests of `rod`: closed forms and published benchmarks, and the material that stations stand for.
+
+mod benchmarks;
+mod magnetic;
+mod stations;
+mod table;

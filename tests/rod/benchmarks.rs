@@ -1,0 +1,67 @@
+//! Elastic rods: tip load, tip moment, own weight.
+
+use core::f64::consts::PI;
+
+use mcm::equilibrium::Inputs;
+use nalgebra::Vector3;
+
+use super::table::{Rod, rows_of};
+use crate::equilibrium::critical::{is_stable, last_true};
+use crate::tolerance::{CRITICAL_WITHOUT_PAIRS, ELASTICA};
+
+#[test]
+fn elastica_with_a_tip_load() {
+    let mut worst = 0.0;
+    for row in rows_of("elastica_tip_load") {
+        let mut rod = Rod::slender();
+        let force = row.parameter("K") * rod.bending / rod.length.powi(2);
+        let report = rod.solve(&Inputs { tip_force: Vector3::new(0.0, force, 0.0), ..Inputs::unloaded(0) });
+        assert!(report.margin > 0.0 && report.snaps == 0, "{row:?}: {report:?}");
+        let tip = rod.equilibrium.tip();
+        let got = match row.quantity.as_str() {
+            "w/L" => tip.position.y / rod.length,
+            "u/L" => 1.0 - tip.position.z / rod.length,
+            "theta" => tip.axis().y.atan2(tip.axis().z),
+            other => panic!("an unknown quantity: {other}"),
+        };
+        let error = (got / row.value - 1.0).abs();
+        assert!(error <= ELASTICA, "{row:?}: got {got}: {error:e}");
+        worst = f64::max(worst, error);
+    }
+    println!("elastica: {worst:e}");
+}
+
+#[test]
+fn a_tip_moment_rolls_the_rod_up() {
+    for row in rows_of("rollup") {
+        let mut rod = Rod::slender();
+        let moment = 2.0 * PI * rod.bending / rod.length;
+        let report = rod.solve(&Inputs { tip_moment: Vector3::new(-moment, 0.0, 0.0), ..Inputs::unloaded(0) });
+        let distance = rod.equilibrium.tip().position.norm() / rod.length;
+        assert!((distance - row.value).abs() <= ELASTICA, "{row:?}: got {distance:e}: {report:?}");
+        let turned = (rod.equilibrium.tip().rotation - nalgebra::Matrix3::identity()).norm();
+        assert!(turned <= ELASTICA, "{row:?}: the tip is turned by {turned:e}");
+        // Half of the moment: half of the circle.
+        rod.solve(&Inputs { tip_moment: Vector3::new(-0.5 * moment, 0.0, 0.0), ..Inputs::unloaded(0) });
+        let across = rod.equilibrium.tip().position.y / rod.length;
+        assert!((across - 2.0 / PI).abs() <= ELASTICA, "half a circle is {across} wide");
+        println!("rollup: {distance:e}");
+    }
+}
+
+#[test]
+fn a_column_buckles_under_its_own_weight() {
+    for row in rows_of("greenhill") {
+        let mut rod = Rod::slender();
+        let straight = vec![0.0; rod.equilibrium.freedoms()];
+        // q L^3/EI with q = line mass times gravity.
+        let unit = rod.bending / (rod.line_mass * rod.length.powi(3));
+        let found = last_true(0.5 * row.value, 2.0 * row.value, |load| {
+            let gravity = Vector3::new(0.0, 0.0, -load * unit);
+            is_stable(&mut rod.equilibrium, &Inputs { gravity, ..Inputs::unloaded(0) }, &straight)
+        });
+        let error = (found / row.value - 1.0).abs();
+        assert!(error <= CRITICAL_WITHOUT_PAIRS, "{row:?}: got {found}: {error:e}");
+        println!("greenhill: {error:e}");
+    }
+}

@@ -1,0 +1,100 @@
+//! The material that an element's stations stand for, against a brute-force sum over its volume.
+
+use core::f64::consts::TAU;
+
+use mcm::design::{Design, Segmented, Span, Specification, SpiralKind};
+use mcm::rod::{Element, Piece};
+use nalgebra::{Matrix2, Vector2};
+
+use crate::tolerance::{BRUTE_FORCE, LAW, assert_close};
+
+fn spans(spiral: SpiralKind) -> Vec<Span> {
+    let Specification::Segmented(paper) = Specification::paper(1) else { unreachable!() };
+    let chain = Segmented { spiral, ..paper };
+    Design::new(Specification::Segmented(chain)).expect("allowed").segments()[0].spans.clone()
+}
+
+/// Volume, first and second moments of a span by midpoints in radius, angle and arc length, weighted with `s^power`.
+fn by_cells(span: &Span, power: i32) -> (f64, Vector2<f64>, Matrix2<f64>) {
+    let (radii, angles, slices) = (60, 240, 240);
+    let mut sum = (0.0, Vector2::zeros(), Matrix2::zeros());
+    let mut add = |inner: f64, outer: f64, from: f64, width: f64, s: f64, ds: f64| {
+        for i in 0..radii {
+            let dr = (outer - inner) / f64::from(radii);
+            let r = inner + dr * (f64::from(i) + 0.5);
+            for j in 0..angles {
+                let da = width / f64::from(angles);
+                let a = from + da * (f64::from(j) + 0.5);
+                let point = Vector2::new(a.cos(), a.sin()) * r;
+                let volume = r * dr * da * ds * s.powi(power);
+                sum.0 += volume;
+                sum.1 += point * volume;
+                sum.2 += point * point.transpose() * volume;
+            }
+        }
+    };
+    for k in 0..slices {
+        let ds = span.length / f64::from(slices);
+        let s = ds * (f64::from(k) + 0.5);
+        add(span.inner_radius, span.outer_radius, 0.0, TAU, s, ds);
+        if let Some(spiral) = &span.spiral {
+            let from = TAU * spiral.windings * s / span.length;
+            add(spiral.inner_radius, spiral.outer_radius, from, spiral.sector_angle, s, ds);
+        }
+    }
+    sum
+}
+
+#[test]
+fn the_stations_stand_for_all_of_the_material() {
+    let spans = spans(SpiralKind::Helical);
+    let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
+    let element = Element::new(0.0, &pieces, 3);
+    let mut start = 0.0;
+    for (number, span) in spans.iter().enumerate() {
+        let end = start + span.length;
+        let own = || {
+            element.stations.iter().filter(|station| {
+                station.row.arc_length > start && station.row.arc_length < end
+            })
+        };
+        assert!(own().count() >= 2, "span {number}");
+        for power in 0..2 {
+            let (volume, first, second) = by_cells(span, power);
+            let weight = |s: f64| (s - start).powi(power);
+            let got = own().fold((0.0, Vector2::zeros(), Matrix2::zeros()), |sum, station| {
+                let w = weight(station.row.arc_length);
+                let m = &station.material;
+                (sum.0 + m.volume * w, sum.1 + m.first * w, sum.2 + m.second * w)
+            });
+            let case = (number, power);
+            assert_close((case, "volume"), &[got.0], &[volume], BRUTE_FORCE);
+            assert_close((case, "second"), got.2.as_slice(), second.as_slice(), BRUTE_FORCE);
+            let radius = volume * 2e-3;
+            assert!((got.1 - first).norm() <= BRUTE_FORCE * radius, "{case:?}: first {} {first}", got.1);
+        }
+        start = end;
+    }
+}
+
+#[test]
+fn four_points_carry_the_moments() {
+    for kind in [SpiralKind::Helical, SpiralKind::Axisymmetric] {
+        let spans = spans(kind);
+        let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
+        for station in &Element::new(0.0, &pieces, 3).stations {
+            let (moments, points) = (&station.material, station.material.points());
+            let quarter = moments.volume / 4.0;
+            let first: Vector2<f64> = points.iter().map(|point| point * quarter).sum();
+            let second: Matrix2<f64> = points.iter().map(|point| point * point.transpose() * quarter).sum();
+            assert!((first - moments.first).norm() <= LAW * moments.volume * 1e-3, "{kind:?}: {first}");
+            assert_close(kind, second.as_slice(), moments.second.as_slice(), LAW);
+        }
+    }
+}
+
+#[test]
+fn an_even_spiral_has_the_volume_of_the_turning_one() {
+    let volume = |kind| spans(kind).iter().map(Span::volume).sum::<f64>();
+    assert_close("volume", &[volume(SpiralKind::Axisymmetric)], &[volume(SpiralKind::Helical)], LAW);
+}
