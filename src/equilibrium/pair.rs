@@ -78,11 +78,11 @@ impl PairLoad {
             let moment = second.magnetisation * volume;
             load.add_dipole(moment, &axis, &arm, &field, &turn(&gradient), along.as_ref());
         }
-        Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
+        Some(Self::reciprocal(&load, &(second_node.position - first_node.position)))
     }
 
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
-    pub(super) fn reciprocal(on_second: Load, between: &Vector3<f64>) -> Self {
+    pub(super) fn reciprocal(on_second: &Load, between: &Vector3<f64>) -> Self {
         let force = on_second.force;
         let whole = on_second.couple + force * between.transpose();
         let on_first = Load { force: -force, couple: -whole, ..Load::zero() };
@@ -100,7 +100,7 @@ impl PairLoad {
         let mixed = carry.transpose() * own + blocks(&zero, &zero, &pull, &swing);
         let first_first = carry.transpose() * own * carry + blocks(&zero, &pull, &-pull, &turning(&whole));
         let second_second = own + blocks(&zero, &zero, &zero, &turning(&on_second.couple));
-        Self { on_second, on_first, first_first, first_second: mixed, second_second }
+        Self { on_second: *on_second, on_first, first_first, first_second: mixed, second_second }
     }
 }
 
