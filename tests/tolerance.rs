@@ -32,6 +32,79 @@ pub(crate) const PRINTED: f64 = 1.5e-4;
 /// A few operations in floating point.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
+/// Tip and rings of the independent energy model, relative to the length.
+pub(crate) const STATICS_LENGTH: f64 = 1e-5;
+
+/// Its angles, deg.
+pub(crate) const STATICS_ANGLE_DEG: f64 = 1e-3;
+
+/// Its forces and torques.
+pub(crate) const STATICS_WRENCH: f64 = 1e-4;
+
+/// Its energies, a minimum: of second order in the error of the shape.
+pub(crate) const STATICS_ENERGY: f64 = 1e-5;
+
+/// Accuracy that the ring pairs are asked for beside a table: the best that they have.
+pub(crate) const PAIRS: f64 = 1e-10;
+
+/// Forces between adjacent rings: the rule of most nodes on the axis leaves 5e-6 there, whatever is asked for.
+pub(crate) const ADJACENT: f64 = 1e-5;
+
+/// Where a turned field loses the branch, deg.
+pub(crate) const FOLD_ANGLE_DEG: f64 = 0.5;
+
+/// At which relative strength of the magnet the branch is lost: the table's ramp has steps of up to 10 percent.
+pub(crate) const FOLD_STRENGTH: f64 = 0.03;
+
+/// A shape some tenths of a degree before its fold, where it moves with the square root of the distance, over the length.
+pub(crate) const FOLD_SHAPE: f64 = 0.02;
+
+/// Critical loads: those of ring pairs are good to [`ADJACENT`] and the softening goes with the field's second derivative.
+pub(crate) const CRITICAL: f64 = 2e-5;
+
+/// Critical loads without ring pairs, closed forms and tables of 6.6 digits.
+pub(crate) const CRITICAL_WITHOUT_PAIRS: f64 = 5e-7;
+
+/// Smallest eigenvalue by iteration: of second order in the residual of 1e-3 at which it ends.
+pub(crate) const MARGIN: f64 = 1e-4;
+
+/// Width at which a bisection ends: well inside [`CRITICAL`].
+pub(crate) const BISECTION: f64 = 1e-8;
+
+/// A straight shape's distance from its axis over its length.
+pub(crate) const ON_AXIS: f64 = 1e-9;
+
+/// Laws that hold exactly, between two solves that each end at a residual of 1e-11.
+pub(crate) const LAW: f64 = 1e-9;
+
+/// Balance of forces, relative to the largest: rounding, and the residual of the solve.
+pub(crate) const BALANCE: f64 = 1e-9;
+
+/// Wrenches by two formulas at the shape of one solve.
+pub(crate) const RECIPROCITY: f64 = 1e-7;
+
+/// Slope of the energy by a central difference of step 1e-3: the energy of ring pairs has a noise of 1e-10, which
+/// the large weights of their rules make out of the rounding of the field.
+pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-6;
+
+/// Slope of the gradient by the same.
+pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
+
+/// Tip over the length at the default degree, uniform field of 20 mT.
+pub(crate) const DEGREE_NONE: f64 = 2e-6;
+
+/// The same with ring pairs.
+pub(crate) const DEGREE_RINGS: f64 = 1e-5;
+
+/// Tip over the length by the default accuracy of the ring pairs.
+pub(crate) const PAIRS_BY_DEFAULT: f64 = 1e-5;
+
+/// Residual of a solved shape: the default setting is 1e-11, but close ring pairs have a noise of up to 3e-11.
+pub(crate) const RESIDUAL: f64 = 1e-10;
+
+/// Shapes reached on two ways, over a length of 5 cm and in rotation.
+pub(crate) const RETURN: f64 = 1e-8;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

@@ -3,67 +3,86 @@
 use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
 use nalgebra::Vector3;
 
-fn pair() -> Assembly {
-    let magnet =
-        |offset| AxialMagnet { radius: 0.0225, inner_radius: 0.0, length: 0.03, offset, remanence: 1.35 };
-    Assembly::new(vec![magnet(-0.02), magnet(0.02)]).unwrap()
-}
+use super::rows::pair;
+use crate::tolerance::{HESSIAN_DIFFERENCE, SLOPE_DIFFERENCE, assert_close};
 
+/// Steps of the differences of energies and of gradients, in radians of the first mode.
+const LONG_STEP: f64 = 1e-3;
+const STEP: f64 = 1e-5;
+
+/// A fixed number between -1 and 1.
 fn pseudo(seed: usize, i: usize) -> f64 {
     (12.9898 * (i as f64 + 1.0) + 78.233 * seed as f64).sin()
 }
 
-#[test]
-fn gradient_and_hessian_meet_finite_differences() {
-    for (level, magnet) in [
-        (Interaction::None, false),
-        (Interaction::None, true),
-        (Interaction::Rings, false),
-        (Interaction::Rings, true),
-    ] {
-        let design = Design::new(Specification::paper(3)).unwrap();
-        let settings = Settings { interaction: level, degree: 2, ..Settings::default() };
-        let assembly = pair();
-        let mut equilibrium = Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).unwrap();
-        let mut inputs = Inputs::unloaded(4);
-        inputs.uniform_field = Vector3::new(0.004, 0.012, -0.003);
-        inputs.gravity = Vector3::new(1.0, -9.0, 2.0);
-        inputs.tip_force = Vector3::new(0.003, 0.001, -0.002);
-        inputs.ring_forces[1] = Vector3::new(0.002, -0.001, 0.004);
-        inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).unwrap();
-        if magnet {
-            inputs.magnet = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).unwrap();
-            inputs.magnet_strength = 1.0;
-            inputs.field_gradient = [0.1, 0.05, -0.2, 0.3, 0.15];
+fn everything(magnet: bool) -> Inputs {
+    let mut inputs = Inputs::unloaded(4);
+    inputs.uniform_field = Vector3::new(0.004, 0.012, -0.003);
+    inputs.gravity = Vector3::new(1.0, -9.0, 2.0);
+    inputs.tip_force = Vector3::new(0.003, 0.001, -0.002);
+    inputs.ring_forces[1] = Vector3::new(0.002, -0.001, 0.004);
+    inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
+    if magnet {
+        inputs.magnet = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+        inputs.magnet_strength = 1.0;
+        inputs.field_gradient = [0.1, 0.05, -0.2, 0.3, 0.15];
+    }
+    inputs
+}
+
+/// An equilibrium, its inputs, a bent shape and a direction, in every combination of level and field.
+fn cases() -> Vec<(String, Equilibrium, Inputs, Vec<f64>, Vec<f64>)> {
+    let design = Design::new(Specification::paper(3)).expect("the paper's design is allowed");
+    let mut out = Vec::new();
+    for interaction in [Interaction::None, Interaction::Rings] {
+        for (magnet, degree) in [(false, 0), (false, 2), (true, 3)] {
+            let settings = Settings { interaction, degree, ..Settings::default() };
+            let assembly = pair();
+            let equilibrium =
+                Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).expect("allowed");
+            let scale: Vec<f64> =
+                equilibrium.metric().iter().map(|k| (equilibrium.metric()[0] / k).sqrt()).collect();
+            let vector = |seed, size: f64| scale.iter().enumerate().map(|(i, s)| size * s * pseudo(seed, i)).collect();
+            let (shape, direction) = (vector(1, 0.12), vector(2, 1.0));
+            let name = format!("{interaction:?}, magnet {magnet}, degree {degree}");
+            out.push((name, equilibrium, everything(magnet), shape, direction));
         }
-        let n = equilibrium.freedoms();
+    }
+    out
+}
+
+fn moved(shape: &[f64], direction: &[f64], distance: f64) -> Vec<f64> {
+    shape.iter().zip(direction).map(|(x, d)| x + distance * d).collect()
+}
+
+#[test]
+fn the_gradient_is_the_slope_of_the_energy() {
+    for (name, mut equilibrium, inputs, shape, direction) in cases() {
+        let mut at = |s: f64| equilibrium.gradient(&inputs, &moved(&shape, &direction, s)).expect("apart");
+        let difference = (at(LONG_STEP).0 - at(-LONG_STEP).0) / (2.0 * LONG_STEP);
+        let slope: f64 = at(0.0).1.iter().zip(&direction).map(|(g, d)| g * d).sum();
+        assert_close(&name, &[slope], &[difference], SLOPE_DIFFERENCE);
+        println!("{name}: gradient {:e}", slope / difference - 1.0);
+    }
+}
+
+#[test]
+fn the_hessian_is_the_slope_of_the_gradient() {
+    // `(H + shift K) d` by differences, solved by the exact factorisation, must give `d` back.
+    let shift = 30.0;
+    for (name, mut equilibrium, inputs, shape, direction) in cases() {
+        let mut at = |s: f64| equilibrium.gradient(&inputs, &moved(&shape, &direction, s)).expect("apart").1;
+        let (plus, minus) = (at(STEP), at(-STEP));
         let metric = equilibrium.metric().to_vec();
-        let scale: Vec<f64> = metric.iter().map(|k| (metric[0] / k).sqrt()).collect();
-        let x: Vec<f64> = (0..n).map(|i| 0.12 * pseudo(1, i) * scale[i]).collect();
-        let d: Vec<f64> = (0..n).map(|i| pseudo(2, i) * scale[i]).collect();
-        let h = 1e-5;
-        let moved = |s: f64| -> Vec<f64> { x.iter().zip(&d).map(|(a, b)| a + s * b).collect() };
-        let (energy_plus, gradient_plus) = equilibrium.gradient(&inputs, &moved(h)).unwrap();
-        let (energy_minus, gradient_minus) = equilibrium.gradient(&inputs, &moved(-h)).unwrap();
-        let (_, gradient) = equilibrium.gradient(&inputs, &x).unwrap();
-        let slope: f64 = gradient.iter().zip(&d).map(|(g, v)| g * v).sum();
-        let difference = (energy_plus - energy_minus) / (2.0 * h);
-        println!(
-            "{level:?} {magnet} slope {slope:e} difference {difference:e} rel {:e}",
-            slope / difference - 1.0
-        );
-        let image: Vec<f64> =
-            gradient_plus.iter().zip(&gradient_minus).map(|(a, b)| (a - b) / (2.0 * h)).collect();
-        // (H + shift K) d, solved, must give d back.
-        let shift = 30.0;
-        let rhs: Vec<f64> = (0..n).map(|i| image[i] + shift * metric[i] * d[i]).collect();
-        let solved = equilibrium.solve_at(&inputs, &x, shift, &rhs).expect("positive definite");
-        let worst = solved.iter().zip(&d).map(|(a, b)| ((a - b) / b).abs()).fold(0.0, f64::max);
-        println!("worst {worst:e}");
-        assert!((slope / difference - 1.0).abs() < 1e-6);
-        assert!(worst < 1e-5, "{level:?} magnet {magnet}: {worst:e}");
+        let image = plus.iter().zip(&minus).map(|(a, b)| (a - b) / (2.0 * STEP));
+        let rhs: Vec<f64> =
+            image.zip(metric.iter().zip(&direction)).map(|(h, (k, d))| h + shift * k * d).collect();
+        let solved = equilibrium.solve_at(&inputs, &shape, shift, &rhs).expect("positive definite");
+        let weighted = |x: &[f64]| x.iter().zip(&metric).map(|(v, k)| v * k.sqrt()).collect::<Vec<f64>>();
+        assert_close(&name, &weighted(&solved), &weighted(&direction), HESSIAN_DIFFERENCE);
+        let error = solved.iter().zip(&direction).map(|(a, b)| ((a - b) / b).abs()).fold(0.0, f64::max);
+        println!("{name}: Hessian {error:e}");
     }
 }

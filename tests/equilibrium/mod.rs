@@ -1,4 +1,12 @@
-//! Equilibria against the independent energy model and closed forms.
+//! Tests of `equilibrium`: the independent energy model, laws, derivatives, convergence, robustness.
 
+mod convergence;
+pub(crate) mod critical;
 mod derivatives;
+mod laws;
+mod lost;
+mod reciprocity;
 mod reference;
+mod robustness;
+mod rows;
+mod scaling;

@@ -1,99 +1,112 @@
-//! The rows of `statics_dev.json`.
+//! Every equilibrium of `statics_dev.json`, an independent energy model.
 
-use mcm::design::{Design, Segmented, Specification, SpiralKind};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
-use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
-use nalgebra::Vector3;
-use serde_json::Value;
+use mcm::equilibrium::{Equilibrium, Report};
+use mcm::geometry::{Pose, rotation_log};
 
-fn vector(value: &Value) -> Vector3<f64> {
-    Vector3::from_fn(|i, _| value[i].as_f64().unwrap())
+use super::rows::{Row, list, number, rows, vector};
+use crate::tolerance::{STATICS_ANGLE_DEG, STATICS_ENERGY, STATICS_LENGTH, STATICS_WRENCH};
+
+/// Rows by what is done with them; a new level of ours moves rows from the last to the first.
+const EQUILIBRIA: usize = 39;
+const LOST: usize = 15;
+const STRAIGHT: usize = 5;
+const OTHER_LEVELS: usize = 9;
+
+/// The field is turned in steps of this, deg.
+const TURN: f64 = 1.0;
+
+#[test]
+fn every_row_belongs_to_a_test() {
+    let all = rows();
+    let ours = || all.iter().filter(|row| row.interaction().is_some());
+    let straight = |row: &&Row| row.id.starts_with("c5_");
+    let counts = [
+        ours().filter(|row| row.is_equilibrium()).count(),
+        ours().filter(|row| row.is_lost()).count(),
+        ours().filter(straight).count(),
+        all.iter().filter(|row| row.interaction().is_none()).count(),
+    ];
+    assert_eq!(counts, [EQUILIBRIA, LOST, STRAIGHT, OTHER_LEVELS], "equilibria, lost, straight, other levels");
+    assert_eq!(counts.iter().sum::<usize>(), all.len(), "a row that no test takes");
 }
 
 #[test]
-fn rows() {
-    let text = std::fs::read_to_string("tests/reference/statics_dev.json").unwrap();
-    let file: Value = serde_json::from_str(&text).unwrap();
-    for case in file["cases"].as_array().unwrap() {
-        let setup = &case["setup"];
-        let level = match setup["level"].as_str().unwrap() {
-            "none" => Interaction::None,
-            "rings" => Interaction::Rings,
-            _ => continue,
-        };
-        let Specification::Segmented(paper) = Specification::paper(setup["S"].as_u64().unwrap() as usize)
-        else {
-            unreachable!()
-        };
-        let axisymmetric = setup["spiral"] == "axisymmetric";
-        let mut spec = Segmented {
-            base_magnet: setup["base_ring"].as_bool().unwrap(),
-            spiral: if axisymmetric { SpiralKind::Axisymmetric } else { SpiralKind::Helical },
-            ..paper
-        };
-        let input = &case["inputs"];
-        if let Some(d) = input["rho_mpc"].as_f64() {
-            spec.helix.density = Some(d);
+fn every_equilibrium_is_met() {
+    let mut worst = [("", 0.0); 6];
+    let mut count = 0;
+    for row in rows().iter().filter(|row| row.interaction().is_some() && row.is_equilibrium()) {
+        let mut equilibrium = row.equilibrium();
+        let mut snaps = 0;
+        if row.turned.is_some() {
+            let mut angle = 0.0;
+            while angle < row.field_angle {
+                snaps += equilibrium.solve(&row.turned_to(angle)).expect("finite inputs").snaps;
+                angle += TURN;
+            }
         }
-        let rings = spec.segments + usize::from(spec.base_magnet);
-        let design = Design::new(Specification::Segmented(spec)).unwrap();
-        let mut inputs = Inputs::unloaded(rings);
-        if input["B"].is_array() {
-            inputs.uniform_field = vector(&input["B"]);
+        let report = equilibrium.solve(&row.inputs).expect("finite inputs");
+        assert!(report.solved, "{}: not solved: {report:?}", row.id);
+        assert_eq!(snaps + report.snaps, 0, "{}: snaps on the way to a shape that needs none", row.id);
+        for (slot, (name, error, bound)) in worst.iter_mut().zip(errors(row, &equilibrium, &report)) {
+            assert!(error <= bound, "{}: {name}: error {error:e}, allowed {bound:e}", row.id);
+            *slot = if error > slot.1 { (name, error) } else { *slot };
         }
-        if input["gravity"].is_array() {
-            inputs.gravity = vector(&input["gravity"]);
-        }
-        let mut assembly = None;
-        if input["magnet_pair"].is_object() {
-            let m = &input["magnet_pair"];
-            let half = 0.5 * (m["length_each"].as_f64().unwrap() + m["gap"].as_f64().unwrap());
-            let magnet = |offset| AxialMagnet {
-                radius: 0.5 * m["diameter"].as_f64().unwrap(),
-                inner_radius: 0.0,
-                length: m["length_each"].as_f64().unwrap(),
-                offset,
-                remanence: m["Br"].as_f64().unwrap(),
-            };
-            assembly = Some(Assembly::new(vec![magnet(-half), magnet(half)]).unwrap());
-            let flip = if m["polarity"].as_f64().unwrap() > 0.0 {
-                [1.0, 0.0, 0.0, 0.0]
-            } else {
-                [0.0, 1.0, 0.0, 0.0]
-            };
-            inputs.magnet = Pose::new(vector(&m["centre"]).into(), flip).unwrap();
-            inputs.magnet_strength = 1.0;
-        }
-        let degree = std::env::var("DEGREE").map_or(3, |d| d.parse().unwrap());
-        let pair_accuracy = std::env::var("ACC").map_or(1e-8, |d| d.parse().unwrap());
-        let settings = Settings { interaction: level, degree, pair_accuracy, ..Settings::default() };
-        let mut eq = Equilibrium::new(&design, assembly.as_ref(), settings, 11).unwrap();
-        let now = std::time::Instant::now();
-        let report = eq.solve(&inputs).unwrap();
-        let time = now.elapsed().as_micros();
-        let out = &case["outputs"];
-        let id = case["id"].as_str().unwrap();
-        if out["alpha_deg"].is_f64() {
-            let tip = eq.tip();
-            let alpha = tip.axis().angle(&Vector3::z()).to_degrees();
-            let t = vector(&out["tip_p"]);
-            let w = eq.magnetic_wrench();
-            let (f, q) = (vector(&out["force"]), vector(&out["torque_about_base"]));
-            println!(
-                "{id:28} dalpha {:9.1e} dtip/L {:8.1e} df {:8.1e} dt {:8.1e} margin {:.3} it {} snaps {} {} us digits {}",
-                alpha - out["alpha_deg"].as_f64().unwrap(),
-                (tip.position - t).norm() / design.length(),
-                (w.force - f).norm() / f.norm().max(1e-30),
-                (w.torque - q).norm() / q.norm(),
-                report.margin,
-                report.iterations,
-                report.snaps,
-                time,
-                out["converged_digits"]
-            );
-        } else {
-            println!("{id:28} {report:?} {} {time} us", out);
-        }
+        count += 1;
     }
+    println!("worst of {count} rows: {worst:?}");
+    assert_eq!(count, EQUILIBRIA);
+}
+
+/// Name, error and bound of every output; the bound is the table's own accuracy where that is worse than ours.
+fn errors(row: &Row, equilibrium: &Equilibrium, report: &Report) -> [(&'static str, f64, f64); 6] {
+    let out = &row.outputs;
+    let digits = |key: &str| out["converged_digits"][key].as_f64().map_or(0.0, |digits| 10.0_f64.powf(-digits));
+    let length = row.design().length();
+    let tip = equilibrium.tip();
+    let expected = Pose::new(vector(&out["tip_p"]).into(), array(&list(&out["tip_q"]))).expect("a unit quaternion");
+    let alpha = number(out, "alpha_deg");
+    let turn = rotation_log(&expected.rotation.tr_mul(&tip.rotation)).norm().to_degrees();
+    let angle_bound = STATICS_ANGLE_DEG.max(digits("alpha") * alpha);
+    let length_bound = STATICS_LENGTH.max(digits("tip_p"));
+    let wrench = equilibrium.magnetic_wrench();
+    let (force, torque) = (vector(&out["force"]), vector(&out["torque_about_base"]));
+    let energy = number(out, "energy");
+    let expected_rings = out["ring_positions"].as_array().expect("a list of rings");
+    let rings: Vec<_> = equilibrium.rings().collect();
+    assert_eq!(rings.len(), expected_rings.len(), "{}: rings", row.id);
+    let ring = |(ring, expected): (&Pose, _)| (ring.position - vector(expected)).norm();
+    let farthest = rings.iter().zip(expected_rings).map(ring).fold(0.0, f64::max);
+    assert_eq!(
+        report.margin > 0.0,
+        number(out, "min_hessian_eig_sign") > 0.0,
+        "{}: stability, margin {}",
+        row.id,
+        report.margin
+    );
+    let alpha_got = tip.axis().z.atan2(tip.axis().y.hypot(tip.axis().x));
+    let alpha_error = (90.0 - alpha_got.to_degrees() - alpha).abs();
+    // A uniform field pulls at nothing: then the force is measured against the torque.
+    let force_scale = if force.norm() > 0.0 { force.norm() } else { torque.norm() / length };
+    let torque_scale = torque.norm();
+    let relative = |error: f64, scale: f64| if error == 0.0 { 0.0 } else { error / scale };
+    [
+        ("tip over length", (tip.position - expected.position).norm() / length, length_bound),
+        ("rings over length", farthest / length, length_bound),
+        ("angle, deg", alpha_error.max(turn), angle_bound),
+        (
+            "force",
+            relative((wrench.force - force).norm(), force_scale),
+            STATICS_WRENCH.max(digits("force")),
+        ),
+        (
+            "torque",
+            relative((wrench.torque - torque).norm(), torque_scale),
+            STATICS_WRENCH.max(digits("torque")),
+        ),
+        ("energy", (report.energy / energy - 1.0).abs(), STATICS_ENERGY),
+    ]
+}
+
+fn array(values: &[f64]) -> [f64; 4] {
+    values.try_into().expect("four numbers")
 }
