@@ -2,16 +2,44 @@
 
 use crate::error::{Error, check};
 
-/// What acts on what inside the manipulator.
+/// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interaction {
     /// External field only.
-    None,
+    None = 0,
     /// Every ring's field acts on all bodies after it, but not on the disc bonded to its face: the model of
     /// Richter et al., without reaction.
-    Preceding,
+    Preceding = 1,
     /// All pairs of rings, mutual.
-    Rings,
+    Rings = 2,
+}
+
+impl Interaction {
+    /// Every level with its name in scene files and in the FMU and its description there. A level that is not in
+    /// this table does not exist for users.
+    pub const ALL: &[(Self, &str, &str)] = &[
+        (Self::None, "none", "External field only"),
+        (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
+        (Self::Rings, "rings", "All pairs of rings, mutual"),
+    ];
+
+    /// The level with this name.
+    ///
+    /// ```
+    /// use mcm::equilibrium::Interaction;
+    /// assert_eq!(Interaction::named("rings"), Some(Interaction::Rings));
+    /// assert_eq!(Interaction::named("rigns"), None);
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().find(|row| row.1 == name).map(|row| row.0)
+    }
+
+    /// Its name in scene files, on the command line and in the FMU.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|row| row.0 == self).map_or("", |row| row.1)
+    }
 }
 
 /// Settings of the model and its solver.

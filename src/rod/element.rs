@@ -199,6 +199,8 @@ impl Element {
 fn order<T>(tables: [Vec<T>; COMPONENTS]) -> Vec<T> {
     let mut columns = tables.map(Vec::into_iter);
     let mut out: Vec<T> = columns.iter_mut().filter_map(Iterator::next).collect();
-    columns.into_iter().for_each(|column| out.extend(column));
+    for column in columns {
+        out.extend(column);
+    }
     out
 }

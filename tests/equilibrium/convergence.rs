@@ -12,10 +12,8 @@ const DEFAULT: usize = 3;
 
 fn tip(design: &Design, settings: Settings, field: f64) -> Vector3<f64> {
     let mut equilibrium = Equilibrium::new(design, None, settings, 2).expect("allowed");
-    let inputs = Inputs {
-        uniform_field: Vector3::new(0.0, field, 0.0),
-        ..Inputs::unloaded(design.rings().count())
-    };
+    let inputs =
+        Inputs { uniform_field: Vector3::new(0.0, field, 0.0), ..Inputs::unloaded(design.rings().count()) };
     let report = equilibrium.solve(&inputs).expect("finite inputs");
     assert!(report.solved && report.snaps == 0, "{report:?}");
     equilibrium.tip().position
@@ -83,8 +81,7 @@ fn the_elements_of_a_plain_rod_converge() {
             tip(&design, settings, 0.12)
         };
         let exact = tip(&design, Settings { degree: 6, cylinder_elements: 16, ..Settings::default() }, 0.12);
-        let errors: Vec<f64> =
-            [1, 2, 4, 8, 16].map(|n| (at(n) - exact).norm() / design.length()).to_vec();
+        let errors: Vec<f64> = [1, 2, 4, 8, 16].map(|n| (at(n) - exact).norm() / design.length()).to_vec();
         println!("degree {degree}, 1 2 4 8 16 elements: {errors:?}");
         for pair in errors.windows(2).skip(1) {
             let expected = 0.5_f64.powi(order);

@@ -75,7 +75,8 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
 #[test]
 fn without_a_field_the_manipulator_is_straight_stable_and_shorter() {
     let mut count = 0;
-    for row in rows().iter().filter(|row| row.id.starts_with("c5_zero_field") && row.interaction().is_some()) {
+    for row in rows().iter().filter(|row| row.id.starts_with("c5_zero_field") && row.interaction().is_some())
+    {
         let mut equilibrium = row.equilibrium();
         let report = equilibrium.solve(&row.inputs).expect("finite inputs");
         assert!(report.solved && report.snaps == 0, "{}: {report:?}", row.id);

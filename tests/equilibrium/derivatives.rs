@@ -44,7 +44,8 @@ fn cases() -> Vec<(String, Equilibrium, Inputs, Vec<f64>, Vec<f64>)> {
                 Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).expect("allowed");
             let scale: Vec<f64> =
                 equilibrium.metric().iter().map(|k| (equilibrium.metric()[0] / k).sqrt()).collect();
-            let vector = |seed, size: f64| scale.iter().enumerate().map(|(i, s)| size * s * pseudo(seed, i)).collect();
+            let vector =
+                |seed, size: f64| scale.iter().enumerate().map(|(i, s)| size * s * pseudo(seed, i)).collect();
             let (shape, direction) = (vector(1, 0.12), vector(2, 1.0));
             let name = format!("{interaction:?}, magnet {magnet}, degree {degree}");
             out.push((name, equilibrium, everything(magnet), shape, direction));

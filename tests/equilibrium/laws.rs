@@ -87,7 +87,8 @@ fn nothing_changes_when_the_whole_scene_is_moved() {
         let other = moved(&inputs, &turn, &shift);
         let (energy, elsewhere) = (solve(&mut here, &inputs), solve(&mut there, &other));
         let (one, two) = (from_the_base(&here, &inputs), from_the_base(&there, &other));
-        for (name, (a, b)) in ["positions", "rotations", "forces", "torques"].iter().zip(one.iter().zip(&two)) {
+        for (name, (a, b)) in ["positions", "rotations", "forces", "torques"].iter().zip(one.iter().zip(&two))
+        {
             assert_close((interaction, name), b, a, LAW);
         }
         // Only forces that are dead in the world have an energy that the shift changes.

@@ -75,8 +75,7 @@ fn the_growing_magnet_loses_the_branch_where_the_table_does() {
         let mut equilibrium = row.equilibrium();
         let mut strength = 0.0;
         let end = fold[1] * (1.0 + 2.0 * FOLD_STRENGTH);
-        while strength < end
-            && !is_lost(&equilibrium.solve(&row.ramped_to(strength)).expect("finite inputs"))
+        while strength < end && !is_lost(&equilibrium.solve(&row.ramped_to(strength)).expect("finite inputs"))
         {
             strength += RAMP * fold[0];
         }
@@ -86,7 +85,8 @@ fn the_growing_magnet_loses_the_branch_where_the_table_does() {
         let inside = magnet.contains(&row.inputs.magnet.rotation.tr_mul(&last));
         unreachable += usize::from(inside);
         assert!(
-            (inside || strength > fold[0] * (1.0 - FOLD_STRENGTH)) && strength < fold[1] * (1.0 + FOLD_STRENGTH),
+            (inside || strength > fold[0] * (1.0 - FOLD_STRENGTH))
+                && strength < fold[1] * (1.0 + FOLD_STRENGTH),
             "{}: lost at {strength}, expected within {FOLD_STRENGTH} of {fold:?}",
             row.id
         );
@@ -122,7 +122,10 @@ fn close_to_the_fold_the_margin_tells() {
         println!("{id}: tip {error:e} margin {:?}, bound {worst:e} above", margins.last());
         assert!(worst <= MARGIN_BOUND, "{id}: a bound {worst} above the margin");
         assert!(error <= FOLD_SHAPE, "{id}: tip off by {error:e} of the length");
-        assert!(margins[100] < 0.15 && margins[100] < 0.2 * margins[0], "{id}: no sign of the fold: {margins:?}");
+        assert!(
+            margins[100] < 0.15 && margins[100] < 0.2 * margins[0],
+            "{id}: no sign of the fold: {margins:?}"
+        );
     }
 }
 
@@ -135,7 +138,11 @@ fn smallest_eigenvalue(equilibrium: &mut Equilibrium, inputs: &Inputs) -> f64 {
         let mut unit = vec![0.0; size];
         unit[i] = k.sqrt();
         let column = equilibrium.solve_at(inputs, &shape, 0.0, &unit).expect("positive definite");
-        inverse.column_mut(i).iter_mut().zip(column.iter().zip(&metric)).for_each(|(e, (v, k))| *e = v * k.sqrt());
+        inverse
+            .column_mut(i)
+            .iter_mut()
+            .zip(column.iter().zip(&metric))
+            .for_each(|(e, (v, k))| *e = v * k.sqrt());
     }
     1.0 / SymmetricEigen::new((&inverse + inverse.transpose()) * 0.5).eigenvalues.max()
 }

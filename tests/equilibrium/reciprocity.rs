@@ -103,7 +103,8 @@ fn the_attraction_shortens_the_core_by_hookes_law() {
     solved(&mut equilibrium, &Inputs::unloaded(2));
     let rings: Vec<Pose> = equilibrium.rings().collect();
     let body = source(&design);
-    let force = body.wrench_on(&body, &seen_from(&rings[0], &rings[1]), WRENCH_ACCURACY).expect("apart").force;
+    let force =
+        body.wrench_on(&body, &seen_from(&rings[0], &rings[1]), WRENCH_ACCURACY).expect("apart").force;
     let compliance: f64 =
         design.segments()[0].spans.iter().map(|span| span.length / span.stiffness.axial).sum();
     let shortening = design.length() - equilibrium.tip().position.z;

@@ -26,7 +26,11 @@ fn every_row_belongs_to_a_test() {
         ours().filter(straight).count(),
         all.iter().filter(|row| row.interaction().is_none()).count(),
     ];
-    assert_eq!(counts, [EQUILIBRIA, LOST, STRAIGHT, OTHER_LEVELS], "equilibria, lost, straight, other levels");
+    assert_eq!(
+        counts,
+        [EQUILIBRIA, LOST, STRAIGHT, OTHER_LEVELS],
+        "equilibria, lost, straight, other levels"
+    );
     assert_eq!(counts.iter().sum::<usize>(), all.len(), "a row that no test takes");
 }
 
@@ -60,10 +64,12 @@ fn every_equilibrium_is_met() {
 /// Name, error and bound of every output; the bound is the table's own accuracy where that is worse than ours.
 fn errors(row: &Row, equilibrium: &Equilibrium, report: &Report) -> [(&'static str, f64, f64); 6] {
     let out = &row.outputs;
-    let digits = |key: &str| out["converged_digits"][key].as_f64().map_or(0.0, |digits| 10.0_f64.powf(-digits));
+    let digits =
+        |key: &str| out["converged_digits"][key].as_f64().map_or(0.0, |digits| 10.0_f64.powf(-digits));
     let length = row.design().length();
     let tip = equilibrium.tip();
-    let expected = Pose::new(vector(&out["tip_p"]).into(), array(&list(&out["tip_q"]))).expect("a unit quaternion");
+    let expected =
+        Pose::new(vector(&out["tip_p"]).into(), array(&list(&out["tip_q"]))).expect("a unit quaternion");
     let alpha = number(out, "alpha_deg");
     let turn = rotation_log(&expected.rotation.tr_mul(&tip.rotation)).norm().to_degrees();
     let angle_bound = STATICS_ANGLE_DEG.max(digits("alpha") * alpha);
@@ -93,11 +99,7 @@ fn errors(row: &Row, equilibrium: &Equilibrium, report: &Report) -> [(&'static s
         ("tip over length", (tip.position - expected.position).norm() / length, length_bound),
         ("rings over length", farthest / length, length_bound),
         ("angle, deg", alpha_error.max(turn), angle_bound),
-        (
-            "force",
-            relative((wrench.force - force).norm(), force_scale),
-            STATICS_WRENCH.max(digits("force")),
-        ),
+        ("force", relative((wrench.force - force).norm(), force_scale), STATICS_WRENCH.max(digits("force"))),
         (
             "torque",
             relative((wrench.torque - torque).norm(), torque_scale),

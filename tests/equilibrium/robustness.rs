@@ -41,10 +41,15 @@ fn build(segments: usize, rings: bool, size: f64, cosine: f64, azimuth: f64) -> 
 fn is_finite(equilibrium: &Equilibrium) -> bool {
     let (magnetic, base) = (equilibrium.magnetic_wrench(), equilibrium.base_reaction());
     let poses = equilibrium.rings().chain([equilibrium.tip()]);
-    poses.flat_map(|pose| pose.position.iter().chain(pose.rotation.iter()).copied().collect::<Vec<_>>())
+    poses
+        .flat_map(|pose| pose.position.iter().chain(pose.rotation.iter()).copied().collect::<Vec<_>>())
         .chain(equilibrium.shape().flat_map(|(_, point)| point.iter().copied().collect::<Vec<_>>()))
         .chain(equilibrium.core_angles())
-        .chain([magnetic.force, magnetic.torque, base.force, base.torque].iter().flat_map(|v| v.iter().copied().collect::<Vec<_>>()))
+        .chain(
+            [magnetic.force, magnetic.torque, base.force, base.torque]
+                .iter()
+                .flat_map(|v| v.iter().copied().collect::<Vec<_>>()),
+        )
         .all(f64::is_finite)
 }
 
@@ -93,8 +98,8 @@ fn without_a_snap_the_way_back_is_the_way_there() {
             }
             returned.set(returned.get() + 1);
             for (there, back) in positions.iter().zip(positions.iter().rev()) {
-                let error = (there.position - back.position).norm() / 0.05
-                    + (there.rotation - back.rotation).norm();
+                let error =
+                    (there.position - back.position).norm() / 0.05 + (there.rotation - back.rotation).norm();
                 prop_assert!(error <= RETURN, "another shape on the way back: {error:e}");
             }
             Ok(())

@@ -48,7 +48,8 @@ pub(crate) fn pair() -> Assembly {
 
 fn magnet_pair(diameter: f64, length: f64, gap: f64, remanence: f64) -> Assembly {
     let offset = 0.5 * (length + gap);
-    let magnet = |offset| AxialMagnet { radius: 0.5 * diameter, inner_radius: 0.0, length, offset, remanence };
+    let magnet =
+        |offset| AxialMagnet { radius: 0.5 * diameter, inner_radius: 0.0, length, offset, remanence };
     Assembly::new(vec![magnet(-offset), magnet(offset)]).expect("the reference pair is allowed")
 }
 

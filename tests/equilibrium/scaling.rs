@@ -70,7 +70,8 @@ fn a_larger_device_of_the_same_materials_in_the_same_field_bends_alike() {
     let first = scene();
     let mut second = scene();
     let helix = &mut second.segmented.helix;
-    for length in [&mut helix.length, &mut helix.radius, &mut helix.core_inner_radius, &mut helix.core_outer_radius]
+    for length in
+        [&mut helix.length, &mut helix.radius, &mut helix.core_inner_radius, &mut helix.core_outer_radius]
     {
         *length *= factor;
     }
