@@ -1,4 +1,5 @@
 //! Every Rust test of the project in one binary, in the order of the rooms of `src`.
+#![allow(clippy::print_stdout, reason = "a test tells what it reached, for whoever runs it with --nocapture")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

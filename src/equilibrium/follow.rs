@@ -1,11 +1,11 @@
 //! Following a stable branch while the inputs change, and falling to the next one past a fold.
 
 use super::chain::Chain;
-use super::external::ExternalField;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
+use super::source::Source;
 use crate::magnetics::Assembly;
 use crate::numerics::eigenvalue::{self, Search};
 use crate::numerics::trust_region::{self, Objective, Region, dual_norm, norm, spread};
@@ -72,6 +72,8 @@ pub struct Report {
     /// Upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the elastic
     /// energy; see [`super::Equilibrium::margin`].
     pub margin: f64,
+    /// Whether the equilibrium is stable; `None` where the forces have no potential to tell.
+    pub stable: Option<bool>,
     /// Jumps to another branch in this solve.
     pub snaps: u32,
     /// Potential energy, J.
@@ -112,7 +114,8 @@ impl Report {
             solved: false,
             iterations: 0,
             residual: f64::INFINITY,
-            margin: f64::NAN,
+            margin: 0.0,
+            stable: None,
             snaps: 0,
             energy: 0.0,
         }
@@ -166,7 +169,7 @@ impl Walk<'_> {
             chain: self.scene.chain,
             settings: self.scene.settings,
             inputs,
-            field: ExternalField::new(self.scene.magnet, inputs),
+            field: Source::external(self.scene.magnet, inputs),
             rules: self.rules,
             work: self.work,
         }
@@ -228,12 +231,10 @@ impl Walk<'_> {
         let unit = chain.unit();
         let mut step = vec![0.0; unknowns.len()];
         let mut longest = settings.follow_step;
+        let mut last = None;
         for _ in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             if potential.slope(unknowns).is_none() {
-                return;
-            }
-            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
                 return;
             }
             for (s, g) in step.iter_mut().zip(potential.gradient()) {
@@ -248,12 +249,21 @@ impl Walk<'_> {
                 *x += s;
             }
             self.report.iterations += 1;
+            // What is left shrinks like the steps do.
+            let shrinks = last.map_or(CHORD_CONTRACTION, |last| length / last);
+            if length * shrinks <= settings.tolerance {
+                return;
+            }
             longest = CHORD_CONTRACTION * length;
+            last = Some(length);
         }
     }
 
     /// Downhill to the next minimum; counts a snap if it is far.
     fn fall(&mut self, inputs: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+        if !self.potential(inputs).conservative() {
+            return false;
+        }
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
@@ -289,13 +299,18 @@ impl Walk<'_> {
         let metric = &self.scene.chain.metric;
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);
+        self.report.solved = true;
         let mut potential = self.potential(inputs);
-        let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve(x));
-        if margin.is_nan() {
+        if !potential.has_verdict() {
+            return;
+        }
+        let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
+        if margin.is_finite() {
+            // The correction has found the Hessian positive definite.
+            (self.report.margin, self.report.stable) = (margin, Some(true));
+        } else {
             softest.fill(0.0);
         }
-        self.report.margin = margin;
-        self.report.solved = margin.is_finite();
     }
 }
 
@@ -304,5 +319,5 @@ pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
     let metric = &potential.chain.metric;
     let mut softest = vec![0.0; metric.len()];
     spread(metric, &mut softest, 1.0);
-    eigenvalue::smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve(x))
+    eigenvalue::smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve_symmetric(x))
 }

@@ -1,7 +1,8 @@
 //! The potential of the whole chain, its minimum, its stability.
 
 mod chain;
-mod external;
+mod condensed;
+mod dead;
 mod follow;
 mod inputs;
 mod pair;
@@ -10,6 +11,8 @@ mod reduction;
 mod rules;
 mod settings;
 mod solver;
+mod source;
+mod spans;
 
 pub use follow::Report;
 pub use inputs::Inputs;

@@ -3,22 +3,30 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::chain::RingBody;
+use super::source::Source;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::AxialRule;
 use crate::rod::{Load, Order, turning};
 
-/// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
+/// The energy of a pair as loads on its two nodes.
 #[derive(Debug, Clone)]
 pub(super) struct PairLoad {
-    /// The energy as a load on the second ring's node.
+    /// On the second body's node.
     pub(super) on_second: Load,
-    /// The same energy as a load on the first ring's node: force and couple only.
+    /// On the first body's node: force and couple only.
     pub(super) on_first: Load,
-    /// Second derivative by the first node.
+    /// From the first node to the second, m.
+    between: Vector3<f64>,
+}
+
+/// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
+#[derive(Debug, Clone)]
+pub(super) struct PairHessian {
+    /// By the first node.
     pub(super) first_first: Matrix6<f64>,
-    /// Mixed second derivative, rows of the first node.
+    /// Mixed, rows of the first node.
     pub(super) first_second: Matrix6<f64>,
-    /// Second derivative by the second node.
+    /// By the second node.
     pub(super) second_second: Matrix6<f64>,
 }
 
@@ -59,48 +67,37 @@ impl PairLoad {
         rule: &AxialRule,
         order: Order,
     ) -> Option<Self> {
-        let from = first_node.advanced(0.5 * first.ring.length);
-        let axis = second_node.axis();
-        let centre = 0.5 * second.ring.length;
-        let mut load = Load::zero();
-        for (height, volume) in rule.points() {
-            let arm = axis * (centre + height);
-            let local = from.rotation.tr_mul(&(second_node.position + arm - from.position));
-            let turn = |m: &Matrix3<f64>| from.rotation * m * from.rotation.transpose();
-            let (field, gradient, along) = if order == Order::Hessian {
-                let jet = first.source.jet(&local).ok()?;
-                (jet.field, jet.gradient, Some(turn(&jet.hessian_along(&from.rotation.tr_mul(&axis)))))
-            } else {
-                let (field, gradient) = first.source.field_gradient(&local).ok()?;
-                (field, gradient, None)
-            };
-            let field = from.rotation * field;
-            let moment = second.magnetisation * volume;
-            load.add_dipole(moment, &axis, &arm, &field, &turn(&gradient), along.as_ref());
-        }
-        Some(Self::reciprocal(load, &(second_node.position - first_node.position)))
+        let load = Source::ring(first, first_node).on_ring(second, second_node, rule, order)?;
+        Some(Self::reciprocal(load, second_node.position - first_node.position))
     }
 
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
-    pub(super) fn reciprocal(on_second: Load, between: &Vector3<f64>) -> Self {
-        let force = on_second.force;
-        let whole = on_second.couple + force * between.transpose();
-        let on_first = Load { force: -force, couple: -whole, ..Load::zero() };
+    pub(super) fn reciprocal(on_second: Load, between: Vector3<f64>) -> Self {
+        let whole = on_second.couple + on_second.force * between.transpose();
+        let on_first = Load { force: -on_second.force, couple: -whole, ..Load::zero() };
+        Self { on_second, on_first, between }
+    }
+
+    /// The second derivatives.
+    pub(super) fn hessian(&self) -> PairHessian {
+        let load = &self.on_second;
+        let zero = Matrix3::zeros();
         let own = blocks(
-            &on_second.position_position,
-            &on_second.position_rotation,
-            &on_second.position_rotation.transpose(),
-            &on_second.rotation_rotation,
+            &load.position_position,
+            &load.position_rotation,
+            &load.position_rotation.transpose(),
+            &load.rotation_rotation,
         );
         // A displacement of the first node acts like the opposite displacement of the second.
-        let carry = blocks(&-Matrix3::identity(), &hat(between), &Matrix3::zeros(), &-Matrix3::identity());
-        let zero = Matrix3::zeros();
-        let pull = hat(&force);
-        let swing = Matrix3::identity() * on_second.couple.trace() - on_second.couple.transpose();
-        let mixed = carry.transpose() * own + blocks(&zero, &zero, &pull, &swing);
-        let first_first = carry.transpose() * own * carry + blocks(&zero, &pull, &-pull, &turning(&whole));
-        let second_second = own + blocks(&zero, &zero, &zero, &turning(&on_second.couple));
-        Self { on_second, on_first, first_first, first_second: mixed, second_second }
+        let carry = blocks(&-Matrix3::identity(), &hat(&self.between), &zero, &-Matrix3::identity());
+        let pull = hat(&load.force);
+        let swing = Matrix3::identity() * load.couple.trace() - load.couple.transpose();
+        let carried = carry.transpose() * own;
+        PairHessian {
+            first_first: carried * carry + blocks(&zero, &pull, &-pull, &turning(&-self.on_first.couple)),
+            first_second: carried + blocks(&zero, &zero, &pull, &swing),
+            second_second: own + blocks(&zero, &zero, &zero, &turning(&load.couple)),
+        }
     }
 }
 

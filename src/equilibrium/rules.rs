@@ -5,9 +5,9 @@ use crate::design::Ring;
 use crate::geometry::Pose;
 use crate::magnetics::AxialRule;
 
-/// Rules of one ring, fewest nodes first, each with the distance (m) of the nearest source from which on it
-/// is accurate enough.
-type Table = Vec<(f64, AxialRule)>;
+/// Rules of one ring, fewest nodes first, each with the distances (m) of the nearest source from which on it
+/// is accurate enough: for a field of given size, and for that of another ring, which decays.
+type Table = Vec<(f64, f64, AxialRule)>;
 
 /// Bisections of that distance.
 const BISECTIONS: usize = 40;
@@ -37,7 +37,7 @@ impl PairRules {
                 let to = nodes[second.node].advanced(0.5 * second.ring.length);
                 let local = from.rotation.tr_mul(&(to.position - from.position));
                 if let Some(slot) = chosen.next() {
-                    let rule = fewest(&self.tables[j], first.source.distance(&local));
+                    let rule = fewest(&self.tables[j], |entry| entry.1 <= first.source.distance(&local));
                     changed |= rule != std::mem::replace(slot, rule);
                 }
             }
@@ -47,12 +47,13 @@ impl PairRules {
 
     /// The rule of pair number `pair`, whose second ring is number `second`.
     pub(super) fn pair(&self, pair: usize, second: usize) -> &AxialRule {
-        &self.tables[second][self.chosen[pair]].1
+        &self.tables[second][self.chosen[pair]].2
     }
 
     /// The rule of ring number `ring` in a field whose sources are `reach` (m) away.
     pub(super) fn external(&self, ring: usize, reach: f64) -> &AxialRule {
-        &self.tables[ring][fewest(&self.tables[ring], reach)].1
+        let table = &self.tables[ring];
+        &table[fewest(table, |entry| entry.0 <= reach)].2
     }
 }
 
@@ -63,18 +64,29 @@ fn table(ring: &Ring, accuracy: f64) -> Table {
         .step_by(2)
         .map(|nodes| {
             let rule = AxialRule::new(ring.inner_radius, ring.outer_radius, ring.length, nodes);
-            // Bisection in extent over distance, between touching and infinitely far.
-            let (mut near, mut far) = (1.0, 0.0);
-            for _ in 0..BISECTIONS {
-                let middle = 0.5 * (near + far);
-                if rule.error(extent / middle) <= accuracy { far = middle } else { near = middle }
-            }
-            (extent / far, rule)
+            // The energy of two dipoles falls with the cube of their distance.
+            let field = reach_of(|ratio| rule.error(extent / ratio) <= accuracy);
+            let pair = reach_of(|ratio| rule.error(extent / ratio) * (2.0 * ratio).powi(3) <= accuracy);
+            (extent / field, extent / pair, rule)
         })
         .collect()
 }
 
-/// The first entry that is accurate with sources `reach` (m) away, or else the last.
-fn fewest(table: &Table, reach: f64) -> usize {
-    table.iter().position(|(distance, _)| *distance <= reach).unwrap_or(table.len() - 1)
+/// Bisects the ratio of extent to distance, between infinitely far and touching, up to which `holds`.
+fn reach_of(holds: impl Fn(f64) -> bool) -> f64 {
+    let (mut far, mut near) = (0.0, 1.0);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (near + far);
+        if holds(middle) {
+            far = middle;
+        } else {
+            near = middle;
+        }
+    }
+    far
+}
+
+/// The first entry that is accurate enough, or else the last.
+fn fewest(table: &Table, accurate: impl Fn(&(f64, f64, AxialRule)) -> bool) -> usize {
+    table.iter().position(accurate).unwrap_or(table.len() - 1)
 }

@@ -2,16 +2,54 @@
 
 use crate::error::{Error, check};
 
-/// What acts on what inside the manipulator.
+/// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interaction {
     /// External field only.
-    None,
+    None = 0,
     /// Every ring's field acts on all bodies after it, but not on the disc bonded to its face: the model of
     /// Richter et al., without reaction.
-    Preceding,
+    Preceding = 1,
     /// All pairs of rings, mutual.
-    Rings,
+    Rings = 2,
+    /// All pairs of rings, and every ring with every span but the disc bonded to its face, mutual. Spans among
+    /// themselves are neglected.
+    Full = 3,
+}
+
+impl Interaction {
+    /// Every level with its name in scene files and in the FMU and its description there. A level that is not in
+    /// this table does not exist for users.
+    pub const ALL: &[(Self, &str, &str)] = &[
+        (Self::None, "none", "External field only"),
+        (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
+        (Self::Rings, "rings", "All pairs of rings, mutual"),
+        (Self::Full, "full", "All pairs of rings, and every ring with every span, mutual"),
+    ];
+
+    /// Whether rings act on spans.
+    #[must_use]
+    pub fn acts_on_spans(self) -> bool {
+        matches!(self, Self::Preceding | Self::Full)
+    }
+
+    /// The level with this name.
+    ///
+    /// ```
+    /// use mcm::equilibrium::Interaction;
+    /// assert_eq!(Interaction::named("rings"), Some(Interaction::Rings));
+    /// assert_eq!(Interaction::named("rigns"), None);
+    /// ```
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().find(|row| row.1 == name).map(|row| row.0)
+    }
+
+    /// Its name in scene files, on the command line and in the FMU.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::ALL.iter().find(|row| row.0 == self).map_or("", |row| row.1)
+    }
 }
 
 /// Settings of the model and its solver.
@@ -23,7 +61,8 @@ pub struct Settings {
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of the ring-to-ring energy, relative to that of two dipoles; default 1e-6.
+    /// Largest error of a ring's energy in a field, relative to that energy, and of the energy of two rings,
+    /// relative to that of two dipoles as far apart as a ring is wide; default 1e-5.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
     pub tolerance: f64,
@@ -43,7 +82,7 @@ impl Default for Settings {
             interaction: Interaction::Rings,
             degree: 3,
             cylinder_elements: 8,
-            pair_accuracy: 1e-6,
+            pair_accuracy: 1e-5,
             tolerance: 1e-11,
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::Chain;
-use super::external::{ExternalField, add_load};
+use super::dead::{add_wrench, no_wrench};
 use super::follow::{Branch, Report, Scene, measure};
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
+use super::source::Source;
 use crate::design::Design;
 use crate::error::{Error, check};
 use crate::geometry::Pose;
@@ -63,7 +64,7 @@ impl Equilibrium {
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain, settings.pair_accuracy));
+        let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, settings.pair_accuracy));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
@@ -107,7 +108,8 @@ impl Equilibrium {
         let unknowns = self.branch.unknowns.clone();
         let mut potential = self.potential(&inputs, &unknowns);
         potential.linearise(&unknowns)?;
-        potential.factorise(0.0).then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
+        let definite = potential.factorise(0.0) && potential.has_verdict();
+        definite.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// Number of unknowns.
@@ -159,7 +161,7 @@ impl Equilibrium {
             chain: &self.chain,
             settings: &self.settings,
             inputs,
-            field: ExternalField::new(self.magnet.as_ref(), inputs),
+            field: Source::external(self.magnet.as_ref(), inputs),
             rules: &self.rules,
             work: &mut self.work,
         }
@@ -230,24 +232,22 @@ impl Equilibrium {
     /// External field (T) at a point, m; `None` inside a magnet.
     #[must_use]
     pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        let field = ExternalField::new(self.magnet.as_ref(), inputs);
-        field.along(point, &Vector3::z(), Order::Gradient).map(|local| local.field)
+        Source::external(self.magnet.as_ref(), inputs).at(point)
     }
 
     /// What the background field alone does.
     fn background_wrench(&self, inputs: &Inputs) -> Wrench {
-        let field = ExternalField::background(inputs);
+        let field = Source::external(None, inputs);
         let origin = self.work.nodes[0].position;
-        let mut out = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
+        let mut out = no_wrench();
         let mut add = |load: Option<Load>, at: &Vector3<f64>| {
             if let Some(load) = load {
-                add_load(&mut out, &load, &(at - origin));
+                add_wrench(&mut out, &load.force, &load.moment(), &(at - origin));
             }
         };
         for (index, body) in self.chain.rings.iter().enumerate() {
             let node = &self.work.nodes[body.node];
-            let reach = field.distance(&node.advanced(0.5 * body.ring.length).position);
-            let rule = self.rules.external(index, reach);
+            let rule = self.rules.external(index, f64::INFINITY);
             add(field.on_ring(body, node, rule, Order::Gradient), &node.position);
         }
         for (k, element) in self.chain.elements.iter().enumerate() {

@@ -82,10 +82,14 @@ impl Modes {
             for earlier in self.coefficients.iter().chain(&self.coefficients) {
                 let along: f64 =
                     samples.iter().map(|(v, w)| w * combine(&own, v) * combine(earlier, v)).sum();
-                own.iter_mut().zip(earlier).for_each(|(entry, e)| *entry -= along * e);
+                for (entry, e) in own.iter_mut().zip(earlier) {
+                    *entry -= along * e;
+                }
             }
             let square: f64 = samples.iter().map(|(v, w)| w * combine(&own, v).powi(2)).sum();
-            own.iter_mut().for_each(|entry| *entry /= square.sqrt());
+            for entry in &mut own {
+                *entry /= square.sqrt();
+            }
             self.coefficients.push(own);
         }
     }

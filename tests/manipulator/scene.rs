@@ -135,7 +135,7 @@ fn refusals_name_line_path_and_remedy() {
         ),
         (
             "[model]\ninteraction = \"full\"",
-            "model.interaction = \"full\" is not available in this version: choose none, preceding or rings",
+            "line 2: `model.interaction`: \"full\" is not available in this version: choose one of none, preceding, rings",
         ),
         (
             "[model]\nmethod = \"shooting\"",

@@ -4,7 +4,6 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use mcm::equilibrium::Interaction;
 use mcm::manipulator::{Outputs, Status};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -59,15 +58,6 @@ fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
     Ok(status.into())
 }
 
-/// The name of a level of interaction in the scene file.
-pub(crate) fn interaction_name(interaction: Interaction) -> &'static str {
-    match interaction {
-        Interaction::None => "none",
-        Interaction::Preceding => "preceding",
-        Interaction::Rings => "rings",
-    }
-}
-
 fn as_json(outputs: &Outputs) -> Value {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
     json!({
@@ -90,7 +80,7 @@ fn as_json(outputs: &Outputs) -> Value {
         "iterations": outputs.iterations,
         "residual": outputs.residual,
         "energy_j": outputs.energy,
-        "interaction": interaction_name(outputs.interaction),
+        "interaction": outputs.interaction.name(),
         "method": "potential",
     })
 }
@@ -118,7 +108,7 @@ fn as_table(outputs: &Outputs) -> String {
             "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}\n\n",
             outputs.iterations,
             outputs.residual,
-            interaction_name(outputs.interaction)
+            outputs.interaction.name()
         ),
         row("tip angle", format!("{:.4}", outputs.tip_angle.to_degrees()), "deg"),
         vector("tip position", &outputs.tip.position, 1e3, "mm"),

@@ -4,7 +4,7 @@ use super::super::units::{
     ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
 };
 use super::super::variable::{Access, At, Kind, Reach, Role};
-use super::parameters::{INTERACTION, interaction_number};
+use super::parameters::INTERACTION;
 use super::{Counts, Draft, MARGIN, Rows};
 use crate::manipulator::{Outputs, Status};
 
@@ -143,7 +143,7 @@ impl Rows {
         let residual = answer(|o, _| o.residual.min(f64::MAX)); // infinite when a solve never began
         let description = "Residual of the last solve relative to the elastic forces";
         self.real(Draft::real("solver.residual", RATIO, description, residual).min(0.0));
-        let level = Access::IntegerAnswer(|o| interaction_number(o.interaction));
+        let level = Access::IntegerAnswer(|o| o.interaction as i32);
         let kind = Kind::Enumeration(&INTERACTION);
         let draft = Draft::new("model.level", kind, "Level of local interaction that was used", level);
         self.real(draft.reach(Reach::Level));

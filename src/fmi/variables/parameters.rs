@@ -12,25 +12,17 @@ use crate::equilibrium::Interaction;
 pub(super) static INTERACTION: Enumeration = Enumeration {
     name: "Interaction",
     description: "Level of local magnetic interaction",
-    items: &[
-        Item { name: "none", value: 0, description: "External field only" },
-        Item {
-            name: "preceding",
-            value: 1,
-            description: "Every ring's field acts on all bodies after it, without reaction",
-        },
-        Item { name: "rings", value: 2, description: "All pairs of rings, mutual" },
-    ],
+    items: &{
+        let mut items = [const { Item { name: "", value: 0, description: "" } }; Interaction::ALL.len()];
+        let mut row = 0;
+        while row < items.len() {
+            let (level, name, description) = Interaction::ALL[row];
+            items[row] = Item { name, value: level as i32, description };
+            row += 1;
+        }
+        items
+    },
 };
-
-/// Number of a level of interaction; 3 and 4 are kept for `full` and `auto`.
-pub(super) fn interaction_number(interaction: Interaction) -> i32 {
-    match interaction {
-        Interaction::None => 0,
-        Interaction::Preceding => 1,
-        Interaction::Rings => 2,
-    }
-}
 
 /// How the spiral's sector lies in the section.
 pub(super) static SPIRAL: Enumeration = Enumeration {
@@ -96,11 +88,10 @@ impl Rows {
                 Kind::Enumeration(&INTERACTION),
                 "Level of local magnetic interaction",
                 Access::Choice {
-                    get: |given| interaction_number(given.settings.interaction),
+                    get: |given| given.settings.interaction as i32,
                     set: |given, number| {
-                        let known = [Interaction::None, Interaction::Preceding, Interaction::Rings];
-                        let chosen = known.into_iter().find(|&level| interaction_number(level) == number);
-                        given.settings.interaction = chosen.unwrap_or(given.settings.interaction);
+                        let chosen = Interaction::ALL.iter().find(|row| row.0 as i32 == number);
+                        given.settings.interaction = chosen.map_or(given.settings.interaction, |row| row.0);
                         chosen.is_some()
                     },
                 },

@@ -1,6 +1,9 @@
 //! The scene file's tables and keys, as written: units in the names.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::equilibrium::{Interaction, Settings};
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -222,26 +225,37 @@ pub(super) struct GravityTable {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum InteractionName {
-    None,
-    Preceding,
-    #[default]
-    Rings,
-    Full,
-    Auto,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
 pub(super) enum MethodName {
     #[default]
     Potential,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelTable {
-    pub(super) interaction: InteractionName,
+    #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
+    pub(super) interaction: Interaction,
     pub(super) method: MethodName,
     pub(super) bending_stop: bool,
+}
+
+impl Default for ModelTable {
+    fn default() -> Self {
+        let interaction = Settings::default().interaction;
+        Self { interaction, method: MethodName::default(), bending_stop: false }
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(level.name())
+}
+
+fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
+    let name = String::deserialize(input)?;
+    Interaction::named(&name).ok_or_else(|| {
+        let known: Vec<&str> = Interaction::ALL.iter().map(|row| row.1).collect();
+        let known = known.join(", ");
+        D::Error::custom(format!("\"{name}\" is not available in this version: choose one of {known}"))
+    })
 }

@@ -2,14 +2,14 @@
 
 use super::Scene;
 use super::file::{
-    BackboneTable, DesignTable, HelixTable, InteractionName, Kind, MagnetCylinder, MagnetTable, RingTable,
-    SceneFile, SpiralName,
+    BackboneTable, DesignTable, HelixTable, Kind, MagnetCylinder, MagnetTable, RingTable, SceneFile,
+    SpiralName,
 };
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
     SpiralKind,
 };
-use crate::equilibrium::{Interaction, Settings};
+use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::AxialMagnet;
@@ -85,21 +85,8 @@ impl SceneFile {
                     .into(),
             ));
         }
-        let interaction = match self.model.interaction {
-            InteractionName::None => Interaction::None,
-            InteractionName::Preceding => Interaction::Preceding,
-            InteractionName::Rings => Interaction::Rings,
-            InteractionName::Full => return Err(unavailable("full")),
-            InteractionName::Auto => return Err(unavailable("auto")),
-        };
-        Ok(Settings { interaction, ..Settings::default() })
+        Ok(Settings { interaction: self.model.interaction, ..Settings::default() })
     }
-}
-
-fn unavailable(level: &str) -> Error {
-    Error::Unsupported(format!(
-        "model.interaction = \"{level}\" is not available in this version: choose none, preceding or rings"
-    ))
 }
 
 impl DesignTable {
