@@ -140,6 +140,8 @@ impl Walk<'_> {
             if self.correct(&unloaded, unknowns).is_none() && !self.fall(&unloaded, unknowns) {
                 return false;
             }
+            // Settling under its own forces is no jump.
+            self.report.snaps = 0;
             unloaded
         };
         let (mut done, mut part) = (0.0, 1.0);

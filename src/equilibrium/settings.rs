@@ -57,7 +57,8 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 3.
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 3. Three more are added where
+    /// rings act on spans.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,

@@ -7,10 +7,10 @@ use super::rows::{Row, list, number, rows, vector};
 use crate::tolerance::{STATICS_ANGLE_DEG, STATICS_ENERGY, STATICS_LENGTH, STATICS_WRENCH};
 
 /// Rows by what is done with them; a new level of ours moves rows from the last to the first.
-const EQUILIBRIA: usize = 39;
+const EQUILIBRIA: usize = 47;
 const LOST: usize = 15;
-const STRAIGHT: usize = 5;
-const OTHER_LEVELS: usize = 9;
+const STRAIGHT: usize = 6;
+const OTHER_LEVELS: usize = 0;
 
 /// The field is turned in steps of this, deg.
 const TURN: f64 = 1.0;
