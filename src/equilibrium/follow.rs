@@ -17,13 +17,17 @@ const CONTRACTION: f64 = 0.5;
 const CHORD_CONTRACTION: f64 = 0.1;
 
 /// The look at the margin after every solve: enough to see a fold come.
-const GLANCE: Search = Search { vectors: 3, settled: 0.1 };
+const GLANCE: Search = Search { vectors: 6, settled: 0.05 };
 
 /// The look at the margin when it is asked for.
 const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
 /// Part of every direction that is mixed into the last softest one before it is looked for again.
 const EVERY_DIRECTION: f64 = 0.05;
+
+/// Largest first step from the straight shape to the one that the internal forces alone leave: there is no
+/// branch to lose yet.
+const SETTLING: f64 = 4.0;
 
 /// Newton corrections at most for one part of an input change.
 const CORRECTIONS: u32 = 12;
@@ -137,7 +141,7 @@ impl Walk<'_> {
         } else {
             // The unloaded shape: its internal forces alone, found from straight.
             let unloaded = target.without_loads();
-            if self.correct(&unloaded, unknowns).is_none() && !self.fall(&unloaded, unknowns) {
+            if self.correct(&unloaded, unknowns, SETTLING).is_none() && !self.fall(&unloaded, unknowns) {
                 return false;
             }
             // Settling under its own forces is no jump.
@@ -149,7 +153,7 @@ impl Walk<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = if next >= 1.0 { target.clone() } else { start.between(target, next) };
             let mut trial = unknowns.clone();
-            if self.correct(&inputs, &mut trial).is_some() {
+            if self.correct(&inputs, &mut trial, self.scene.settings.follow_step).is_some() {
                 *unknowns = trial;
             } else if part > self.scene.settings.smallest_part {
                 part *= 0.5;
@@ -178,13 +182,13 @@ impl Walk<'_> {
     }
 
     /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
-    fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64]) -> Option<()> {
+    fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64], reach: f64) -> Option<()> {
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
         self.approach(inputs, unknowns);
         let mut step = vec![0.0; unknowns.len()];
-        let first = settings.follow_step / CONTRACTION;
+        let first = reach / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
         for _ in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
@@ -239,6 +243,9 @@ impl Walk<'_> {
             if potential.slope(unknowns).is_none() {
                 return;
             }
+            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
+                return;
+            }
             for (s, g) in step.iter_mut().zip(potential.gradient()) {
                 *s = -g;
             }
@@ -279,7 +286,7 @@ impl Walk<'_> {
         let minimum = trust_region::minimise(&mut self.potential(inputs), &mut fallen, &region);
         self.report.iterations += minimum.iterations;
         self.report.residual = minimum.residual / unit;
-        if !minimum.converged || self.correct(inputs, &mut fallen).is_none() {
+        if !minimum.converged || self.correct(inputs, &mut fallen, settings.follow_step).is_none() {
             return false;
         }
         let moved: Vec<f64> = fallen.iter().zip(unknowns.iter()).map(|(a, b)| a - b).collect();

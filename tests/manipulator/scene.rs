@@ -134,8 +134,8 @@ fn refusals_name_line_path_and_remedy() {
             "load.ring_force_n has 1 entries, expected 10, one for each ring of the design",
         ),
         (
-            "[model]\ninteraction = \"full\"",
-            "line 2: `model.interaction`: \"full\" is not available in this version: choose one of none, preceding, rings",
+            "[model]\ninteraction = \"auto\"",
+            "line 2: `model.interaction`: \"auto\" is not available in this version: choose one of none, preceding, rings, full",
         ),
         (
             "[model]\nmethod = \"shooting\"",
