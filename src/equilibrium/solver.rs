@@ -64,7 +64,8 @@ impl Equilibrium {
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, settings.pair_accuracy));
+        let (work, rules) =
+            (Workspace::new(&chain, &settings), PairRules::new(&chain, settings.pair_accuracy));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),

@@ -83,7 +83,8 @@ impl Potential<'_> {
             return;
         }
         let target = &mut self.work.node_loads[node];
-        *target += Load { force: pair.on_first.force, couple: moment_part(&pair.on_first.couple), ..Load::zero() };
+        *target +=
+            Load { force: pair.on_first.force, couple: moment_part(&pair.on_first.couple), ..Load::zero() };
         if order == Order::Hessian {
             self.add_block(node, node, &pair.hessian().first_first);
         }
@@ -102,7 +103,8 @@ impl Potential<'_> {
             let (positions, rotations) = tangent.station_columns(element, mixed.station, state);
             for (row, (position, rotation)) in positions.iter().zip(rotations).enumerate() {
                 let (position, rotation) = (axes * position, axes * rotation);
-                let moved = Vector6::new(position.x, position.y, position.z, rotation.x, rotation.y, rotation.z);
+                let moved =
+                    Vector6::new(position.x, position.y, position.z, rotation.x, rotation.y, rotation.z);
                 let pulled = mixed.matrix * moved;
                 let target = &mut cross[row * columns + 6 * (mixed.node - 1)..][..6];
                 for (entry, value) in target.iter_mut().zip(pulled.iter()) {

@@ -68,7 +68,13 @@ fn add_circle(out: &mut Vec<SectionPoint>, bounds: [f64; 2], filled: f64, radial
     }
 }
 
-fn add_sector(out: &mut Vec<SectionPoint>, bounds: [f64; 2], angles: [f64; 2], weight: f64, fineness: Fineness) {
+fn add_sector(
+    out: &mut Vec<SectionPoint>,
+    bounds: [f64; 2],
+    angles: [f64; 2],
+    weight: f64,
+    fineness: Fineness,
+) {
     let (nodes, weights) = gauss_legendre(fineness.angular);
     let half = 0.5 * (angles[1] - angles[0]);
     debug_assert!(half <= PI, "a sector is at most a full circle");
