@@ -6,7 +6,7 @@ use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::Inputs;
 use mcm::geometry::Pose;
 use mcm::numerics::trust_region::dual_norm;
-use mcm::rod::{Configuration, Element, Piece};
+use mcm::rod::{Configuration, Element, Piece, Resolution};
 use nalgebra::Vector3;
 
 use super::table::{Rod, rows_of};
@@ -79,7 +79,8 @@ fn circle_gap(length: f64, elements: usize) -> f64 {
     }))
     .expect("allowed");
     let span = &design.segments()[0].spans[0];
-    let element = Element::new(0.0, &[Piece { span, length: length / elements as f64 }], 4);
+    let resolution = Resolution { degree: 4, core_points: 0, sections: None };
+    let element = Element::new(0.0, &[Piece { span, length: length / elements as f64 }], &resolution);
     let mut amplitudes = vec![0.0; element.freedoms()];
     amplitudes[0] = -2.0 * PI / elements as f64;
     let mut arc = Configuration::straight(&element);
