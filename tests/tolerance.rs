@@ -75,8 +75,8 @@ pub(crate) const MARGIN: f64 = 1e-8;
 /// Width at which a bisection ends: well inside [`CRITICAL`].
 pub(crate) const BISECTION: f64 = 1e-8;
 
-/// The quick look at the margin after every solve, three vectors: from above, in units of the unloaded margin.
-pub(crate) const MARGIN_BOUND: f64 = 0.1;
+/// The quick look at the margin after every solve, close to a fold, where it must tell: from above.
+pub(crate) const MARGIN_BOUND: f64 = 0.01;
 
 /// A straight shape's distance from its axis over its length.
 pub(crate) const ON_AXIS: f64 = 1e-9;

@@ -17,13 +17,13 @@ const CONTRACTION: f64 = 0.5;
 const CHORD_CONTRACTION: f64 = 0.1;
 
 /// The look at the margin after every solve: enough to see a fold come.
-const GLANCE: Search = Search { vectors: 6, settled: 0.05 };
+const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
 
 /// The look at the margin when it is asked for.
 const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
 /// Part of every direction that is mixed into the last softest one before it is looked for again.
-const EVERY_DIRECTION: f64 = 0.05;
+const EVERY_DIRECTION: f64 = 0.3;
 
 /// Largest first step from the straight shape to the one that the internal forces alone leave: there is no
 /// branch to lose yet.

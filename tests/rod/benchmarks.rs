@@ -79,11 +79,8 @@ fn circle_gap(length: f64, elements: usize) -> f64 {
     }))
     .expect("allowed");
     let span = &design.segments()[0].spans[0];
-    let element = Element::new(
-        0.0,
-        &[Piece { span, length: length / elements as f64 }],
-        &Resolution { degree: 4, core_points: 0, sections: None },
-    );
+    let resolution = Resolution { degree: 4, core_points: 0, sections: None };
+    let element = Element::new(0.0, &[Piece { span, length: length / elements as f64 }], &resolution);
     let mut amplitudes = vec![0.0; element.freedoms()];
     amplitudes[0] = -2.0 * PI / elements as f64;
     let mut arc = Configuration::straight(&element);
