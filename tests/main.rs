@@ -9,6 +9,10 @@
 
 mod tolerance;
 
+mod numerics;
+
+mod geometry;
+
 mod design;
 
 mod magnetics;

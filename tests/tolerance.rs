@@ -117,6 +117,15 @@ pub(crate) const NEUTRAL: f64 = 1e-7;
 /// Sums over some million cells: of second order in their size.
 pub(crate) const BRUTE_FORCE: f64 = 2e-4;
 
+/// Rotation matrices by two formulas: near the switch of series and sine the cosine's argument is rounded.
+pub(crate) const ROTATION: f64 = 1e-14;
+
+/// Derivatives of rotations by differences of fourth order, step 1e-4: rounding over the step.
+pub(crate) const ROTATION_DIFFERENCE: f64 = 1e-10;
+
+/// Smallest eigenvalue: of second order in a residual of 1e-7, and the rounding of a metric over six decades.
+pub(crate) const EIGENVALUE: f64 = 1e-8;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

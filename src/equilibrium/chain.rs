@@ -4,9 +4,18 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::Error;
 use crate::magnetics::AxialSource;
-use crate::rod::{Element, Piece};
+use crate::rod::{Element, Fineness, Piece, Resolution};
 
 use super::settings::Settings;
+
+/// Gauss points along a core on which rings act: its spiral turns twice.
+const CORE_POINTS: usize = 10;
+
+/// Section points of the spans beside a ring.
+const NEAR: Fineness = Fineness { radial: 5, angular: 8 };
+
+/// Section points of the spans one segment further.
+const FAR: Fineness = Fineness { radial: 2, angular: 4 };
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -57,6 +66,12 @@ impl Chain {
             rings.push(RingBody::new(ring, 0)?);
         }
         let mut offset = design.base_ring().map_or(0.0, |ring| ring.length);
+        let spans = settings.interaction.acts_on_spans();
+        let resolution = Resolution {
+            degree: settings.degree,
+            core_points: if spans { CORE_POINTS } else { 0 },
+            sections: spans.then_some([NEAR, FAR]),
+        };
         let (mut elements, mut cores) = (Vec::new(), Vec::new());
         for segment in design.segments() {
             let first = elements.len();
@@ -68,7 +83,7 @@ impl Chain {
                     .iter()
                     .map(|span| Piece { span, length: span.length / parts as f64 })
                     .collect();
-                elements.push(Element::new(offset, &pieces, settings.degree));
+                elements.push(Element::new(offset, &pieces, &resolution));
                 offset = 0.0;
             }
             cores.push((first, elements.len() - 1));

@@ -72,6 +72,8 @@ pub struct Report {
     /// Upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the elastic
     /// energy; see [`super::Equilibrium::margin`].
     pub margin: f64,
+    /// Whether the equilibrium is stable; `None` where the forces have no potential to tell.
+    pub stable: Option<bool>,
     /// Jumps to another branch in this solve.
     pub snaps: u32,
     /// Potential energy, J.
@@ -112,7 +114,8 @@ impl Report {
             solved: false,
             iterations: 0,
             residual: f64::INFINITY,
-            margin: f64::NAN,
+            margin: 0.0,
+            stable: None,
             snaps: 0,
             energy: 0.0,
         }
@@ -258,6 +261,9 @@ impl Walk<'_> {
 
     /// Downhill to the next minimum; counts a snap if it is far.
     fn fall(&mut self, inputs: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+        if !self.potential(inputs).conservative() {
+            return false;
+        }
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
@@ -293,13 +299,18 @@ impl Walk<'_> {
         let metric = &self.scene.chain.metric;
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);
+        self.report.solved = true;
         let mut potential = self.potential(inputs);
-        let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve(x));
-        if margin.is_nan() {
+        if !potential.has_verdict() {
+            return;
+        }
+        let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
+        if margin.is_finite() {
+            // The correction has found the Hessian positive definite.
+            (self.report.margin, self.report.stable) = (margin, Some(true));
+        } else {
             softest.fill(0.0);
         }
-        self.report.margin = margin;
-        self.report.solved = margin.is_finite();
     }
 }
 
@@ -308,5 +319,5 @@ pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
     let metric = &potential.chain.metric;
     let mut softest = vec![0.0; metric.len()];
     spread(metric, &mut softest, 1.0);
-    eigenvalue::smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve(x))
+    eigenvalue::smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve_symmetric(x))
 }

@@ -1,6 +1,7 @@
 //! The potential of the whole chain, its minimum, its stability.
 
 mod chain;
+mod condensed;
 mod dead;
 mod follow;
 mod inputs;
@@ -11,6 +12,7 @@ mod rules;
 mod settings;
 mod solver;
 mod source;
+mod spans;
 
 pub use follow::Report;
 pub use inputs::Inputs;

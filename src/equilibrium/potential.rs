@@ -1,48 +1,53 @@
 //! The potential of the whole chain, with exact gradient and Hessian.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 
 use super::chain::Chain;
 use super::dead::{add_wrench, no_wrench, weight};
 use super::inputs::Inputs;
 use super::pair::{PairLoad, blocks, overlap};
-use super::reduction::{Reduction, turn_nodes};
+use super::reduction::Reduction;
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use super::source::Source;
+use super::spans::{Mixed, moment_part};
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
-use crate::numerics::cholesky;
-use crate::numerics::trust_region::Objective;
-use crate::rod::{Configuration, Load, Order, Tangent};
+use crate::rod::{Configuration, Load, Order, START, Tangent};
 
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
 pub(super) struct Workspace {
     pub(super) configurations: Vec<Configuration>,
     pub(super) nodes: Vec<Pose>,
-    station_loads: Vec<Vec<Load>>,
+    pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     /// External magnetic force, and torque about the base position.
     pub(super) magnetic: Wrench,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
-    tangents: Vec<Tangent>,
-    reductions: Vec<Reduction>,
-    gradient: Vec<f64>,
-    node_hessian: Vec<f64>,
-    factor: Vec<f64>,
+    pub(super) tangents: Vec<Tangent>,
+    pub(super) reductions: Vec<Reduction>,
+    /// Mixed derivatives of rings and stations, and the columns of the rings' nodes that they add up to.
+    pub(super) mixed: Vec<Mixed>,
+    pub(super) cross: Vec<Vec<f64>>,
+    pub(super) gradient: Vec<f64>,
+    pub(super) node_hessian: Vec<f64>,
+    pub(super) factor: Vec<f64>,
+    /// The factorisation where the matrix is not symmetric.
+    pub(super) lu: Option<LU<f64, Dyn, Dyn>>,
     /// Whether `factor` and the reductions hold a factorisation, of this shape or an earlier one.
     pub(super) factored: bool,
     /// Axes of the elements' start nodes in that factorisation.
-    axes: Vec<Matrix3<f64>>,
-    rhs: Vec<f64>,
+    pub(super) axes: Vec<Matrix3<f64>>,
+    pub(super) rhs: Vec<f64>,
 }
 
 impl Workspace {
-    pub(super) fn new(chain: &Chain) -> Self {
+    pub(super) fn new(chain: &Chain, settings: &Settings) -> Self {
         let count = chain.elements.len();
         let size = 6 * count;
+        let columns = if settings.interaction.acts_on_spans() { size } else { 0 };
         Self {
             configurations: chain.elements.iter().map(Configuration::straight).collect(),
             nodes: vec![Pose::identity(); count + 1],
@@ -51,10 +56,13 @@ impl Workspace {
             magnetic: no_wrench(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
-            reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms())).collect(),
+            reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms(), columns)).collect(),
+            mixed: Vec::new(),
+            cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
             factor: vec![0.0; size * size],
+            lu: None,
             factored: false,
             axes: vec![Matrix3::identity(); count],
             rhs: vec![0.0; size],
@@ -86,6 +94,19 @@ pub(super) struct Potential<'a> {
 }
 
 impl Potential<'_> {
+    /// Whether the forces have a potential: without reactions, or with a dead moment, they have none.
+    pub(super) fn conservative(&self) -> bool {
+        let last = self.chain.elements.len();
+        let one_sided = self.settings.interaction == Interaction::Preceding
+            && self.chain.rings.iter().any(|body| (1..last).contains(&body.node));
+        !one_sided && self.inputs.tip_moment == Vector3::zeros()
+    }
+
+    /// Whether the Hessian (its symmetric part, for a dead moment) tells what is stable.
+    pub(super) fn has_verdict(&self) -> bool {
+        self.conservative() || self.settings.interaction != Interaction::Preceding
+    }
+
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
     pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
         let energy = self.load(x, Order::Gradient)?;
@@ -93,7 +114,7 @@ impl Potential<'_> {
     }
 
     /// Places the chain and adds up all loads; the energy, or `None` where something touches.
-    fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
+    pub(super) fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
         let hessian = order == Order::Hessian;
         self.work.place(self.chain, &self.inputs.base, unknowns);
         let mut energy = 0.0;
@@ -108,8 +129,10 @@ impl Potential<'_> {
             self.work.node_hessian.fill(0.0);
         }
         energy += self.load_pairs(order)?;
+        energy += self.load_spans(order)?;
         self.load_tip();
-        for (node, load) in self.work.node_loads.iter().enumerate().skip(1) {
+        for node in 1..self.work.node_loads.len() {
+            let load = &self.work.node_loads[node];
             if hessian {
                 let own = blocks(
                     &load.position_position,
@@ -117,7 +140,7 @@ impl Potential<'_> {
                     &load.position_rotation.transpose(),
                     &load.rotation_hessian(),
                 );
-                add_block(&mut self.work.node_hessian, self.chain.elements.len(), node, node, &own);
+                self.add_block(node, node, &own);
             }
         }
         energy += self.work.node_loads.iter().map(|load| load.energy).sum::<f64>();
@@ -174,7 +197,6 @@ impl Potential<'_> {
         }
         let mut energy = 0.0;
         let mut number = 0;
-        let count = self.chain.elements.len();
         for (i, first) in self.chain.rings.iter().enumerate() {
             for (j, second) in self.chain.rings.iter().enumerate().skip(i + 1) {
                 let (from, to) = (&self.work.nodes[first.node], &self.work.nodes[second.node]);
@@ -185,19 +207,21 @@ impl Potential<'_> {
                 }
                 let pair = PairLoad::new(first, from, second, to, rule, order)?;
                 energy += pair.on_second.energy;
-                for (node, load) in [(first.node, &pair.on_first), (second.node, &pair.on_second)] {
-                    let target = &mut self.work.node_loads[node];
-                    *target += Load { force: load.force, couple: Matrix3::zeros(), ..Load::zero() };
-                    // The turning of the couple is in the pair's own second derivatives.
-                    target.couple += antisymmetric(&load.couple);
+                let mutual = self.settings.interaction != Interaction::Preceding;
+                for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {
+                    if node == second.node || mutual {
+                        let couple = moment_part(&load.couple);
+                        self.work.node_loads[node] += Load { force: load.force, couple, ..Load::zero() };
+                    }
                 }
                 if order == Order::Hessian {
                     let pair = pair.hessian();
-                    let matrix = &mut self.work.node_hessian;
-                    add_block(matrix, count, first.node, first.node, &pair.first_first);
-                    add_block(matrix, count, second.node, second.node, &pair.second_second);
-                    add_block(matrix, count, first.node, second.node, &pair.first_second);
-                    add_block(matrix, count, second.node, first.node, &pair.first_second.transpose());
+                    self.add_block(second.node, second.node, &pair.second_second);
+                    self.add_block(second.node, first.node, &pair.first_second.transpose());
+                    if mutual {
+                        self.add_block(first.node, first.node, &pair.first_first);
+                        self.add_block(first.node, second.node, &pair.first_second);
+                    }
                 }
             }
         }
@@ -214,7 +238,7 @@ impl Potential<'_> {
     }
 
     /// Gradient and element Hessians, from the tip to the base.
-    fn backward(&mut self, unknowns: &[f64], order: Order) -> bool {
+    pub(super) fn backward(&mut self, unknowns: &[f64], order: Order) -> bool {
         let mut force = Vector3::zeros();
         let mut moment = Vector3::zeros();
         for (k, element) in self.chain.elements.iter().enumerate().rev() {
@@ -240,101 +264,23 @@ impl Potential<'_> {
             if !linear {
                 return false;
             }
+            if order == Order::Hessian && self.settings.interaction.acts_on_spans() {
+                self.mix(k);
+            }
         }
         let base = &self.work.node_loads[0];
         self.work.base = (force + base.force, moment + base.moment());
         self.work.gradient.iter().all(|entry| entry.is_finite())
     }
-}
 
-impl Objective for Potential<'_> {
-    fn value(&mut self, x: &[f64]) -> Option<f64> {
-        self.load(x, Order::Gradient)
-    }
-
-    fn linearise(&mut self, x: &[f64]) -> Option<f64> {
-        self.work.factored = false;
-        let energy = self.load(x, Order::Hessian)?;
-        self.backward(x, Order::Hessian).then_some(energy)
-    }
-
-    fn gradient(&self) -> &[f64] {
-        &self.work.gradient
-    }
-
-    fn factorise(&mut self, shift: f64) -> bool {
-        let work = &mut *self.work;
+    /// Adds a block between two nodes; the base's (node 0) is left out.
+    pub(super) fn add_block(&mut self, row: usize, column: usize, block: &Matrix6<f64>) {
+        let (Some(row), Some(column)) = (row.checked_sub(1), column.checked_sub(1)) else { return };
         let size = 6 * self.chain.elements.len();
-        work.factored = false;
-        work.factor.copy_from_slice(&work.node_hessian);
-        for (k, reduction) in work.reductions.iter_mut().enumerate() {
-            if !reduction.condense(&work.tangents[k], &self.chain.elements[k].metric, shift) {
-                return false;
+        for i in 0..6 {
+            for j in 0..6 {
+                self.work.node_hessian[(6 * row + i) * size + 6 * column + j] += block[(i, j)];
             }
-            let axes = work.nodes[k].rotation;
-            for i in 0..4 {
-                for j in 0..4 {
-                    // The first six rows are the base's where the element starts there.
-                    let (Some(row), Some(column)) =
-                        ((6 * k + 3 * i).checked_sub(6), (6 * k + 3 * j).checked_sub(6))
-                    else {
-                        continue;
-                    };
-                    let part = Matrix3::from_fn(|a, b| reduction.condensed[3 * i + a][3 * j + b]);
-                    let turned = axes * part * axes.transpose();
-                    for a in 0..3 {
-                        for b in 0..3 {
-                            work.factor[(row + a) * size + column + b] += turned[(a, b)];
-                        }
-                    }
-                }
-            }
-        }
-        // Solves turn into the axes in which this factor was made, wherever the chain moves afterwards.
-        work.axes.iter_mut().zip(&work.nodes).for_each(|(axes, node)| *axes = node.rotation);
-        work.factored = cholesky::factorise(&mut work.factor, size);
-        work.factored
-    }
-
-    fn solve(&mut self, x: &mut [f64]) {
-        let work = &mut *self.work;
-        work.rhs.fill(0.0);
-        for (k, reduction) in work.reductions.iter().enumerate() {
-            let mut nodes = reduction.eliminate(&mut x[self.chain.first[k]..self.chain.first[k + 1]]);
-            turn_nodes(&work.axes[k], &mut nodes);
-            for (i, value) in nodes.iter().enumerate() {
-                if let Some(row) = (6 * k + i).checked_sub(6) {
-                    work.rhs[row] += value;
-                }
-            }
-        }
-        cholesky::solve(&work.factor, work.rhs.len(), &mut work.rhs);
-        for (k, reduction) in work.reductions.iter().enumerate() {
-            let mut nodes =
-                core::array::from_fn(|i| (6 * k + i).checked_sub(6).map_or(0.0, |row| work.rhs[row]));
-            turn_nodes(&work.axes[k].transpose(), &mut nodes);
-            reduction.recover(&nodes, &mut x[self.chain.first[k]..self.chain.first[k + 1]]);
-        }
-    }
-
-    fn metric(&self) -> &[f64] {
-        &self.chain.metric
-    }
-}
-
-/// The part of a couple that is a moment.
-fn antisymmetric(couple: &Matrix3<f64>) -> Matrix3<f64> {
-    (couple - couple.transpose()) * 0.5
-}
-
-/// Adds a block between two nodes; the base's (node 0) is left out.
-fn add_block(matrix: &mut [f64], elements: usize, row: usize, column: usize, block: &nalgebra::Matrix6<f64>) {
-    if row == 0 || column == 0 {
-        return;
-    }
-    for i in 0..6 {
-        for j in 0..6 {
-            matrix[(6 * (row - 1) + i) * 6 * elements + 6 * (column - 1) + j] += block[(i, j)];
         }
     }
 }

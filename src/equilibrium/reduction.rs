@@ -33,12 +33,17 @@ pub(super) struct Reduction {
     factor: Vec<f64>,
     /// `L^-1` times the coupling of inner amplitudes to nodes, by node column.
     coupling: Vec<f64>,
+    /// `L^-1` times the coupling of inner amplitudes to the rings' nodes, by column; empty without it.
+    outer: Vec<f64>,
+    /// Condensed coupling of the two nodes (axes of the start node) to the rings' nodes, twelve rows.
+    pub(super) condensed_outer: Vec<f64>,
     /// Condensed Hessian of the two nodes, in the axes of the start node.
     pub(super) condensed: [[f64; NODES]; NODES],
 }
 
 impl Reduction {
-    pub(super) fn new(freedoms: usize) -> Self {
+    /// Storage for an element with so many amplitudes, coupled to `columns` displacements of rings.
+    pub(super) fn new(freedoms: usize, columns: usize) -> Self {
         let inner = freedoms - END;
         let size = NODES + inner;
         Self {
@@ -50,6 +55,8 @@ impl Reduction {
             product: vec![0.0; (START + freedoms) * size],
             factor: vec![0.0; inner * inner],
             coupling: vec![0.0; NODES * inner],
+            outer: vec![0.0; inner * columns],
+            condensed_outer: vec![0.0; NODES * columns],
             condensed: [[0.0; NODES]; NODES],
         }
     }
@@ -101,6 +108,54 @@ impl Reduction {
             }
         }
         true
+    }
+
+    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, after the Hessian itself.
+    pub(super) fn condense_outer(&mut self, cross: &[f64], columns: usize) {
+        let inner = self.inner;
+        for column in 0..columns {
+            let entry = |row: usize| cross[row * columns + column];
+            let ends: [f64; END] = core::array::from_fn(|c| entry(START + c));
+            let own = &mut self.outer[column * inner..][..inner];
+            for (i, value) in own.iter_mut().enumerate() {
+                *value = entry(START + END + i);
+                for (c, end) in ends.iter().enumerate() {
+                    *value += end * self.by_inner[c * inner + i];
+                }
+            }
+            cholesky::forward(&self.factor, inner, own);
+            for k in 0..6 {
+                let (mut start, mut end) = (entry(k), 0.0);
+                for (c, value) in ends.iter().enumerate() {
+                    start += value * self.by_start[(c, k)];
+                    end += value * self.by_end[(c, k)];
+                }
+                let along = |row: usize| cholesky::dot(&self.coupling[row * inner..][..inner], own);
+                self.condensed_outer[k * columns + column] = start - along(k);
+                self.condensed_outer[(START + k) * columns + column] = end - along(START + k);
+            }
+        }
+    }
+
+    /// `L^-1` times the coupling to one displacement of a ring.
+    pub(super) fn outer(&self, column: usize) -> &[f64] {
+        &self.outer[column * self.inner..][..self.inner]
+    }
+
+    /// What eliminated amplitudes (see [`Self::eliminate`]) take from the rings' nodes.
+    pub(super) fn eliminate_outer(&self, rhs: &[f64], rings: &mut [f64]) {
+        for (column, entry) in rings.iter_mut().enumerate() {
+            *entry -= cholesky::dot(self.outer(column), &rhs[END..]);
+        }
+    }
+
+    /// What displacements of the rings' nodes take from eliminated amplitudes, before they are recovered.
+    pub(super) fn recover_outer(&self, rings: &[f64], rhs: &mut [f64]) {
+        for (column, value) in rings.iter().enumerate() {
+            for (entry, x) in rhs[END..].iter_mut().zip(self.outer(column)) {
+                *entry -= value * x;
+            }
+        }
     }
 
     /// The Hessian by (start, end, inner amplitudes): substitutes the first amplitudes.

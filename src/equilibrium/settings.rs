@@ -12,6 +12,9 @@ pub enum Interaction {
     Preceding = 1,
     /// All pairs of rings, mutual.
     Rings = 2,
+    /// All pairs of rings, and every ring with every span but the disc bonded to its face, mutual. Spans among
+    /// themselves are neglected.
+    Full = 3,
 }
 
 impl Interaction {
@@ -21,7 +24,14 @@ impl Interaction {
         (Self::None, "none", "External field only"),
         (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
         (Self::Rings, "rings", "All pairs of rings, mutual"),
+        (Self::Full, "full", "All pairs of rings, and every ring with every span, mutual"),
     ];
+
+    /// Whether rings act on spans.
+    #[must_use]
+    pub fn acts_on_spans(self) -> bool {
+        matches!(self, Self::Preceding | Self::Full)
+    }
 
     /// The level with this name.
     ///

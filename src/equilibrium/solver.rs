@@ -64,7 +64,7 @@ impl Equilibrium {
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) = (Workspace::new(&chain), PairRules::new(&chain, settings.pair_accuracy));
+        let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, settings.pair_accuracy));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
@@ -108,7 +108,8 @@ impl Equilibrium {
         let unknowns = self.branch.unknowns.clone();
         let mut potential = self.potential(&inputs, &unknowns);
         potential.linearise(&unknowns)?;
-        potential.factorise(0.0).then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
+        let definite = potential.factorise(0.0) && potential.has_verdict();
+        definite.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// Number of unknowns.

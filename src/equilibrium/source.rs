@@ -8,7 +8,7 @@ use super::chain::RingBody;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
-use crate::rod::{Load, Order, Station};
+use crate::rod::{Load, Order, SectionPoint, Station};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -158,6 +158,24 @@ impl<'a> Source<'a> {
         for point in points {
             let arm = local.rotation * Vector3::new(point.x, point.y, 0.0);
             self.add(&mut load, moment / points.len() as f64, &axis, &local.position, &arm, order)?;
+        }
+        Some(load)
+    }
+
+    /// The same, for the given points of the station's section.
+    pub(super) fn on_points(
+        &self,
+        points: &[SectionPoint],
+        magnetisation: f64,
+        pose: &Pose,
+        order: Order,
+    ) -> Option<Load> {
+        let local = self.locate(pose);
+        let axis = local.axis();
+        let mut load = Load::zero();
+        for point in points {
+            let arm = local.rotation * Vector3::new(point.position.x, point.position.y, 0.0);
+            self.add(&mut load, magnetisation * point.volume, &axis, &local.position, &arm, order)?;
         }
         Some(load)
     }

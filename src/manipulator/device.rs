@@ -103,12 +103,12 @@ impl Manipulator {
         (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
         out.tip_field = equilibrium.field_at(inputs, &out.tip.position).unwrap_or_default();
         copy_shape(equilibrium, out);
-        out.stable = Some(true); // the Hessian was positive definite, or nothing would be solved
+        out.stable = report.stable;
         out.stability_margin = report.margin;
         out.snaps += report.snaps;
         out.status = if report.snaps > 0 {
             Status::Snapped
-        } else if report.margin < equilibrium.settings().fold_margin {
+        } else if report.stable.is_some() && report.margin < equilibrium.settings().fold_margin {
             Status::NearFold
         } else {
             Status::Solved

@@ -1,6 +1,7 @@
 //! An element: the deformable spans between two nodes, with the tables of its modes and stations.
 
 use super::basis::{Modes, Part};
+use super::cubature::{Fineness, SectionPoint, section_points};
 use super::moments::SectionMoments;
 use crate::design::{Span, SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
@@ -14,8 +15,19 @@ pub(super) const ROTATIONS: usize = 3;
 /// Gauss points of a disc: its strain is some percent of the core's.
 const DISC_POINTS: usize = 2;
 
-/// Gauss points of a core or rod beyond the number of modes.
+/// Gauss points of a core or rod beyond the number of modes, at least.
 const EXTRA_POINTS: usize = 1;
+
+/// How finely an element is resolved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Resolution {
+    /// Polynomial degree of the strain modes.
+    pub degree: usize,
+    /// Gauss points of a core or rod; at least two more than the degree are taken.
+    pub core_points: usize,
+    /// Section points for rings close by and further away; `None` where no ring acts on the element.
+    pub sections: Option<[Fineness; 2]>,
+}
 
 /// Points that resolve the turns of the spiral when its moments are tabulated.
 const SPIRAL_POINTS: usize = 48;
@@ -59,6 +71,12 @@ pub struct Station {
     pub line_mass: f64,
     /// Density of the material, kg/m3.
     pub density: f64,
+    /// Number of its piece in the element.
+    pub piece: usize,
+    /// Whether the piece is a disc, bonded to the ring at the element's near end.
+    pub bonded: bool,
+    /// Section points for rings close by and further away.
+    pub sections: [Vec<SectionPoint>; 2],
 }
 
 /// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
@@ -83,9 +101,11 @@ pub struct Element {
 }
 
 impl Element {
-    /// Tables for modes of polynomial degree 0 to `degree`.
+    /// Tables for a chain of pieces.
     #[must_use]
-    pub fn new(offset: f64, pieces: &[Piece<'_>], degree: usize) -> Self {
+    pub fn new(offset: f64, pieces: &[Piece<'_>], resolution: &Resolution) -> Self {
+        let degree = resolution.degree;
+        let core_points = resolution.core_points.max(degree + 1 + EXTRA_POINTS);
         let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
         let modes = |stiffness: fn(&Stiffness) -> f64, ends_vary: bool| {
             let mut start = 0.0;
@@ -106,8 +126,7 @@ impl Element {
         let mut tables = Vec::new();
         let mut first = 0;
         for piece in pieces {
-            let points =
-                if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { degree + 1 + EXTRA_POINTS };
+            let points = if piece.span.kind == SpanKind::Disc { DISC_POINTS } else { core_points };
             tables.push((piece.length, gauss_legendre(points).0, first));
             first += points;
         }
@@ -127,9 +146,16 @@ impl Element {
         };
         element.core_ends = [before, before + core_length].map(|s| element.row(s));
         for (index, piece) in pieces.iter().enumerate() {
-            element.add_stations(index, piece);
+            element.add_stations(index, piece, resolution.sections);
         }
         element
+    }
+
+    /// Whether a station belongs to the disc that is bonded to the ring at the element's start (`false`) or
+    /// end (`true`).
+    #[must_use]
+    pub fn bonded(&self, station: &Station, end: bool) -> bool {
+        station.bonded && station.piece == if end { self.pieces.len() - 1 } else { 0 }
     }
 
     /// Number of degrees of freedom.
@@ -165,7 +191,7 @@ impl Element {
         Row { arc_length: s, rate, integral, position }
     }
 
-    fn add_stations(&mut self, index: usize, piece: &Piece<'_>) {
+    fn add_stations(&mut self, index: usize, piece: &Piece<'_>, sections: Option<[Fineness; 2]>) {
         let start: f64 = self.pieces[..index].iter().map(|(length, _, _)| length).sum();
         let span = piece.span;
         let nodes = self.pieces[index].1.clone();
@@ -180,7 +206,9 @@ impl Element {
         }
         for ((x, weight), material) in nodes.iter().zip(weights).zip(materials) {
             let weight = 0.5 * piece.length * weight;
-            let row = self.row_in(index, start, start + 0.5 * piece.length * (1.0 + x));
+            let along = 0.5 * piece.length * (1.0 + x);
+            let row = self.row_in(index, start, start + along);
+            let sections = sections.map(|both| both.map(|fine| section_points(span, along, weight, fine)));
             self.stations.push(Station {
                 row,
                 weight,
@@ -189,6 +217,9 @@ impl Element {
                 magnetisation: span.magnetisation,
                 line_mass: span.line_density * weight,
                 density: span.density,
+                piece: index,
+                bonded: span.kind == SpanKind::Disc,
+                sections: sections.unwrap_or_default(),
             });
         }
     }

@@ -1,13 +1,15 @@
 //! The elastic rod: strain modes, kinematics, stiffness, and loads as energies on moving frames.
 
 mod basis;
+mod cubature;
 mod element;
 mod kinematics;
 mod load;
 mod moments;
 mod tangent;
 
-pub use element::{COMPONENTS, Element, Piece, Row, Station};
+pub use cubature::{Fineness, SectionPoint};
+pub use element::{COMPONENTS, Element, Piece, Resolution, Row, Station};
 pub use kinematics::{Configuration, StationState};
 pub use load::{Load, turning};
 pub use moments::SectionMoments;

@@ -233,8 +233,13 @@ impl Tangent {
         }
     }
 
-    /// Second derivatives of a station's load by its own position and directors.
-    fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
+    /// Displacement and rotation of a station by each column, in the start node's axes.
+    pub fn station_columns(
+        &mut self,
+        element: &Element,
+        index: usize,
+        state: &StationState,
+    ) -> (&[Vector3<f64>], &[Vector3<f64>]) {
         let freedoms = element.freedoms();
         let row = &element.stations[index].row;
         for k in 0..3 {
@@ -255,6 +260,12 @@ impl Tangent {
             self.rotations[START + i] =
                 if c < ROTATIONS { state.left.column(c) * row.integral[i] } else { Vector3::zeros() };
         }
+        (&self.positions, &self.rotations)
+    }
+
+    /// Second derivatives of a station's load by its own position and directors.
+    fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
+        self.station_columns(element, index, state);
         for j in 0..self.size {
             let (position, rotation) = (self.positions[j], self.rotations[j]);
             let force = load.position_position * position + load.position_rotation * rotation;

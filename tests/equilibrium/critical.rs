@@ -60,7 +60,11 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         // Exactly antiparallel, all directions of bending are alike: an answer there may be refused, but is never straight.
         let beyond = antiparallel(row, 1.05 * expected);
         let after = solver.solve(&beyond).expect("finite inputs");
-        assert!(!after.solved || off_axis(&solver) > 1e-3, "{}: on the unstable straight shape: {after:?}", row.id);
+        assert!(
+            !after.solved || off_axis(&solver) > 1e-3,
+            "{}: on the unstable straight shape: {after:?}",
+            row.id
+        );
         // A hundredth aside it is bent and stable.
         let mut aside = antiparallel(row, 1.01 * expected);
         aside.uniform_field.y = 0.01 * expected;

@@ -36,7 +36,7 @@ fn everything(magnet: bool) -> Inputs {
 fn cases() -> Vec<(String, Equilibrium, Inputs, Vec<f64>, Vec<f64>)> {
     let design = Design::new(Specification::paper(3)).expect("the paper's design is allowed");
     let mut out = Vec::new();
-    for interaction in [Interaction::None, Interaction::Rings] {
+    for interaction in [Interaction::None, Interaction::Rings, Interaction::Full] {
         for (magnet, degree) in [(false, 0), (false, 2), (true, 3)] {
             let settings = Settings { interaction, degree, ..Settings::default() };
             let assembly = pair();

@@ -112,7 +112,10 @@ fn close_to_the_fold_the_margin_tells() {
             assert!(!is_lost(&report), "{id}: lost at step {step}: {report:?}");
             let exact = smallest_eigenvalue(&mut equilibrium, &inputs);
             let margin = equilibrium.margin().expect("a solved shape");
-            assert!((margin - exact).abs() <= MARGIN, "{id}: step {step}: margin {margin}, eigenvalue {exact}");
+            assert!(
+                (margin - exact).abs() <= MARGIN,
+                "{id}: step {step}: margin {margin}, eigenvalue {exact}"
+            );
             let bound = report.margin;
             assert!(bound > exact - MARGIN, "{id}: step {step}: bound {bound}, eigenvalue {exact}");
             worst = f64::max(worst, bound - exact);

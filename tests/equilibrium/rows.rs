@@ -128,6 +128,8 @@ impl Row {
         match self.level.as_str() {
             "none" => Some(Interaction::None),
             "rings" => Some(Interaction::Rings),
+            "base" => Some(Interaction::Preceding),
+            "full" => Some(Interaction::Full),
             _ => None,
         }
     }

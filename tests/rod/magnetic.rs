@@ -113,7 +113,10 @@ fn the_tip_dipole_folds_in_the_plane_and_leaves_it_before() {
     assert!(residual.iter().all(|g| g.abs() <= ELASTICA), "no equilibrium at the fold: {residual:?}");
     let stiffness: Vec<f64> =
         gradient(&after).iter().zip(gradient(&before)).map(|(a, b)| (a - b) / (2.0 * step)).collect();
-    assert!(stiffness.iter().all(|k| k.abs() <= NEUTRAL), "the arc is not neutral at the fold: {stiffness:?}");
+    assert!(
+        stiffness.iter().all(|k| k.abs() <= NEUTRAL),
+        "the arc is not neutral at the fold: {stiffness:?}"
+    );
     // Turned in the plane from +z, the branch is stable to 180 degrees and lost right after.
     for angle in 0..180 {
         let report = chain.equilibrium.solve(&field(1, size, f64::from(angle))).expect("finite inputs");

@@ -3,10 +3,13 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Segmented, Span, Specification, SpiralKind};
-use mcm::rod::{Element, Piece};
+use mcm::rod::{Element, Piece, Resolution};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::tolerance::{BRUTE_FORCE, LAW, assert_close};
+
+/// Cubic modes without rings close by.
+const PLAIN: Resolution = Resolution { degree: 3, core_points: 0, sections: None };
 
 fn spans(spiral: SpiralKind) -> Vec<Span> {
     let Specification::Segmented(paper) = Specification::paper(1) else { unreachable!() };
@@ -49,14 +52,15 @@ fn by_cells(span: &Span, power: i32) -> (f64, Vector2<f64>, Matrix2<f64>) {
 fn the_stations_stand_for_all_of_the_material() {
     let spans = spans(SpiralKind::Helical);
     let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
-    let element = Element::new(0.0, &pieces, 3);
+    let element = Element::new(0.0, &pieces, &PLAIN);
     let mut start = 0.0;
     for (number, span) in spans.iter().enumerate() {
         let end = start + span.length;
         let own = || {
-            element.stations.iter().filter(|station| {
-                station.row.arc_length > start && station.row.arc_length < end
-            })
+            element
+                .stations
+                .iter()
+                .filter(|station| station.row.arc_length > start && station.row.arc_length < end)
         };
         assert!(own().count() >= 2, "span {number}");
         for power in 0..2 {
@@ -82,7 +86,7 @@ fn four_points_carry_the_moments() {
     for kind in [SpiralKind::Helical, SpiralKind::Axisymmetric] {
         let spans = spans(kind);
         let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
-        for station in &Element::new(0.0, &pieces, 3).stations {
+        for station in &Element::new(0.0, &pieces, &PLAIN).stations {
             let (moments, points) = (&station.material, station.material.points());
             let quarter = moments.volume / 4.0;
             let first: Vector2<f64> = points.iter().map(|point| point * quarter).sum();

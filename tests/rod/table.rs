@@ -71,14 +71,16 @@ fn every_row_belongs_to_a_test_or_is_excluded_with_a_reason() {
     }
     let named: usize = PROBLEMS.iter().map(|(_, count, _)| count).sum();
     assert_eq!(named, rows.len(), "a problem that no test knows");
-    let excluded: Vec<_> = PROBLEMS.iter().filter_map(|(problem, _, reason)| Some((problem, (*reason)?))).collect();
+    let excluded: Vec<_> =
+        PROBLEMS.iter().filter_map(|(problem, _, reason)| Some((problem, (*reason)?))).collect();
     println!("excluded: {excluded:?}");
 }
 
 impl Benchmark {
     /// The number after `name=` among the parameters.
     pub(crate) fn parameter(&self, name: &str) -> f64 {
-        let found = self.parameters.split_whitespace().find_map(|part| part.strip_prefix(name)?.strip_prefix('='));
+        let found =
+            self.parameters.split_whitespace().find_map(|part| part.strip_prefix(name)?.strip_prefix('='));
         found.and_then(|text| text.parse().ok()).unwrap_or_else(|| panic!("{name} in {self:?}"))
     }
 }
@@ -101,8 +103,12 @@ impl Rod {
         let material = CylinderMaterial::Bulk { elastic_modulus: 1e9, poisson: 0.0, remanence };
         let rod = Cylinder { length, radius, inner_radius: 0.0, material, density: Some(density) };
         let design = Design::new(Specification::Cylinder(rod)).expect("allowed");
-        let settings =
-            Settings { interaction: Interaction::None, degree: 4, cylinder_elements: 16, ..Settings::default() };
+        let settings = Settings {
+            interaction: Interaction::None,
+            degree: 4,
+            cylinder_elements: 16,
+            ..Settings::default()
+        };
         let area = core::f64::consts::PI * radius * radius;
         Self {
             equilibrium: Equilibrium::new(&design, None, settings, 2).expect("allowed"),

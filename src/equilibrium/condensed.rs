@@ -1,0 +1,171 @@
+//! Newton's equations of the whole chain, condensed to its nodes.
+
+use nalgebra::{DMatrix, DVectorViewMut, Matrix3};
+
+use super::potential::Potential;
+use super::reduction::turn_nodes;
+use super::settings::Interaction;
+use crate::geometry::hat;
+use crate::numerics::cholesky;
+use crate::numerics::trust_region::Objective;
+use crate::rod::Order;
+
+impl Objective for Potential<'_> {
+    fn value(&mut self, x: &[f64]) -> Option<f64> {
+        self.load(x, Order::Gradient)
+    }
+
+    fn linearise(&mut self, x: &[f64]) -> Option<f64> {
+        self.work.factored = false;
+        let energy = self.load(x, Order::Hessian)?;
+        self.backward(x, Order::Hessian).then_some(energy)
+    }
+
+    fn gradient(&self) -> &[f64] {
+        &self.work.gradient
+    }
+
+    /// Where the forces have no potential, whether the matrix is regular (and its symmetric part positive
+    /// definite, where that has a meaning).
+    fn factorise(&mut self, shift: f64) -> bool {
+        let size = 6 * self.chain.elements.len();
+        self.work.factored = false;
+        self.work.factor.copy_from_slice(&self.work.node_hessian);
+        for k in 0..self.chain.elements.len() {
+            if !self.condense(k, shift) {
+                return false;
+            }
+        }
+        let work = &mut *self.work;
+        // Solves turn into the axes in which this factor was made, wherever the chain moves afterwards.
+        for (axes, node) in work.axes.iter_mut().zip(&work.nodes) {
+            *axes = node.rotation;
+        }
+        work.lu = None;
+        let mut regular = true;
+        if !self.conservative() {
+            let lu = self.asymmetric_matrix().lu();
+            regular = lu.is_invertible();
+            self.work.lu = Some(lu);
+        }
+        let definite = !self.has_verdict() || cholesky::factorise(&mut self.work.factor, size);
+        self.work.factored = definite && regular;
+        self.work.factored
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.solve_with(x, true);
+    }
+
+    fn metric(&self) -> &[f64] {
+        &self.chain.metric
+    }
+}
+
+impl Potential<'_> {
+    /// Solves with the symmetric part of the matrix alone, which decides on stability.
+    pub(super) fn solve_symmetric(&mut self, x: &mut [f64]) {
+        self.solve_with(x, false);
+    }
+
+    /// Condenses element `k` and adds it to the matrix of the nodes.
+    fn condense(&mut self, k: usize, shift: f64) -> bool {
+        let work = &mut *self.work;
+        let size = 6 * self.chain.elements.len();
+        let reduction = &mut work.reductions[k];
+        if !reduction.condense(&work.tangents[k], &self.chain.elements[k].metric, shift) {
+            return false;
+        }
+        let axes = work.nodes[k].rotation;
+        for i in 0..4 {
+            for j in 0..4 {
+                // The first six rows are the base's where the element starts there.
+                let (Some(row), Some(column)) = (free(6 * k + 3 * i), free(6 * k + 3 * j)) else { continue };
+                let part = Matrix3::from_fn(|a, b| reduction.condensed[3 * i + a][3 * j + b]);
+                let turned = axes * part * axes.transpose();
+                for a in 0..3 {
+                    for b in 0..3 {
+                        work.factor[(row + a) * size + column + b] += turned[(a, b)];
+                    }
+                }
+            }
+        }
+        if !self.settings.interaction.acts_on_spans() {
+            return true;
+        }
+        reduction.condense_outer(&work.cross[k], size);
+        let mutual = self.settings.interaction == Interaction::Full;
+        for column in 0..size {
+            let mut nodes = core::array::from_fn(|i| reduction.condensed_outer[i * size + column]);
+            turn_nodes(&axes, &mut nodes);
+            for (i, value) in nodes.iter().enumerate() {
+                let Some(row) = free(6 * k + i) else { continue };
+                work.factor[row * size + column] += value;
+                if mutual {
+                    work.factor[column * size + row] += value;
+                }
+            }
+            if mutual {
+                for row in 0..=column {
+                    let value = cholesky::dot(reduction.outer(row), reduction.outer(column));
+                    work.factor[row * size + column] -= value;
+                    if row != column {
+                        work.factor[column * size + row] -= value;
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// The matrix of the nodes with what a dead moment on the tip adds, which is not symmetric.
+    fn asymmetric_matrix(&self) -> DMatrix<f64> {
+        let size = 6 * self.chain.elements.len();
+        let mut matrix = DMatrix::from_row_slice(size, size, &self.work.factor);
+        let turning = hat(&self.inputs.tip_moment) * -0.5;
+        let mut tip = matrix.view_mut((size - 3, size - 3), (3, 3));
+        tip += turning;
+        matrix
+    }
+
+    fn solve_with(&mut self, x: &mut [f64], asymmetric: bool) {
+        let spans = self.settings.interaction.acts_on_spans();
+        let mutual = self.settings.interaction == Interaction::Full;
+        let work = &mut *self.work;
+        work.rhs.fill(0.0);
+        for (k, reduction) in work.reductions.iter().enumerate() {
+            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
+            let mut nodes = reduction.eliminate(part);
+            turn_nodes(&work.axes[k], &mut nodes);
+            for (i, value) in nodes.iter().enumerate() {
+                if let Some(row) = free(6 * k + i) {
+                    work.rhs[row] += value;
+                }
+            }
+            if mutual {
+                reduction.eliminate_outer(part, &mut work.rhs);
+            }
+        }
+        match &work.lu {
+            Some(lu) if asymmetric => {
+                let size = work.rhs.len();
+                lu.solve_mut(&mut DVectorViewMut::from_slice(&mut work.rhs, size));
+            }
+            _ => cholesky::solve(&work.factor, work.rhs.len(), &mut work.rhs),
+        }
+        for (k, reduction) in work.reductions.iter().enumerate() {
+            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
+            let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| work.rhs[row]));
+            turn_nodes(&work.axes[k].transpose(), &mut nodes);
+            if spans {
+                reduction.recover_outer(&work.rhs, part);
+            }
+            reduction.recover(&nodes, part);
+        }
+    }
+}
+
+/// The row of a node's displacement in the matrix of the nodes, from which the base is left out.
+fn free(row: usize) -> Option<usize> {
+    row.checked_sub(6)
+}

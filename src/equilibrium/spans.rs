@@ -1,0 +1,124 @@
+//! Rings acting on spans, and spans back on rings.
+
+use nalgebra::{Matrix3, Matrix6, Vector6};
+
+use super::chain::Chain;
+use super::pair::PairLoad;
+use super::potential::Potential;
+use super::settings::Interaction;
+use super::source::Source;
+use crate::geometry::Pose;
+use crate::rod::{Load, Order, Station, Tangent};
+
+/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
+/// station, in fixed axes.
+#[derive(Debug, Clone)]
+pub(super) struct Mixed {
+    element: usize,
+    station: usize,
+    node: usize,
+    matrix: Matrix6<f64>,
+}
+
+/// Whether the ring at `node` acts on a station of `element`.
+fn acts(chain: &Chain, level: Interaction, node: usize, element: usize, station: &Station) -> bool {
+    let table = &chain.elements[element];
+    match level {
+        Interaction::None | Interaction::Rings => false,
+        Interaction::Preceding => node <= element && !(node == element && table.bonded(station, false)),
+        Interaction::Full => {
+            let before = node == element && table.bonded(station, false);
+            let after = node == element + 1 && table.bonded(station, true);
+            !before && !after
+        }
+    }
+}
+
+impl Potential<'_> {
+    /// Adds the energies of all rings with all stations to the loads; their sum.
+    pub(super) fn load_spans(&mut self, order: Order) -> Option<f64> {
+        let level = self.settings.interaction;
+        self.work.mixed.clear();
+        if !level.acts_on_spans() {
+            return Some(0.0);
+        }
+        let mut energy = 0.0;
+        for (k, element) in self.chain.elements.iter().enumerate() {
+            let start = self.work.nodes[k];
+            for (index, station) in element.stations.iter().enumerate() {
+                let state = &self.work.configurations[k].stations[index];
+                let pose = Pose {
+                    position: start.transform(&state.position),
+                    rotation: start.rotation * state.directors,
+                };
+                for body in &self.chain.rings {
+                    if !acts(self.chain, level, body.node, k, station) {
+                        continue;
+                    }
+                    let node = self.work.nodes[body.node];
+                    let source = Source::ring(body, &node);
+                    let load = match gap(body.node, k) {
+                        0 => source.on_points(&station.sections[0], station.magnetisation, &pose, order)?,
+                        1 => source.on_points(&station.sections[1], station.magnetisation, &pose, order)?,
+                        _ => source.on_station(station, &pose, order)?,
+                    };
+                    let load = load.in_axes(&source.axes().transpose());
+                    energy += load.energy;
+                    self.work.station_loads[k][index] += load.in_axes(&start.rotation);
+                    let pair = PairLoad::reciprocal(load, pose.position - node.position);
+                    self.react(&pair, body.node, order);
+                    if order == Order::Hessian && body.node > 0 {
+                        let matrix = pair.hessian().first_second;
+                        self.work.mixed.push(Mixed { element: k, station: index, node: body.node, matrix });
+                    }
+                }
+            }
+        }
+        Some(energy)
+    }
+
+    /// What a station does to the ring, where the level has a reaction.
+    fn react(&mut self, pair: &PairLoad, node: usize, order: Order) {
+        if self.settings.interaction != Interaction::Full {
+            return;
+        }
+        let target = &mut self.work.node_loads[node];
+        *target += Load { force: pair.on_first.force, couple: moment_part(&pair.on_first.couple), ..Load::zero() };
+        if order == Order::Hessian {
+            self.add_block(node, node, &pair.hessian().first_first);
+        }
+    }
+
+    /// Columns of the rings' nodes beside the Hessian of element `k`.
+    pub(super) fn mix(&mut self, k: usize) {
+        let element = &self.chain.elements[k];
+        let columns = 6 * self.chain.elements.len();
+        let axes = self.work.nodes[k].rotation;
+        let cross = &mut self.work.cross[k];
+        cross.fill(0.0);
+        let tangent: &mut Tangent = &mut self.work.tangents[k];
+        for mixed in self.work.mixed.iter().filter(|mixed| mixed.element == k) {
+            let state = &self.work.configurations[k].stations[mixed.station];
+            let (positions, rotations) = tangent.station_columns(element, mixed.station, state);
+            for (row, (position, rotation)) in positions.iter().zip(rotations).enumerate() {
+                let (position, rotation) = (axes * position, axes * rotation);
+                let moved = Vector6::new(position.x, position.y, position.z, rotation.x, rotation.y, rotation.z);
+                let pulled = mixed.matrix * moved;
+                let target = &mut cross[row * columns + 6 * (mixed.node - 1)..][..6];
+                for (entry, value) in target.iter_mut().zip(pulled.iter()) {
+                    *entry += value;
+                }
+            }
+        }
+    }
+}
+
+/// Segments between a ring and an element.
+fn gap(node: usize, element: usize) -> usize {
+    if node <= element { element - node } else { node - element - 1 }
+}
+
+/// The part of a couple that is a moment; its turning is in the pair's own second derivatives.
+pub(super) fn moment_part(couple: &Matrix3<f64>) -> Matrix3<f64> {
+    (couple - couple.transpose()) * 0.5
+}

@@ -1,0 +1,3 @@
+//! Tests of `geometry`.
+
+mod rotation;

@@ -1,0 +1,5 @@
+//! Tests of `numerics`.
+
+mod linear;
+mod quadrature;
+mod trust_region;
