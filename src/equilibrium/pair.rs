@@ -68,14 +68,14 @@ impl PairLoad {
         order: Order,
     ) -> Option<Self> {
         let load = Source::ring(first, first_node).on_ring(second, second_node, rule, order)?;
-        Some(Self::reciprocal(load, second_node.position - first_node.position))
+        Some(Self::reciprocal(&load, second_node.position - first_node.position))
     }
 
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
-    pub(super) fn reciprocal(on_second: Load, between: Vector3<f64>) -> Self {
+    pub(super) fn reciprocal(on_second: &Load, between: Vector3<f64>) -> Self {
         let whole = on_second.couple + on_second.force * between.transpose();
         let on_first = Load { force: -on_second.force, couple: -whole, ..Load::zero() };
-        Self { on_second, on_first, between }
+        Self { on_second: *on_second, on_first, between }
     }
 
     /// The second derivatives.

@@ -32,7 +32,7 @@ QUANTITIES = [
 
 # The margin is an eigenvalue, found by iteration from the last one's vector and only as well as a verdict on stability
 # needs it; where the two softest modes are nearly equal it may be either's.
-MARGIN_SLACK = 1e-2
+MARGIN_SLACK = 1e-9
 
 
 def pose(time: float) -> dict[str, float]:
