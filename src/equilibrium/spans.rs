@@ -65,7 +65,7 @@ impl Potential<'_> {
                     let load = load.in_axes(&source.axes().transpose());
                     energy += load.energy;
                     self.work.station_loads[k][index] += load.in_axes(&start.rotation);
-                    let pair = PairLoad::reciprocal(load, pose.position - node.position);
+                    let pair = PairLoad::reciprocal(&load, pose.position - node.position);
                     self.react(&pair, body.node, order);
                     if order == Order::Hessian && body.node > 0 {
                         let matrix = pair.hessian().first_second;

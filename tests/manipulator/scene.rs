@@ -135,7 +135,7 @@ fn refusals_name_line_path_and_remedy() {
         ),
         (
             "[model]\ninteraction = \"auto\"",
-            "line 2: `model.interaction`: \"auto\" is not available in this version: choose one of none, preceding, rings, full",
+            "test, line 2: `model.interaction`: \"auto\" is not available in this version: choose one of none, preceding, rings, full",
         ),
         (
             "[model]\nmethod = \"shooting\"",
