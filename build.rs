@@ -34,7 +34,10 @@ mod bindings {
         match written {
             Err(error) => println!("cargo::error=the FMI bindings could not be written: {error}"),
             Ok(()) if !same(&out, Path::new(KEPT)) => {
-                println!("cargo::error={KEPT} differs from what bindgen writes: copy {} over it", out.display());
+                println!(
+                    "cargo::error={KEPT} differs from what bindgen writes: copy {} over it",
+                    out.display()
+                );
             }
             Ok(()) => {}
         }

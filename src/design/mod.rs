@@ -17,7 +17,7 @@ pub use material::{
     gent_modulus, shear_modulus,
 };
 pub use moment::RelativeMoment;
-pub use section::{Ring, Span, SpanKind, Spiral, SpiralKind, Stiffness};
+pub use section::{Ring, Span, SpanKind, Spiral, Stiffness};
 pub use specification::{
-    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification,
+    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind,
 };

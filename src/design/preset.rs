@@ -1,8 +1,8 @@
 //! The devices of Richter et al. as specifications.
 
 use super::material::PARTICLE_DENSITY;
-use super::section::SpiralKind;
-use super::specification::{Backbone, Helix, Modulus, RingMagnet, Segmented, Specification};
+
+use super::specification::{Backbone, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind};
 
 impl Helix {
     /// The helix of Table 1.

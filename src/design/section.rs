@@ -5,6 +5,7 @@ use core::ops::Add;
 
 use super::helix::annulus_area;
 use super::material::Moduli;
+use super::specification::SpiralKind;
 use crate::constants::VACUUM_PERMEABILITY;
 
 /// Stiffness of a span's section, the diagonals of `K_bt` and `K_se` (Eq. 12).
@@ -46,15 +47,6 @@ impl Add for Stiffness {
             axial: self.axial + other.axial,
         }
     }
-}
-
-/// How the spiral's sector lies in the section.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SpiralKind {
-    /// The sector turns with arc length, as built.
-    Helical,
-    /// The sector's area is spread evenly over the circle.
-    Axisymmetric,
 }
 
 /// The spiral on a core: at arc length `s` a sector between the angles `beta` and `beta + sector_angle`

@@ -1,7 +1,5 @@
 //! What a designer states: dimensions and materials, in SI units, not yet checked.
 
-use super::section::SpiralKind;
-
 /// An elastic modulus, measured or by way of the Shore hardness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Modulus {
@@ -9,6 +7,15 @@ pub enum Modulus {
     ShoreA(f64),
     /// Young's modulus, Pa.
     Elastic(f64),
+}
+
+/// How the spiral's sector lies in the section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpiralKind {
+    /// The sector turns with arc length, as built.
+    Helical,
+    /// The sector's area is spread evenly over the circle.
+    Axisymmetric,
 }
 
 /// The magnetic soft helix of a segment (Table 1).

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::magnetics::{Assembly, AxialSource};
+use mcm::magnetics::{Assembly, AxialSource, LinearField};
 use mcm::manipulator::{Inputs, Scene};
 use nalgebra::{Matrix3, Vector3};
 
@@ -126,9 +126,8 @@ impl Source {
             Self::Ring(ring) => return ring.field_gradient(point),
             Self::External { inputs, magnet } => (inputs, magnet),
         };
-        let [xx, xy, xz, yy, yz] = inputs.field_gradient;
-        let mut gradient = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy);
-        let mut field = inputs.uniform_field + gradient * point;
+        let background = LinearField::new(inputs.uniform_field, inputs.field_gradient);
+        let (mut field, mut gradient) = (background.at(point), background.gradient());
         if let Some(magnet) = magnet {
             let turn = inputs.magnet.rotation;
             let local = turn.transpose() * (point - inputs.magnet.position);
