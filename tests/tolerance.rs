@@ -130,6 +130,18 @@ pub(crate) const ROTATION_DIFFERENCE: f64 = 1e-10;
 /// Smallest eigenvalue: of second order in a residual of 1e-7, and the rounding of a metric over six decades.
 pub(crate) const EIGENVALUE: f64 = 1e-8;
 
+/// Angles of the paper's and of independent models that are known to two decimals, degrees.
+pub(crate) const TWO_DECIMALS_DEG: f64 = 0.01;
+
+/// The same shape reached on another way, rad: both are solved to 1e-11 turns of one element.
+pub(crate) const SAME_SHAPE: f64 = 1e-9;
+
+/// A change that counts as an effect of what was changed: far above any tolerance of a solve, rad.
+pub(crate) const EFFECT: f64 = 1e-6;
+
+/// Curl and divergence of a magnet's field beside it, T/m: rounding of gradients around 1 T/m.
+pub(crate) const MAXWELL: f64 = 1e-13;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

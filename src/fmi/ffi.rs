@@ -1,19 +1,16 @@
 //! The C boundary: the only unsafe code of the project.
 //!
-//! Handles are numbers, not addresses: they are looked up in a registry of live instances, so an unknown or freed
-//! handle is an error and never a fault. Every function passes through one of two guards against panics.
+//! Handles are looked up in the registry of live instances; every function that works passes a guard against panics.
 
 #![allow(unsafe_code, reason = "C calls in with raw pointers and takes a logger's C function")]
 #![allow(non_snake_case, reason = "names of the standard")]
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 use std::slice;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError, TryLockError};
+use std::sync::Arc;
 
 #[allow(clippy::wildcard_imports, reason = "types of the standard, named by its prefix")]
 use super::bindings::*;
@@ -21,15 +18,9 @@ use super::guard::guarded;
 use super::instance::{Instance, identify};
 use super::location;
 use super::log::{Category, Log};
+use super::registry;
 use super::state::{Call, Ending};
 use super::variable::Value;
-
-type Live = BTreeMap<usize, Arc<Mutex<Instance>>>;
-
-static LIVE: Mutex<Live> = Mutex::new(BTreeMap::new());
-
-/// Instances and saved states share it, so that no handle is ever taken for another.
-static NEXT_HANDLE: AtomicUsize = AtomicUsize::new(1);
 
 /// The host's logger, with what it wants to be called with.
 struct Logger {
@@ -67,38 +58,8 @@ fn status(ending: Ending) -> fmi2Status {
     }
 }
 
-fn live<T>(work: impl FnOnce(&mut Live) -> T) -> T {
-    work(&mut LIVE.lock().unwrap_or_else(PoisonError::into_inner))
-}
-
-fn new_handle() -> usize {
-    NEXT_HANDLE.fetch_add(1, Ordering::Relaxed)
-}
-
 fn pointer(handle: usize) -> *mut c_void {
     ptr::without_provenance_mut(handle)
-}
-
-/// Does `work` on the instance behind a handle if its state allows `call`; a panic breaks that instance only.
-fn on(
-    component: fmi2Component,
-    name: &str,
-    call: Call,
-    work: impl FnOnce(&mut Instance) -> Ending,
-) -> fmi2Status {
-    let Some(instance) = live(|live| live.get(&component.addr()).cloned()) else {
-        return fmi2Status::fmi2Error;
-    };
-    let mut instance = match instance.try_lock() {
-        Ok(instance) => instance,
-        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-        // The host calls from its logger, or from two threads at once: waiting could be for ever.
-        Err(TryLockError::WouldBlock) => return fmi2Status::fmi2Error,
-    };
-    let done = guarded(|| if instance.allows(call, name) { work(&mut instance) } else { Ending::Error });
-    status(done.unwrap_or_else(|panic| {
-        guarded(|| instance.break_down(&format!("{name}: {panic}"))).unwrap_or(Ending::Error)
-    }))
 }
 
 /// The array of a C caller; a length of zero may come with null.
@@ -232,9 +193,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             let sink =
                 Box::new(move |ending, category, message: &str| logger.tell(ending, category, message));
             let instance = Instance::new(Arc::new(package), Log::new(sink, loggingOn != 0));
-            let handle = new_handle();
-            live(|live| live.insert(handle, Arc::new(Mutex::new(instance))));
-            pointer(handle)
+            pointer(registry::enter(instance))
         }
         Err(reason) => {
             logger.tell(Ending::Error, Category::Error, &format!("not instantiated: {reason}"));
@@ -247,8 +206,7 @@ const _: fmi2InstantiateTYPE = Some(fmi2Instantiate);
 /// `fmi2FreeInstance` of FMI 2.0; a null, unknown or freed handle does nothing.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2FreeInstance(component: fmi2Component) {
-    // A panic while dropping is of no use to anybody: the instance is gone either way.
-    let _ = guarded(|| drop(live(|live| live.remove(&component.addr()))));
+    registry::leave(component.addr());
 }
 
 /// Exports the functions on an instance: panic guard, handle and state are checked before the body runs.
@@ -260,7 +218,7 @@ macro_rules! export {
         /// As the standard says: pointers are null or valid for the lengths given, texts are zero-terminated.
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $name(component: fmi2Component $(, $argument: $of)*) -> fmi2Status {
-            on(component, stringify!($name), Call::$call, |$instance| $body)
+            status(registry::on(component.addr(), stringify!($name), Call::$call, |$instance| $body))
         }
         const _: $type = Some($name);
     )*};
@@ -339,7 +297,7 @@ export! {
                 instance.refuse("this FMU state is not, or no longer, one of this instance")
             }
             Some([known]) => {
-                let handle = if known.is_null() { new_handle() } else { known.addr() };
+                let handle = if known.is_null() { registry::new_handle() } else { known.addr() };
                 instance.save(handle);
                 // SAFETY: see above.
                 unsafe { write(instance, &[pointer(handle)], state) }

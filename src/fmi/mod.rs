@@ -29,6 +29,8 @@ pub mod instance; // one instance, safe
 
 pub mod guard; // a panic stops here
 
+mod registry; // live instances by handle
+
 pub mod ffi; // the C functions: the only unsafe code
 
 pub use instance::Instance;

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::{assert_status, stderr, with_scene};
+use crate::tolerance::TWO_DECIMALS_DEG;
 
 const ONE_SEGMENT: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
 
@@ -49,7 +50,7 @@ fn json_has_the_promised_keys() {
     assert_eq!(answer["shape_m"].as_array().unwrap().len(), 101);
     // 30.50 deg: S = 1 in 20 mT without interaction, from two independent models.
     let alpha = answer["alpha_rad"].as_f64().unwrap().to_degrees();
-    assert!((alpha - 30.50).abs() < 0.01, "{alpha}");
+    assert!((alpha - 30.50).abs() < TWO_DECIMALS_DEG, "{alpha}");
 }
 
 #[test]

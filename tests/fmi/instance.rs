@@ -6,6 +6,7 @@ use mcm::fmi::variable::Value;
 use mcm::fmi::variables::Table;
 
 use super::{BENT, instance, last};
+use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, assert_close};
 
 fn reference(table: &Table, name: &str) -> u32 {
     table.reference(name).unwrap_or_else(|| panic!("{name}"))
@@ -45,7 +46,7 @@ fn outputs_are_those_of_the_inputs_now_set() {
         bent.to_bits(),
         "the step finds its work done"
     );
-    assert!((instance.time() - 0.1).abs() < 1e-15);
+    assert_close("time", &[instance.time()], &[0.1], ROUNDING);
 }
 
 #[test]
@@ -76,7 +77,7 @@ fn bad_values_are_refused_by_name_and_the_instance_goes_on() {
     assert!(last(&told).contains("base.orientation"), "{}", last(&told));
     assert_eq!(set(&mut instance, &table, "base.orientation[2]", 0.0), Ending::Ok);
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
-    assert!((get(&mut instance, &table, "tip.angle") - angle).abs() < 1e-12);
+    assert_close("tip angle", &[get(&mut instance, &table, "tip.angle")], &[angle], SAME_SHAPE);
 }
 
 #[test]
@@ -114,7 +115,7 @@ fn parameters_are_checked_at_the_end_of_initialisation() {
     instance.reset();
     instance.enter_initialization();
     let reference_angle = get(&mut instance, table, "tip.angle");
-    assert!((soft - reference_angle).abs() > 1e-3, "the parameter had an effect, and reset took it back");
+    assert!((soft - reference_angle).abs() > EFFECT, "the parameter had an effect, and reset took it back");
 }
 
 #[test]

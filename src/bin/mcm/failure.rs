@@ -7,7 +7,8 @@ use std::process::ExitCode;
 pub(crate) const BAD_INPUT: u8 = 1;
 /// Exit status of a solve that did not converge.
 pub(crate) const NOT_CONVERGED: u8 = 2;
-/// Exit status of a solve that ended at an unstable equilibrium.
+/// Exit status of a solve that ended at an equilibrium known to be unstable, as only a method that is blind to
+/// stability can.
 pub(crate) const UNSTABLE: u8 = 3;
 
 /// A message for standard error.

@@ -15,7 +15,7 @@ use super::files::read_scene;
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
 Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\"), 1 bad input, 2 not converged, \
-3 solved but unstable.")]
+3 solved but known to be unstable.")]
 pub(crate) struct Solve {
     /// Scene file (TOML)
     scene: PathBuf,
@@ -47,15 +47,22 @@ impl Solve {
 }
 
 fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
-    let (status, message) = match (outputs.status, outputs.stable) {
-        (Status::NotSolved, _) => {
-            (NOT_CONVERGED, "not converged: the answer is the last good shape on the way")
-        }
-        (_, Some(false)) => (UNSTABLE, "the equilibrium is unstable"),
-        _ => return Ok(ExitCode::SUCCESS),
+    let Some((status, message)) = warning(outputs.status, outputs.stable) else {
+        return Ok(ExitCode::SUCCESS);
     };
     writeln!(std::io::stderr(), "warning: {message}")?;
     Ok(status.into())
+}
+
+/// Exit status and words for an answer that is not what was asked for; `None` when all is well.
+fn warning(status: Status, stable: Option<bool>) -> Option<(u8, &'static str)> {
+    match (status, stable) {
+        (Status::NotSolved, _) => {
+            Some((NOT_CONVERGED, "not converged: the answer is the last good shape on the way"))
+        }
+        (_, Some(false)) => Some((UNSTABLE, "the equilibrium is unstable")),
+        _ => None,
+    }
 }
 
 fn as_json(outputs: &Outputs) -> Value {
@@ -126,4 +133,19 @@ fn as_table(outputs: &Outputs) -> String {
         row("energy", format!("{:.4}", outputs.energy * 1e6), "uJ"),
     ]
     .concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exit_status_says_what_is_known() {
+        let status = |status, stable| warning(status, stable).map(|(number, _)| number);
+        assert_eq!(status(Status::Solved, Some(true)), None);
+        assert_eq!(status(Status::Snapped, Some(true)), None);
+        assert_eq!(status(Status::Solved, None), None, "no potential, no verdict");
+        assert_eq!(status(Status::Solved, Some(false)), Some(3));
+        assert_eq!(status(Status::NotSolved, Some(true)), Some(2));
+    }
 }

@@ -1,0 +1,62 @@
+//! Live instances by handle.
+//!
+//! Handles are numbers, not addresses: an unknown or freed handle is an error and never a fault.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, TryLockError};
+
+use super::guard::guarded;
+use super::instance::Instance;
+use super::state::{Call, Ending};
+
+type Live = BTreeMap<usize, Arc<Mutex<Instance>>>;
+
+static LIVE: Mutex<Live> = Mutex::new(BTreeMap::new());
+
+/// Instances and saved states share it, so that no handle is ever taken for another.
+static NEXT_HANDLE: AtomicUsize = AtomicUsize::new(1);
+
+fn live<T>(work: impl FnOnce(&mut Live) -> T) -> T {
+    work(&mut LIVE.lock().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// A handle that was never given before; never 0.
+pub(super) fn new_handle() -> usize {
+    NEXT_HANDLE.fetch_add(1, Ordering::Relaxed)
+}
+
+/// Takes an instance in and gives its handle.
+pub(super) fn enter(instance: Instance) -> usize {
+    let handle = new_handle();
+    live(|live| live.insert(handle, Arc::new(Mutex::new(instance))));
+    handle
+}
+
+/// Drops the instance behind a handle; an unknown one does nothing.
+pub(super) fn leave(handle: usize) {
+    // A panic while dropping is of no use to anybody: the instance is gone either way.
+    let _ = guarded(|| drop(live(|live| live.remove(&handle))));
+}
+
+/// Does `work` on the instance behind a handle if its state allows `call`; a panic breaks that instance only.
+pub(super) fn on(
+    handle: usize,
+    name: &str,
+    call: Call,
+    work: impl FnOnce(&mut Instance) -> Ending,
+) -> Ending {
+    let Some(instance) = live(|live| live.get(&handle).cloned()) else {
+        return Ending::Error;
+    };
+    let mut instance = match instance.try_lock() {
+        Ok(instance) => instance,
+        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+        // The host calls from its logger, or from two threads at once: waiting could be for ever.
+        Err(TryLockError::WouldBlock) => return Ending::Error,
+    };
+    let done = guarded(|| if instance.allows(call, name) { work(&mut instance) } else { Ending::Error });
+    done.unwrap_or_else(|panic| {
+        guarded(|| instance.break_down(&format!("{name}: {panic}"))).unwrap_or(Ending::Error)
+    })
+}
