@@ -1,6 +1,5 @@
-//! With feature `bindgen`: writes the FMI bindings anew from the official headers, to `$OUT_DIR/bindings.rs`.
-//!
-//! The checked-in `src/fmi/bindings.rs` is what the crate compiles; a test under the same feature holds both equal.
+//! With feature `bindgen`: writes the FMI bindings anew from the official headers, to `$OUT_DIR/bindings.rs`, and fails
+//! unless the checked-in `src/fmi/bindings.rs`, which is what the crate compiles, is the same.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -10,11 +9,14 @@ fn main() {
 
 #[cfg(feature = "bindgen")]
 mod bindings {
-    use std::env;
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
+    use std::{env, fs};
+
+    const KEPT: &str = "src/fmi/bindings.rs";
 
     pub(crate) fn write() {
         println!("cargo::rerun-if-changed=fmu/headers");
+        println!("cargo::rerun-if-changed={KEPT}");
         let out = PathBuf::from(env::var("OUT_DIR").unwrap_or_default()).join("bindings.rs");
         let written = bindgen::Builder::default()
             .header("fmu/headers/fmi2Functions.h")
@@ -28,9 +30,17 @@ mod bindings {
             .raw_line("#![allow(clippy::all, clippy::pedantic, clippy::allow_attributes_without_reason)]")
             .generate()
             .map_err(|error| error.to_string())
-            .and_then(|bindings| bindings.write_to_file(out).map_err(|error| error.to_string()));
-        if let Err(error) = written {
-            println!("cargo::error=the FMI bindings could not be written: {error}");
+            .and_then(|bindings| bindings.write_to_file(&out).map_err(|error| error.to_string()));
+        match written {
+            Err(error) => println!("cargo::error=the FMI bindings could not be written: {error}"),
+            Ok(()) if !same(&out, Path::new(KEPT)) => {
+                println!("cargo::error={KEPT} differs from what bindgen writes: copy {} over it", out.display());
+            }
+            Ok(()) => {}
         }
+    }
+
+    fn same(written: &Path, kept: &Path) -> bool {
+        fs::read(written).is_ok_and(|written| fs::read(kept).is_ok_and(|kept| written == kept))
     }
 }

@@ -1,10 +1,16 @@
 //! Every Rust test of the project in one binary, in the order of the rooms of `src`.
-#![allow(clippy::print_stdout, reason = "a test tells what it reached, for whoever runs it with --nocapture")]
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
     clippy::panic,
     reason = "a test that meets something unexpected must stop"
+)]
+#![allow(clippy::print_stdout, reason = "a test tells what it reached, for whoever runs it with --nocapture")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    clippy::cast_sign_loss,
+    reason = "counts in tests and their tables are small whole numbers"
 )]
 
 mod tolerance;

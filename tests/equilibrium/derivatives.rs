@@ -32,8 +32,11 @@ fn everything(magnet: bool) -> Inputs {
     inputs
 }
 
-/// An equilibrium, its inputs, a bent shape and a direction, in every combination of level and field.
-fn cases() -> Vec<(String, Equilibrium, Inputs, Vec<f64>, Vec<f64>)> {
+/// Name, equilibrium, inputs, a bent shape, a direction.
+type Case = (String, Equilibrium, Inputs, Vec<f64>, Vec<f64>);
+
+/// Every combination of level and field.
+fn cases() -> Vec<Case> {
     let design = Design::new(Specification::paper(3)).expect("the paper's design is allowed");
     let mut out = Vec::new();
     for interaction in [Interaction::None, Interaction::Rings, Interaction::Full] {

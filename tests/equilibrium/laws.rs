@@ -146,21 +146,21 @@ fn the_reaction_is_the_slope_of_the_energy_by_the_base_pose() {
             equilibrium.gradient(&at, &shape).expect("nothing touches").0
         };
         let (step, angle) = (1e-6, 1e-4);
-        let mut slopes = [Vector3::zeros(), Vector3::zeros()];
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
         for axis in 0..3 {
             let direction = Vector3::ith(axis, 1.0);
             let mut shifted = |sign: f64| {
                 energy(Pose { position: inputs.base.position + direction * (sign * step), ..inputs.base })
             };
-            slopes[0][axis] = (shifted(1.0) - shifted(-1.0)) / (2.0 * step);
+            force[axis] = (shifted(1.0) - shifted(-1.0)) / (2.0 * step);
             let mut turned = |sign: f64| {
                 let turn = RotationVector::new(direction * (sign * angle)).matrix();
                 energy(Pose { rotation: turn * inputs.base.rotation, ..inputs.base })
             };
-            slopes[1][axis] = (turned(1.0) - turned(-1.0)) / (2.0 * angle);
+            moment[axis] = (turned(1.0) - turned(-1.0)) / (2.0 * angle);
         }
-        assert_close((interaction, "force"), slopes[0].as_slice(), reaction.force.as_slice(), DIFFERENCE);
-        assert_close((interaction, "moment"), slopes[1].as_slice(), reaction.torque.as_slice(), DIFFERENCE);
+        assert_close((interaction, "force"), force.as_slice(), reaction.force.as_slice(), DIFFERENCE);
+        assert_close((interaction, "moment"), moment.as_slice(), reaction.torque.as_slice(), DIFFERENCE);
     }
 }
 

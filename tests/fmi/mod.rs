@@ -1,8 +1,5 @@
 //! Tests of `fmi`.
 
-#[cfg(feature = "bindgen")]
-mod bindings;
-
 mod description;
 
 mod instance;

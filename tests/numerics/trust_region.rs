@@ -54,6 +54,7 @@ fn run(function: Function, metric: &[f64], x: &mut [f64]) -> Minimum {
 }
 
 /// `(x^2 - 1)^2 / 4 + y^2 / 2 + x y / 10`: a saddle at the origin between two minima.
+#[expect(clippy::unnecessary_wraps, reason = "the signature of every landscape")]
 fn two_wells(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
     let (a, b) = (x[0], x[1]);
     Some((
@@ -64,6 +65,7 @@ fn two_wells(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
 }
 
 /// Rosenbrock's valley.
+#[expect(clippy::unnecessary_wraps, reason = "the signature of every landscape")]
 fn valley(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
     let (a, b) = (x[0], x[1]);
     let off = b - a * a;
