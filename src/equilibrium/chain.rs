@@ -13,7 +13,7 @@ use super::settings::Settings;
 const CORE_POINTS: usize = 24;
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
-const EXTRA_DEGREES: usize = 3;
+const EXTRA_DEGREES: usize = 4;
 
 /// Section points of the spans beside a ring; twice as many change the tip by less than 1e-6 of the length.
 const NEAR: Fineness = Fineness { radial: 4, angular: 6 };

@@ -16,6 +16,9 @@ const CONTRACTION: f64 = 0.5;
 /// The same for steps with an earlier factorisation, which are only worth while if they contract better.
 const CHORD_CONTRACTION: f64 = 0.1;
 
+/// So close to the root (in the chain's unit) the Hessian of the next shape does for all that follow.
+const NEARLY: f64 = 1e-4;
+
 /// The look at the margin after every solve: enough to see a fold come.
 const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
 
@@ -182,11 +185,15 @@ impl Walk<'_> {
     }
 
     /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
+    ///
+    /// Steps with the last factorisation come first and last: the Hessian is made anew once on the way.
     fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64], reach: f64) -> Option<()> {
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
-        self.approach(inputs, unknowns);
+        if self.work.factored {
+            self.chord(inputs, unknowns, settings.follow_step, NEARLY);
+        }
         let mut step = vec![0.0; unknowns.len()];
         let first = reach / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
@@ -197,75 +204,71 @@ impl Walk<'_> {
             if !potential.factorise(0.0) {
                 return None;
             }
-            for (s, g) in step.iter_mut().zip(potential.gradient()) {
-                *s = -g;
+            let mut settled = residual <= settings.tolerance;
+            (self.report.residual, self.report.energy) = (residual, energy);
+            if !settled {
+                let length = self.step(inputs, &mut step);
+                self.report.iterations += 1;
+                if length <= CONTRACTION * previous {
+                    apply(unknowns, &step);
+                    settled =
+                        length <= NEARLY && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
+                    previous = length;
+                } else if length < ROUNDING {
+                    settled = true;
+                } else {
+                    return None;
+                }
             }
-            let solved = residual <= settings.tolerance;
-            if !solved {
-                potential.solve(&mut step);
-            }
-            let length = norm(&chain.metric, &step) / unit;
-            self.report.residual = residual;
-            self.report.energy = energy;
-            let behaves = length <= CONTRACTION * previous;
-            if solved || (!behaves && length < ROUNDING) {
+            if settled {
                 // The rules must be those of the solved shape, or the answer would depend on the way to it.
                 if choices == 0 || !self.choose_rules(inputs, unknowns) {
                     return Some(());
                 }
                 (previous, choices) = (first, choices - 1);
-                continue;
             }
-            self.report.iterations += 1;
-            if !behaves {
-                return None;
-            }
-            for (x, s) in unknowns.iter_mut().zip(&step) {
-                *x += s;
-            }
-            previous = length;
         }
         None
     }
 
-    /// Steps with the last factorisation, as long as they contract well: cheap, for small input changes.
-    fn approach(&mut self, inputs: &Inputs, unknowns: &mut [f64]) {
-        let Scene { chain, settings, .. } = self.scene;
-        if !self.work.factored {
-            return;
+    /// The step from the last gradient with the last factorisation; its length in the chain's unit.
+    fn step(&mut self, inputs: &Inputs, step: &mut [f64]) -> f64 {
+        let metric = &self.scene.chain.metric;
+        let mut potential = self.potential(inputs);
+        for (s, g) in step.iter_mut().zip(potential.gradient()) {
+            *s = -g;
         }
-        let unit = chain.unit();
+        potential.solve(step);
+        norm(metric, step) / self.scene.chain.unit()
+    }
+
+    /// Steps with the last factorisation, as long as they contract well: cheap, for small changes.
+    ///
+    /// The first may be as long as `longest`; they end when what is left should be within `until`. Whether the
+    /// shape is solved, and evaluated.
+    fn chord(&mut self, inputs: &Inputs, unknowns: &mut [f64], mut longest: f64, until: f64) -> bool {
+        let Scene { chain, settings, .. } = self.scene;
         let mut step = vec![0.0; unknowns.len()];
-        let mut longest = settings.follow_step;
-        let mut last = None;
         for _ in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
-            if potential.slope(unknowns).is_none() {
-                return;
+            let Some(energy) = potential.slope(unknowns) else { return false };
+            let residual = dual_norm(potential.metric(), potential.gradient()) / chain.unit();
+            (self.report.residual, self.report.energy) = (residual, energy);
+            if residual <= settings.tolerance {
+                return true;
             }
-            if dual_norm(potential.metric(), potential.gradient()) / unit <= settings.tolerance {
-                return;
-            }
-            for (s, g) in step.iter_mut().zip(potential.gradient()) {
-                *s = -g;
-            }
-            potential.solve(&mut step);
-            let length = norm(&chain.metric, &step) / unit;
+            let length = self.step(inputs, &mut step);
             if length.is_nan() || length > longest {
-                return;
+                return length < ROUNDING;
             }
-            for (x, s) in unknowns.iter_mut().zip(&step) {
-                *x += s;
-            }
+            apply(unknowns, &step);
             self.report.iterations += 1;
-            // What is left shrinks like the steps do.
-            let shrinks = last.map_or(CHORD_CONTRACTION, |last| length / last);
-            if length * shrinks <= settings.tolerance {
-                return;
-            }
             longest = CHORD_CONTRACTION * length;
-            last = Some(length);
+            if longest <= until {
+                return false;
+            }
         }
+        false
     }
 
     /// Downhill to the next minimum; counts a snap if it is far.
@@ -320,6 +323,13 @@ impl Walk<'_> {
         } else {
             softest.fill(0.0);
         }
+    }
+}
+
+/// Adds a step to the unknowns.
+fn apply(unknowns: &mut [f64], step: &[f64]) {
+    for (x, s) in unknowns.iter_mut().zip(step) {
+        *x += s;
     }
 }
 

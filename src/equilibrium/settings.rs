@@ -57,7 +57,7 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 3. Three more are added where
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
     /// rings act on spans.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
@@ -81,7 +81,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
-            degree: 3,
+            degree: 2,
             cylinder_elements: 8,
             pair_accuracy: 1e-5,
             tolerance: 1e-11,

@@ -223,6 +223,9 @@ impl Equilibrium {
     /// Wrench on the external magnet about its centre.
     #[must_use]
     pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
+        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
+            return no_wrench();
+        }
         let whole = self.magnetic_wrench();
         let background = self.background_wrench(inputs);
         let force = background.force - whole.force;
@@ -238,6 +241,9 @@ impl Equilibrium {
 
     /// What the background field alone does.
     fn background_wrench(&self, inputs: &Inputs) -> Wrench {
+        if inputs.uniform_field == Vector3::zeros() && inputs.field_gradient == [0.0; 5] {
+            return no_wrench();
+        }
         let field = Source::external(None, inputs);
         let origin = self.work.nodes[0].position;
         let mut out = no_wrench();

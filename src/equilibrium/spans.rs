@@ -1,6 +1,6 @@
 //! Rings acting on spans, and spans back on rings.
 
-use nalgebra::{Matrix3, Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::chain::Chain;
 use super::pair::PairLoad;
@@ -100,9 +100,11 @@ impl Potential<'_> {
         let tangent: &mut Tangent = &mut self.work.tangents[k];
         for mixed in self.work.mixed.iter().filter(|mixed| mixed.element == k) {
             let state = &self.work.configurations[k].stations[mixed.station];
-            let (positions, rotations) = tangent.station_columns(element, mixed.station, state);
-            for (row, (position, rotation)) in positions.iter().zip(rotations).enumerate() {
-                let (position, rotation) = (axes * position, axes * rotation);
+            let size = tangent.size;
+            let motion = tangent.station_motion(element, mixed.station, state);
+            for row in 0..size {
+                let along = |first: usize| Vector3::from_fn(|k, _| motion[(first + k) * size + row]);
+                let (position, rotation) = (axes * along(0), axes * along(3));
                 let moved =
                     Vector6::new(position.x, position.y, position.z, rotation.x, rotation.y, rotation.z);
                 let pulled = mixed.matrix * moved;

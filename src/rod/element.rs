@@ -1,5 +1,7 @@
 //! An element: the deformable spans between two nodes, with the tables of its modes and stations.
 
+use core::ops::Range;
+
 use super::basis::{Modes, Part};
 use super::cubature::{Fineness, SectionPoint, section_points};
 use super::moments::SectionMoments;
@@ -93,6 +95,8 @@ pub struct Element {
     pub metric: Vec<f64>,
     /// Strain component of each degree of freedom, 0 to 5.
     pub component: Vec<usize>,
+    /// The same as runs: component and degrees of freedom.
+    pub runs: Vec<(usize, Range<usize>)>,
     /// Rows at the ends of the core (or of the whole element, for a plain rod).
     pub core_ends: [Row; 2],
     modes: [Modes; COMPONENTS],
@@ -122,6 +126,13 @@ impl Element {
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
         let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
         let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
+        let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
+        for (i, c) in component.iter().enumerate() {
+            match runs.last_mut() {
+                Some((last, run)) if last == c => run.end = i + 1,
+                _ => runs.push((*c, i..i + 1)),
+            }
+        }
         let metric = component.iter().map(|c| modes[*c].stiffness()).collect();
         let mut tables = Vec::new();
         let mut first = 0;
@@ -140,6 +151,7 @@ impl Element {
             stations: Vec::new(),
             metric,
             component,
+            runs,
             core_ends: [empty.clone(), empty],
             modes,
             pieces: tables,

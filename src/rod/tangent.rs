@@ -34,9 +34,12 @@ pub struct Tangent {
     pub hessian: Vec<f64>,
     /// Displacement of the end by each amplitude, for a fixed start, m.
     pub end_position: Vec<Vector3<f64>>,
-    tangents: Vec<Vector3<f64>>,
-    positions: Vec<Vector3<f64>>,
-    rotations: Vec<Vector3<f64>>,
+    /// Change of each station's tangent by the amplitudes: three rows a station.
+    tangents: Vec<f64>,
+    /// Displacement and rotation of one station by every column: six rows.
+    motion: Vec<f64>,
+    /// Force and moment that answer to them: six rows.
+    answer: Vec<f64>,
 }
 
 impl Tangent {
@@ -50,9 +53,9 @@ impl Tangent {
             gradient: vec![0.0; size],
             hessian: vec![0.0; size * size],
             end_position: vec![Vector3::zeros(); freedoms],
-            tangents: vec![Vector3::zeros(); freedoms * element.stations.len()],
-            positions: vec![Vector3::zeros(); size],
-            rotations: vec![Vector3::zeros(); size],
+            tangents: vec![0.0; 3 * freedoms * element.stations.len()],
+            motion: vec![0.0; 6 * size],
+            answer: vec![0.0; 6 * size],
         }
     }
 
@@ -136,17 +139,19 @@ impl Tangent {
     fn fill_tangents(&mut self, element: &Element, configuration: &Configuration) {
         let freedoms = element.freedoms();
         for (index, (state, station)) in configuration.stations.iter().zip(&element.stations).enumerate() {
-            let columns = &mut self.tangents[index * freedoms..(index + 1) * freedoms];
+            let rows = &mut self.tangents[3 * index * freedoms..][..3 * freedoms];
             let turned: [Vector3<f64>; 3] =
                 core::array::from_fn(|c| state.left.column(c).cross(&state.tangent));
-            for (i, column) in columns.iter_mut().enumerate() {
-                let c = element.component[i];
-                *column = if c < ROTATIONS {
-                    turned[c] * station.row.integral[i]
+            for (i, c) in element.component.iter().enumerate() {
+                let column = if *c < ROTATIONS {
+                    turned[*c] * station.row.integral[i]
                 } else {
                     state.directors.column(c - ROTATIONS) * station.row.rate[i]
                 };
-                self.end_position[i] += *column * station.weight;
+                for k in 0..3 {
+                    rows[k * freedoms + i] = column[k];
+                }
+                self.end_position[i] += column * station.weight;
             }
         }
     }
@@ -211,17 +216,25 @@ impl Tangent {
                     per_phi[b] = psi_i * shear[a - ROTATIONS][b];
                 }
             }
-            let target = &mut self.hessian[row * size + row..][..size - row];
-            for (((entry, c), phi_j), psi_j) in
-                target.iter_mut().zip(&element.component[i..]).zip(&phi[i..]).zip(&psi[i..])
-            {
-                *entry += per_phi[*c] * phi_j + per_psi[*c] * psi_j;
+            let target = &mut self.hessian[row * size + START..][..size - START];
+            for (c, run) in &element.runs {
+                let run = run.start.max(i)..run.end;
+                if run.is_empty() {
+                    continue;
+                }
+                let (a, b) = (per_phi[*c], per_psi[*c]);
+                let columns = phi[run.clone()].iter().zip(&psi[run.clone()]);
+                for (entry, (phi_j, psi_j)) in target[run].iter_mut().zip(columns) {
+                    *entry += a * phi_j + b * psi_j;
+                }
             }
         }
         let turn = load.couple.transpose() - Matrix3::identity() * load.couple.trace();
         let turn_left = turn * state.left;
         let freedoms = element.freedoms();
-        for (i, (column, phi_i)) in self.tangents[index * freedoms..].iter().zip(phi).enumerate() {
+        let rows = &self.tangents[3 * index * freedoms..][..3 * freedoms];
+        for (i, phi_i) in phi.iter().enumerate() {
+            let column = Vector3::new(rows[i], rows[freedoms + i], rows[2 * freedoms + i]);
             let mut cross = column.cross(beyond);
             let c = element.component[i];
             if c < ROTATIONS {
@@ -233,46 +246,71 @@ impl Tangent {
         }
     }
 
-    /// Displacement and rotation of a station by each column, in the start node's axes.
-    pub fn station_columns(
-        &mut self,
-        element: &Element,
-        index: usize,
-        state: &StationState,
-    ) -> (&[Vector3<f64>], &[Vector3<f64>]) {
-        let freedoms = element.freedoms();
+    /// Displacement and rotation of a station by every column, in the start node's axes: six rows.
+    pub fn station_motion(&mut self, element: &Element, index: usize, state: &StationState) -> &[f64] {
+        let (freedoms, size) = (element.freedoms(), self.size);
         let row = &element.stations[index].row;
+        self.motion.fill(0.0);
         for k in 0..3 {
             let mut unit = Vector3::zeros();
             unit[k] = 1.0;
-            self.positions[k] = unit;
-            self.rotations[k] = Vector3::zeros();
-            self.positions[3 + k] = unit.cross(&state.position);
-            self.rotations[3 + k] = unit;
-        }
-        for i in 0..freedoms {
-            let mut position = Vector3::zeros();
-            for (station, weight) in row.position.iter().enumerate() {
-                position += self.tangents[station * freedoms + i] * *weight;
+            let swing = unit.cross(&state.position);
+            self.motion[k * size + k] = 1.0;
+            for axis in 0..3 {
+                self.motion[axis * size + 3 + k] = swing[axis];
             }
-            self.positions[START + i] = position;
-            let c = element.component[i];
-            self.rotations[START + i] =
-                if c < ROTATIONS { state.left.column(c) * row.integral[i] } else { Vector3::zeros() };
+            self.motion[(3 + k) * size + 3 + k] = 1.0;
+            let target = &mut self.motion[k * size + START..][..freedoms];
+            for (station, weight) in row.position.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let source = &self.tangents[(3 * station + k) * freedoms..][..freedoms];
+                for (entry, value) in target.iter_mut().zip(source) {
+                    *entry += weight * value;
+                }
+            }
+            let target = &mut self.motion[(3 + k) * size + START..][..freedoms];
+            for (c, run) in element.runs.iter().filter(|(c, _)| *c < ROTATIONS) {
+                let factor = state.left[(k, *c)];
+                for (entry, value) in target[run.clone()].iter_mut().zip(&row.integral[run.clone()]) {
+                    *entry = factor * value;
+                }
+            }
         }
-        (&self.positions, &self.rotations)
+        &self.motion
     }
 
     /// Second derivatives of a station's load by its own position and directors.
     fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
-        self.station_columns(element, index, state);
-        for j in 0..self.size {
-            let (position, rotation) = (self.positions[j], self.rotations[j]);
-            let force = load.position_position * position + load.position_rotation * rotation;
-            let moment = load.position_rotation.tr_mul(&position) + load.rotation_rotation * rotation;
-            for i in 0..=j {
-                self.hessian[i * self.size + j] +=
-                    self.positions[i].dot(&force) + self.rotations[i].dot(&moment);
+        self.station_motion(element, index, state);
+        let size = self.size;
+        let stiffness = |r: usize, c: usize| match (r / 3, c / 3) {
+            (0, 0) => load.position_position[(r, c)],
+            (0, _) => load.position_rotation[(r, c - 3)],
+            (_, 0) => load.position_rotation[(c, r - 3)],
+            _ => load.rotation_rotation[(r - 3, c - 3)],
+        };
+        self.answer.fill(0.0);
+        for r in 0..6 {
+            let target = &mut self.answer[r * size..][..size];
+            for c in 0..6 {
+                let factor = stiffness(r, c);
+                for (entry, value) in target.iter_mut().zip(&self.motion[c * size..][..size]) {
+                    *entry += factor * value;
+                }
+            }
+        }
+        for i in 0..size {
+            let target = &mut self.hessian[i * size + i..][..size - i];
+            // Strains do not turn the station: their second pass is empty.
+            for half in [0, 3] {
+                let factor: [f64; 3] = core::array::from_fn(|k| self.motion[(half + k) * size + i]);
+                if factor == [0.0; 3] {
+                    continue;
+                }
+                let [x, y, z]: [&[f64]; 3] =
+                    core::array::from_fn(|k| &self.answer[(half + k) * size + i..][..size - i]);
+                for (entry, ((x, y), z)) in target.iter_mut().zip(x.iter().zip(y).zip(z)) {
+                    *entry += factor[0] * x + factor[1] * y + factor[2] * z;
+                }
             }
         }
     }

@@ -36,7 +36,7 @@ fn antiparallel(row: &Row, size: f64) -> Inputs {
 fn an_antiparallel_field_buckles_the_straight_shape() {
     let mut count = 0;
     for row in rows().iter().filter(|row| row.id.starts_with("c5_crit_antiparallel")) {
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         assert!(equilibrium.solve(&row.inputs).expect("finite inputs").solved, "{}", row.id);
         let straight = equilibrium.unknowns().to_vec();
         let length = row.design().length();
@@ -52,7 +52,7 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         assert!(error <= bound, "{}: got {found}, expected {expected}: {error:e}", row.id);
         println!("{}: {error:e}", row.id);
         // The solver sees the same: straight up to there, bent beyond.
-        let mut solver = row.equilibrium();
+        let mut solver = row.refined();
         let before = solver.solve(&antiparallel(row, 0.99 * expected)).expect("finite inputs");
         assert!(before.solved && before.snaps == 0 && before.margin > 0.0, "{}: {before:?}", row.id);
         assert!(before.margin < 0.05, "{}: {before:?}", row.id);
@@ -68,7 +68,7 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         // A hundredth aside it is bent and stable.
         let mut aside = antiparallel(row, 1.01 * expected);
         aside.uniform_field.y = 0.01 * expected;
-        let mut solver = row.equilibrium();
+        let mut solver = row.refined();
         let after = solver.solve(&aside).expect("finite inputs");
         assert!(after.solved && after.margin > 0.0 && off_axis(&solver) > 0.1, "{}: {after:?}", row.id);
         count += 1;
@@ -81,7 +81,7 @@ fn without_a_field_the_manipulator_is_straight_stable_and_shorter() {
     let mut count = 0;
     for row in rows().iter().filter(|row| row.id.starts_with("c5_zero_field") && row.interaction().is_some())
     {
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         let report = equilibrium.solve(&row.inputs).expect("finite inputs");
         assert!(report.solved && report.snaps == 0, "{}: {report:?}", row.id);
         assert!(report.margin > 0.0 && number(&row.outputs, "min_hessian_eig_sign") > 0.0, "{}", row.id);
@@ -119,7 +119,7 @@ fn the_rings_own_attraction_buckles_a_soft_enough_core() {
 fn row_with_hardness(shore_a: f64) -> Equilibrium {
     let mut row = row("c5_crit_Br_S1_rings");
     row.segmented.helix.shore_a = shore_a;
-    row.equilibrium()
+    row.refined()
 }
 
 /// The unknowns of the straight equilibrium, stable or not: Newton's method, damped so that every step is a descent;

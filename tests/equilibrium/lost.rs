@@ -28,7 +28,7 @@ fn is_lost(report: &Report) -> bool {
 fn a_lost_branch_is_never_passed_in_silence() {
     for row in lost_rows() {
         // In one step from the unloaded shape, by the way that the table took.
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         if row.turned.is_some() {
             equilibrium.solve(&row.turned_to(0.0)).expect("finite inputs");
             let mut lost = false;
@@ -49,7 +49,7 @@ fn the_turned_field_loses_the_branch_where_the_table_does() {
     let mut count = 0;
     for row in lost_rows().iter().filter(|row| row.turned.is_some()) {
         let fold = list(&row.outputs["fold_theta_deg"]);
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         let mut angle = 0.0;
         while angle < row.field_angle
             && !is_lost(&equilibrium.solve(&row.turned_to(angle)).expect("finite inputs"))
@@ -72,7 +72,7 @@ fn the_growing_magnet_loses_the_branch_where_the_table_does() {
     let (mut count, mut unreachable) = (0, 0);
     for row in lost_rows().iter().filter(|row| row.magnet.is_some()) {
         let fold = list(&row.outputs["fold_magnet_scale"]);
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         let mut strength = 0.0;
         let end = fold[1] * (1.0 + 2.0 * FOLD_STRENGTH);
         while strength < end && !is_lost(&equilibrium.solve(&row.ramped_to(strength)).expect("finite inputs"))
@@ -104,7 +104,7 @@ fn close_to_the_fold_the_margin_tells() {
         let last = list(&row.outputs["fold_theta_deg"])[0] - BEFORE;
         let expected = &row.outputs["state_at_last_stable"];
         assert!(number(expected, "min_hessian_eig_sign") > 0.0, "{id}");
-        let mut equilibrium = row.equilibrium();
+        let mut equilibrium = row.refined();
         let (mut margins, mut above) = (Vec::new(), f64::NAN);
         for step in 0..=100 {
             let inputs = row.turned_to(last * f64::from(step) / 100.0);

@@ -150,9 +150,18 @@ impl Row {
 
     /// The manipulator, unsolved, with the ring pairs integrated to the accuracy of the table.
     pub(crate) fn equilibrium(&self) -> Equilibrium {
+        self.with(Settings::default())
+    }
+
+    /// The same, resolved more finely than a user's: for loads at which a shape loses its stability.
+    pub(crate) fn refined(&self) -> Equilibrium {
+        self.with(Settings { pair_accuracy: PAIRS, degree: 3, ..Settings::default() })
+    }
+
+    fn with(&self, settings: Settings) -> Equilibrium {
         let interaction = self.interaction().expect("a level that this project has");
-        let settings = Settings { interaction, pair_accuracy: PAIRS, ..Settings::default() };
-        Equilibrium::new(&self.design(), self.magnet.as_ref(), settings, 2).expect("default settings")
+        let settings = Settings { interaction, ..settings };
+        Equilibrium::new(&self.design(), self.magnet.as_ref(), settings, 2).expect("allowed settings")
     }
 
     /// The inputs with the field `angle` degrees from +z towards +y.
