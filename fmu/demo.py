@@ -4,6 +4,7 @@ import argparse
 import csv
 import math
 import shutil
+from collections.abc import Callable
 from pathlib import Path
 
 import demo_picture
@@ -26,8 +27,12 @@ REACH = 0.18  # the pass goes this far before and behind the manipulator's middl
 MIDDLE = 0.023  # the manipulator's middle, m
 TURN = math.radians(45)  # about x, towards the tip
 
-# Axis of the magnet from the axis of the manipulator, m.
-DISTANCE = 0.12
+# Axis of the magnet from the axis of the manipulator, m. On this path no core bends by the boundary angle of 40 deg,
+# at which its windings would touch.
+DISTANCE = 0.14
+
+# What `solver.status` says when the other outputs are the last good ones.
+NOT_SOLVED = 3
 
 
 def eased(share: float) -> float:
@@ -68,6 +73,9 @@ class Device:
         self.rings = sum(name.startswith("ring[") and name.endswith("].axis[1]") for name in reals)
         self.points = sum(name.startswith("shape.position[") and name.endswith(",1]") for name in reals)
         self.reals = reals
+        self.cores = [name for name in reals if name.startswith("core[")]
+        start = next(v.start for v in variables if v.name == "design.helix.boundary_angle")
+        self.boundary = float(start)
         self.running = False
 
     def start(self, distance: float) -> None:
@@ -93,12 +101,28 @@ class Device:
         self.place((index + 1) * STEP, distance)
         self.slave.doStep(currentCommunicationPoint=index * STEP, communicationStepSize=STEP)
 
+    def status(self) -> int:
+        """How the last step ended."""
+        return self.slave.getInteger([self.reference["solver.status"]])[0]
+
     def held(self) -> bool:
         """Whether the shape is stable and has never snapped."""
         stable = self.slave.getBoolean([self.reference["stability.stable"]])[0]
         snaps = self.slave.getInteger([self.reference["stability.snaps"]])[0]
-        status = self.slave.getInteger([self.reference["solver.status"]])[0]
-        return bool(stable) and snaps == 0 and status != 3
+        return bool(stable) and snaps == 0 and self.status() != NOT_SOLVED
+
+    def apart(self) -> bool:
+        """Whether it is held and no two windings touch."""
+        return self.held() and self.largest_core_angle() < self.boundary
+
+    def largest_core_angle(self) -> float:
+        """Bending of the core that bends most, rad."""
+        return max(self.slave.getReal([self.reference[name] for name in self.cores]))
+
+    def summary(self) -> dict[str, float]:
+        """Margin and largest core angle (deg)."""
+        margin = self.slave.getReal([self.reference["stability.margin"]])[0]
+        return {"margin": margin, "core": math.degrees(self.largest_core_angle())}
 
     def row(self, time: float, distance: float) -> dict[str, float]:
         """Everything that the table holds for this time, units in the names."""
@@ -111,6 +135,8 @@ class Device:
             "magnet_z_mm": 1e3 * z,
             "magnet_turn_deg": math.degrees(turn),
             "tip_angle_deg": math.degrees(real["tip.angle"]),
+            "largest_core_angle_deg": max(math.degrees(real[name]) for name in self.cores),
+            "boundary_angle_deg": math.degrees(self.boundary),
         }
         for axis, name in enumerate("xyz", start=1):
             row[f"magnetic_force_{name}_mn"] = 1e3 * real[f"force.magnetic[{axis}]"]
@@ -140,28 +166,49 @@ def steps() -> int:
     return round(STOP / STEP)
 
 
-def holds(device: Device, distance: float) -> bool:
-    """Whether the manipulator keeps its shape along the whole path at this distance."""
-    try:
-        device.start(distance)
-        for index in range(steps()):
-            if not device.held():
-                return False
+def follow(device: Device, distance: float, keeps: Callable[[Device], bool]) -> dict[str, float] | None:
+    """When and how the device first no longer `keeps`, and its summary a step before; `None`: it keeps to the end."""
+    device.start(distance)
+    for index in range(steps()):
+        before = device.summary()
+        try:
             device.step(index, distance)
-    except FMICallException:  # no equilibrium was found, not even after a snap
-        return False
-    return device.held()
+            kept = keeps(device)
+        except FMICallException:  # no equilibrium was found: the last good outputs are kept
+            kept = False
+        if not kept:
+            return {"time": (index + 1) * STEP, "status": device.status(), **before}
+    return None
 
 
-def closest(device: Device, near: float = 0.07, far: float = DISTANCE) -> float:
-    """Smallest distance (m, to 0.1 mm) at which the manipulator keeps its shape along the whole path."""
-    with tqdm(total=math.ceil(math.log2((far - near) / 1e-4)), desc="how close", unit="run") as bar:
+def closest(device: Device, words: str, keeps: Callable[[Device], bool], far: float) -> tuple[float, float]:
+    """Two distances (m), 0.1 mm apart: from the first on inwards the device does not keep on the whole path."""
+    near = 0.07
+    with tqdm(total=math.ceil(math.log2((far - near) / 1e-4)), desc=words, unit="run") as bar:
         while far - near > 1e-4:
             middle = (near + far) / 2
-            near, far = (near, middle) if holds(device, middle) else (middle, far)
-            bar.set_postfix_str(f"{1e3 * near:.1f} mm snaps, {1e3 * far:.1f} mm holds")
+            near, far = (middle, far) if follow(device, middle, keeps) else (near, middle)
             bar.update()
-    return far
+    return near, far
+
+
+def search(device: Device) -> None:
+    """Says how close the magnet can come, and what happens then."""
+    _, apart = closest(device, "windings apart", Device.apart, 0.16)
+    near, kept = closest(device, "shape kept", Device.held, apart)
+    print(f"adjacent windings stay apart down to {1e3 * apart:.1f} mm from axis to axis;")
+    print(f"without a stop at their contact the shape is kept down to {1e3 * kept:.1f} mm.")
+    event = follow(device, near, Device.held)
+    if event is None:
+        return
+    z, _ = path(event["time"])
+    end = "no stable shape is found" if event["status"] == NOT_SOLVED else "the shape snaps"
+    print(
+        f"At {1e3 * near:.1f} mm, with the magnet at z = {1e3 * z:.0f} mm, {end} (solver.status {event['status']:.0f});"
+    )
+    print(
+        f"a step before, the margin was {event['margin']:.2f} and one core bent by {event['core']:.0f} deg."
+    )
 
 
 def run(device: Device, distance: float) -> list[dict[str, float]]:
@@ -189,10 +236,7 @@ def main() -> None:
     device = Device(arguments.fmu)
     try:
         if not arguments.no_search:
-            found = 1e3 * closest(device)
-            print(
-                f"the manipulator keeps its shape down to {found:.1f} mm from axis to axis; closer, it snaps"
-            )
+            search(device)
         rows = run(device, 1e-3 * arguments.distance)
     finally:
         device.close()

@@ -35,16 +35,16 @@ def draw_manipulator(axes, row, colour, alpha=1.0) -> None:
     across *= CORE / 2 / np.hypot(*across)
     left, right = np.array([z, y]) + across, np.array([z, y]) - across
     ribbon = np.concatenate([left.T, right.T[::-1]])
-    axes.add_patch(Polygon(ribbon, facecolor=colour, alpha=0.35 * alpha, lw=0, zorder=3))
+    axes.add_patch(Polygon(ribbon, facecolor=colour, alpha=0.35 * alpha, lw=0, zorder=20))
     rings = sum(name.startswith("ring_") and name.endswith("_axis_y") for name in row.dtype.names)
     for k in range(1, rings + 1):
         axis = (row[f"ring_{k}_axis_y"], row[f"ring_{k}_axis_z"])
         corners = box(row[f"ring_{k}_y_mm"], row[f"ring_{k}_z_mm"], axis, *RING)
-        axes.add_patch(Polygon(corners, facecolor=colour, edgecolor="none", alpha=alpha, zorder=4))
+        axes.add_patch(Polygon(corners, facecolor=colour, edgecolor="none", alpha=alpha, zorder=21))
 
 
-def draw_magnet(axes, row, colour, label) -> None:
-    """The pair, each cylinder half north, half south."""
+def draw_magnet(axes, row, colour, label, floor) -> None:
+    """The pair, each cylinder half north, half south; it hides what has a lower `floor`."""
     turn = np.pi + np.radians(row["magnet_turn_deg"])
     axis = (-np.sin(turn), np.cos(turn))  # (y, z) of the third axis, turned about x
     y, z = row["magnet_y_mm"], row["magnet_z_mm"]
@@ -52,13 +52,24 @@ def draw_magnet(axes, row, colour, label) -> None:
         for half, pole in ((-1, SOUTH), (1, NORTH)):
             shift = offset + half * MAGNET[1] / 4
             corners = box(y + shift * axis[0], z + shift * axis[1], axis, MAGNET[0], MAGNET[1] / 2)
-            axes.add_patch(Polygon(corners, facecolor=pole, alpha=0.10, lw=0, zorder=1))
+            axes.add_patch(Polygon(corners, facecolor=pole, alpha=0.16, lw=0, zorder=floor + 0.1))
+            name = "N" if half > 0 else "S"
+            at = (z + shift * axis[1], y + shift * axis[0])
+            axes.text(*at, name, color=pole, ha="center", va="center", fontsize=8, zorder=floor + 0.2)
         corners = box(y + offset * axis[0], z + offset * axis[1], axis, *MAGNET)
-        axes.add_patch(Polygon(corners, fill=False, edgecolor=colour, lw=1.6, zorder=2))
-    # Above a magnet that lies along the manipulator, below one that is turned.
-    turned = row["magnet_turn_deg"] > 1
-    place = {"y": y - 45, "va": "top"} if turned else {"y": y + 25, "va": "bottom"}
-    axes.text(z, place["y"], label, color=colour, ha="center", va=place["va"], fontweight="bold", zorder=5)
+        axes.add_patch(Polygon(corners, facecolor="white", edgecolor=colour, lw=1.6, zorder=floor))
+    # Under the left end of a magnet that lies along the manipulator, above the middle of one that is turned.
+    if row["magnet_turn_deg"] > 1:
+        axes.text(z - 9, y + 44, label, color=colour, ha="center", va="bottom", fontweight="bold", zorder=22)
+    else:
+        axes.text(z - 35, y - 25, label, color=colour, ha="left", va="top", fontweight="bold", zorder=22)
+
+
+def draw_clamp(axes, size: float) -> None:
+    """The wall that holds the base, `size` mm high."""
+    axes.plot([0, 0], [-size / 2, size / 2], color=INK, lw=1.6, zorder=22)
+    for y in np.linspace(-size / 2, size / 2, 6):
+        axes.plot([0, -size / 6], [y, y - size / 6], color=INK, lw=0.8, zorder=22)
 
 
 def tidy(axes) -> None:
@@ -70,15 +81,16 @@ def tidy(axes) -> None:
 
 def draw_scene(axes, rows, instants, colours) -> None:
     """The whole scene to scale."""
-    for index, colour in zip(instants, colours, strict=True):
+    for floor, (index, colour) in enumerate(zip(instants, colours, strict=True), start=1):
         row = rows[index]
         draw_manipulator(axes, row, colour)
-        draw_magnet(axes, row, colour, f"{row['time_s']:.0f} s")
-    axes.text(1, 4, "base", ha="right", va="bottom", fontsize=8)
+        draw_magnet(axes, row, colour, f"{row['time_s']:.0f} s", floor)
+    draw_clamp(axes, 14)
+    axes.text(-4, 9, "clamped base", ha="right", va="bottom", fontsize=8)
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.margins(0.02)
-    axes.set(xlabel="z (mm), along the straight manipulator", ylabel="y (mm)", ylim=(-180, None))
+    axes.set(xlabel="z (mm), along the straight manipulator", ylabel="y (mm)", ylim=(-195, None))
     axes.set_title("Magnet pair and manipulator, to scale", loc="left")
     tidy(axes)
 
@@ -90,8 +102,9 @@ def draw_shapes(axes, rows, instants, colours) -> None:
         axes.plot([], [], color=colour, lw=5, label=f"{rows['time_s'][index]:.0f} s")
     axes.set_aspect("equal")
     axes.autoscale_view()
+    draw_clamp(axes, 8)
     axes.set(xlabel="z (mm)", ylabel="y (mm)")
-    axes.set_title("Shapes", loc="left")
+    axes.set_title("Shapes: rings, and cores between them", loc="left")
     axes.legend(frameon=False, fontsize=8, loc="best", handlelength=1.2)
     tidy(axes)
 
@@ -100,15 +113,20 @@ def draw_histories(panels, rows, instants, colours) -> None:
     """Tip angle, forces and stability margin against time."""
     time = rows["time_s"]
     angle, force, margin = panels
-    angle.plot(time, rows["tip_angle_deg"], color=INK)
-    angle.set_ylabel("tip angle (deg)")
+    angle.plot(time, rows["tip_angle_deg"], color=INK, label="tip")
+    angle.plot(time, rows["largest_core_angle_deg"], color=SOUTH, label="most bent core")
+    boundary = rows["boundary_angle_deg"][0]
+    angle.axhline(boundary, color=NORTH, lw=1, ls="--")
+    angle.text(10, boundary, "windings touch", color=NORTH, ha="center", va="bottom", fontsize=8)
+    angle.set_ylabel("angle (deg)")
+    angle.legend(frameon=False, ncols=2, fontsize=8, loc="upper right")
     for axis, colour in (("y", NORTH), ("z", SOUTH)):
         force.plot(time, rows[f"magnetic_force_{axis}_mn"], color=colour, label=f"$F_{axis}$")
     force.set_ylabel("magnetic\nforce (mN)")
     force.legend(frameon=False, ncols=2, fontsize=8, loc="best")
     margin.plot(time, rows["stability_margin"], color=INK)
     margin.axhline(0, color=NORTH, lw=1, ls="--")
-    margin.text(time[-1], 0, "snaps ", color=NORTH, ha="right", va="bottom", fontsize=8)
+    margin.text(time[-1], 0, "fold ", color=NORTH, ha="right", va="bottom", fontsize=8)
     margin.set(ylabel="stability\nmargin (1)", xlabel="time (s)")
     for axes in panels:
         for index, colour in zip(instants, colours, strict=True):
