@@ -69,15 +69,18 @@ impl Workspace {
         }
     }
 
+    /// Pose of a station in the world.
+    pub(super) fn station(&self, element: usize, index: usize) -> Pose {
+        let state = &self.configurations[element].stations[index];
+        self.nodes[element].compose(&Pose { position: state.position, rotation: state.directors })
+    }
+
     /// Places all stations and nodes for the given base and unknowns.
     pub(super) fn place(&mut self, chain: &Chain, base: &Pose, unknowns: &[f64]) {
         self.nodes[0] = *base;
         for (k, element) in chain.elements.iter().enumerate() {
             self.configurations[k].update(element, chain.part(k, unknowns));
-            let end = self.configurations[k].end;
-            let start = self.nodes[k];
-            self.nodes[k + 1] =
-                Pose { position: start.transform(&end.position), rotation: start.rotation * end.rotation };
+            self.nodes[k + 1] = self.nodes[k].compose(&self.configurations[k].end);
         }
     }
 }
@@ -153,11 +156,7 @@ impl Potential<'_> {
         for (k, element) in self.chain.elements.iter().enumerate() {
             let start = self.work.nodes[k];
             for (index, station) in element.stations.iter().enumerate() {
-                let state = &self.work.configurations[k].stations[index];
-                let pose = Pose {
-                    position: start.transform(&state.position),
-                    rotation: start.rotation * state.directors,
-                };
+                let pose = self.work.station(k, index);
                 let magnetic = self.field.on_station(station, &pose, order)?;
                 let axes = self.field.axes();
                 let arm = pose.position - self.inputs.base.position;

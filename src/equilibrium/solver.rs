@@ -203,8 +203,7 @@ impl Equilibrium {
     fn on_element(&self, element: usize, row: &Row) -> Pose {
         let unknowns = self.chain.part(element, &self.branch.unknowns);
         let local = self.work.configurations[element].pose_at(&self.chain.elements[element], row, unknowns);
-        let start = &self.work.nodes[element];
-        Pose { position: start.transform(&local.position), rotation: start.rotation * local.rotation }
+        self.work.nodes[element].compose(&local)
     }
 
     /// Force and moment (about the base position) that the clamp exerts.
@@ -258,12 +257,8 @@ impl Equilibrium {
             add(field.on_ring(body, node, rule, Order::Gradient), &node.position);
         }
         for (k, element) in self.chain.elements.iter().enumerate() {
-            for (station, state) in element.stations.iter().zip(&self.work.configurations[k].stations) {
-                let start = &self.work.nodes[k];
-                let pose = Pose {
-                    position: start.transform(&state.position),
-                    rotation: start.rotation * state.directors,
-                };
+            for (index, station) in element.stations.iter().enumerate() {
+                let pose = self.work.station(k, index);
                 add(field.on_station(station, &pose, Order::Gradient), &pose.position);
             }
         }

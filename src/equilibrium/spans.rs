@@ -7,7 +7,6 @@ use super::pair::PairLoad;
 use super::potential::Potential;
 use super::settings::Interaction;
 use super::source::Source;
-use crate::geometry::Pose;
 use crate::rod::{Load, Order, Station, Tangent};
 
 /// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
@@ -46,11 +45,7 @@ impl Potential<'_> {
         for (k, element) in self.chain.elements.iter().enumerate() {
             let start = self.work.nodes[k];
             for (index, station) in element.stations.iter().enumerate() {
-                let state = &self.work.configurations[k].stations[index];
-                let pose = Pose {
-                    position: start.transform(&state.position),
-                    rotation: start.rotation * state.directors,
-                };
+                let pose = self.work.station(k, index);
                 for body in &self.chain.rings {
                     if !acts(self.chain, level, body.node, k, station) {
                         continue;

@@ -77,6 +77,12 @@ impl Pose {
         self.position + self.rotation * local
     }
 
+    /// The pose in the world of what has the pose `local` in this frame.
+    #[must_use]
+    pub fn compose(&self, local: &Self) -> Self {
+        Self { position: self.transform(&local.position), rotation: self.rotation * local.rotation }
+    }
+
     /// The frame moved by `distance` (m) along its own axis.
     #[must_use]
     pub fn advanced(&self, distance: f64) -> Self {
