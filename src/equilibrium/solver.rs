@@ -240,7 +240,7 @@ impl Equilibrium {
 
     /// What the background field alone does.
     fn background_wrench(&self, inputs: &Inputs) -> Wrench {
-        if inputs.uniform_field == Vector3::zeros() && inputs.field_gradient == [0.0; 5] {
+        if inputs.uniform_field == Vector3::zeros() && inputs.field_gradient.iter().all(|g| *g == 0.0) {
             return no_wrench();
         }
         let field = Source::external(None, inputs);

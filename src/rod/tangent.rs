@@ -303,7 +303,7 @@ impl Tangent {
             // Strains do not turn the station: their second pass is empty.
             for half in [0, 3] {
                 let factor: [f64; 3] = core::array::from_fn(|k| self.motion[(half + k) * size + i]);
-                if factor == [0.0; 3] {
+                if factor.iter().all(|entry| *entry == 0.0) {
                     continue;
                 }
                 let [x, y, z]: [&[f64]; 3] =
