@@ -93,3 +93,13 @@ fn scene_of_the_readme_is_solved() {
     assert_eq!(answer["ring_positions_m"].as_array().unwrap().len(), 4);
     assert_eq!(answer["stable"], true);
 }
+
+#[test]
+fn past_the_last_fold_the_last_good_shape_is_printed_with_status_2() {
+    // The attraction of rings and helix pulls one segment shut at 35.86 mT: there is no shape at 60 mT.
+    let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
+    let answer = json("shut", scene, 2);
+    assert_eq!(answer["converged"], false);
+    let (_, output) = with_scene("shut", scene, &["solve", "scene.toml"]);
+    assert!(stderr(&output).contains("not converged"), "{}", stderr(&output));
+}
