@@ -25,8 +25,7 @@ impl Objective for Potential<'_> {
         &self.work.gradient
     }
 
-    /// Where the forces have no potential, whether the matrix is regular (and its symmetric part positive
-    /// definite, where that has a meaning).
+    /// Where the forces have no potential, whether the matrix is regular.
     fn factorise(&mut self, shift: f64) -> bool {
         let size = 6 * self.chain.elements.len();
         self.work.factored = false;
@@ -42,14 +41,13 @@ impl Objective for Potential<'_> {
             *axes = node.rotation;
         }
         work.lu = None;
-        let mut regular = true;
-        if !self.conservative() {
-            let lu = self.asymmetric_matrix().lu();
-            regular = lu.is_invertible();
-            self.work.lu = Some(lu);
+        let conservative = self.conservative();
+        if !conservative {
+            self.work.lu = Some(self.asymmetric_matrix().lu());
         }
-        let definite = !self.has_verdict() || cholesky::factorise(&mut self.work.factor, size);
-        self.work.factored = definite && regular;
+        self.work.definite = !self.one_sided() && cholesky::factorise(&mut self.work.factor, size);
+        let regular = self.work.lu.as_ref().is_some_and(nalgebra::LU::is_invertible);
+        self.work.factored = if conservative { self.work.definite } else { regular };
         self.work.factored
     }
 

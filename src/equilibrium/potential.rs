@@ -38,6 +38,8 @@ pub(super) struct Workspace {
     pub(super) lu: Option<LU<f64, Dyn, Dyn>>,
     /// Whether `factor` and the reductions hold a factorisation, of this shape or an earlier one.
     pub(super) factored: bool,
+    /// Whether the symmetric part of that matrix is positive definite, and its Cholesky factor there.
+    pub(super) definite: bool,
     /// Axes of the elements' start nodes in that factorisation.
     pub(super) axes: Vec<Matrix3<f64>>,
     pub(super) rhs: Vec<f64>,
@@ -64,6 +66,7 @@ impl Workspace {
             factor: vec![0.0; size * size],
             lu: None,
             factored: false,
+            definite: false,
             axes: vec![Matrix3::identity(); count],
             rhs: vec![0.0; size],
         }
@@ -97,17 +100,22 @@ pub(super) struct Potential<'a> {
 }
 
 impl Potential<'_> {
-    /// Whether the forces have a potential: without reactions, or with a dead moment, they have none.
-    pub(super) fn conservative(&self) -> bool {
+    /// Whether rings act on what follows them without a reaction, other than from the clamped base.
+    pub(super) fn one_sided(&self) -> bool {
         let last = self.chain.elements.len();
-        let one_sided = self.settings.interaction == Interaction::Preceding
-            && self.chain.rings.iter().any(|body| (1..last).contains(&body.node));
-        !one_sided && self.inputs.tip_moment == Vector3::zeros()
+        self.settings.interaction == Interaction::Preceding
+            && self.chain.rings.iter().any(|body| (1..last).contains(&body.node))
     }
 
-    /// Whether the Hessian (its symmetric part, for a dead moment) tells what is stable.
+    /// Whether the forces have a potential: without reactions, or with a dead moment, they have none.
+    pub(super) fn conservative(&self) -> bool {
+        !self.one_sided() && self.inputs.tip_moment == Vector3::zeros()
+    }
+
+    /// Whether the last factorisation tells that the shape is stable. Of a dead moment the symmetric part of the
+    /// stiffness decides: where it is positive definite no displacement gains energy.
     pub(super) fn has_verdict(&self) -> bool {
-        self.conservative() || self.settings.interaction != Interaction::Preceding
+        self.work.definite
     }
 
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
