@@ -20,18 +20,6 @@ use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, meas
 use mcm::magnetics::AxialSource;
 use nalgebra::Vector3;
 
-/// Points 2.1 to 6 radii from the centre, all around: outside the magnet, inside six extents.
-fn points(radius: f64) -> Vec<Vector3<f64>> {
-    (0..64)
-        .map(|i| {
-            let i = f64::from(i);
-            let (distance, polar, azimuth) = (radius * (2.1 + i * 3.9 / 63.0), 0.1 + i * 0.0465, i * 2.4);
-            let rho = distance * polar.sin();
-            Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), distance * polar.cos())
-        })
-        .collect()
-}
-
 fn measure(
     group: &mut BenchmarkGroup<'_, WallTime>,
     points: &[Vector3<f64>],
@@ -49,17 +37,17 @@ fn measure(
 fn field(criterion: &mut Criterion) {
     let ring = reference::ring();
     let mut group = criterion.benchmark_group("ring");
-    measure(&mut group, &points(2.0e-3), &ring, peer::ring);
+    measure(&mut group, &peer::points(2.0e-3), &ring, peer::ring);
     group.finish();
 
-    let far: Vec<_> = points(2.0e-3).iter().map(|point| point * 8.0).collect();
+    let far: Vec<_> = peer::points(2.0e-3).iter().map(|point| point * 8.0).collect();
     let mut group = criterion.benchmark_group("ring, 17 to 48 radii away");
     measure(&mut group, &far, &ring, peer::ring);
     group.finish();
 
     let cylinder = AxialSource::new(0.0, 22.5e-3, 30.0e-3, 1.35).expect("allowed");
     let mut group = criterion.benchmark_group("cylinder");
-    measure(&mut group, &points(22.5e-3), &cylinder, |point| peer::cylinder(point, 22.5e-3, 30.0e-3));
+    measure(&mut group, &peer::points(22.5e-3), &cylinder, |point| peer::cylinder(point, 22.5e-3, 30.0e-3));
     group.finish();
 }
 

@@ -23,18 +23,6 @@ use nalgebra::Vector3;
 const ROUNDS: usize = 2000;
 const PASSES: usize = 4;
 
-/// Points 2.1 to 6 radii from the centre, all around, as in `field.rs`.
-fn points(radius: f64) -> Vec<Vector3<f64>> {
-    (0..64)
-        .map(|i| {
-            let i = f64::from(i);
-            let (distance, polar, azimuth) = (radius * (2.1 + i * 3.9 / 63.0), 0.1 + i * 0.0465, i * 2.4);
-            let rho = distance * polar.sin();
-            Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), distance * polar.cos())
-        })
-        .collect()
-}
-
 /// Nanoseconds per point of one round.
 fn time<T>(points: &[Vector3<f64>], evaluate: impl Fn(&Vector3<f64>) -> T) -> f64 {
     let start = Instant::now();
@@ -69,10 +57,12 @@ fn measure(
 fn main() {
     println!("nanoseconds per point, fastest of {ROUNDS} alternating rounds");
     println!("| source | B | B and G | B, G and H | magba B |\n| --- | --- | --- | --- | --- |");
-    let (ring, near) = (reference::ring(), points(2.0e-3));
+    let (ring, near) = (reference::ring(), peer::points(2.0e-3));
     measure("ring, 2 to 6 radii", &ring, &near, peer::ring);
     let far: Vec<_> = near.iter().map(|point| point * 8.0).collect();
     measure("ring, 17 to 48 radii", &ring, &far, peer::ring);
     let cylinder = AxialSource::new(0.0, 22.5e-3, 30.0e-3, 1.35).expect("allowed");
-    measure("cylinder, 2 to 6 radii", &cylinder, &points(22.5e-3), |p| peer::cylinder(p, 22.5e-3, 30.0e-3));
+    measure("cylinder, 2 to 6 radii", &cylinder, &peer::points(22.5e-3), |p| {
+        peer::cylinder(p, 22.5e-3, 30.0e-3)
+    });
 }

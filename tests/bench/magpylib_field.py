@@ -26,7 +26,7 @@ def cylinder(diameter: float, height: float, z: float = 0.0, sign: float = 1.0):
 
 
 def points(radius: float) -> np.ndarray:
-    """The points of `field.rs`: 2.1 to 6 radii from the centre."""
+    """The points of `peer.rs`: 2.1 to 6 radii from the centre."""
     i = np.arange(64)
     distance, polar, azimuth = radius * (2.1 + i * 3.9 / 63.0), 0.1 + i * 0.0465, i * 2.4
     rho = distance * np.sin(polar)

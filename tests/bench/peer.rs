@@ -1,4 +1,4 @@
-//! The same ring and pair in the crate magba, which gives the field alone.
+//! What the benches of the field share: points, and the same ring and pair in the crate magba, which gives the field alone.
 
 use magba::fields::cylinder_B;
 use nalgebra::Vector3;
@@ -29,4 +29,17 @@ pub(crate) fn pair(point: &Vector3<f64>) -> [f64; 3] {
     let [below, above] =
         [-20.0e-3, 20.0e-3].map(|z| cylinder(&(point - Vector3::new(0.0, 0.0, z)), 22.5e-3, 30.0e-3));
     core::array::from_fn(|i| below[i] + above[i])
+}
+
+/// Points 2.1 to 6 radii from the centre, all around: outside the magnet, inside six extents.
+#[allow(dead_code, reason = "each program of this folder uses its own part")]
+pub(crate) fn points(radius: f64) -> Vec<Vector3<f64>> {
+    (0..64)
+        .map(|i| {
+            let i = f64::from(i);
+            let (distance, polar, azimuth) = (radius * (2.1 + i * 3.9 / 63.0), 0.1 + i * 0.0465, i * 2.4);
+            let rho = distance * polar.sin();
+            Vector3::new(rho * azimuth.cos(), rho * azimuth.sin(), distance * polar.cos())
+        })
+        .collect()
 }
