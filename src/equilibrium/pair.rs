@@ -30,6 +30,16 @@ pub(super) struct PairHessian {
     pub(super) second_second: Matrix6<f64>,
 }
 
+/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
+/// station, in fixed axes.
+#[derive(Debug, Clone)]
+pub(super) struct Mixed {
+    pub(super) element: usize,
+    pub(super) station: usize,
+    pub(super) node: usize,
+    pub(super) matrix: Matrix6<f64>,
+}
+
 /// Whether two rings are closer than their material allows.
 pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> bool {
     let from = first_node.advanced(0.5 * first.ring.length);

@@ -5,12 +5,11 @@ use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 use super::chain::Chain;
 use super::dead::{add_wrench, no_wrench, weight};
 use super::inputs::Inputs;
-use super::pair::{PairLoad, blocks, overlap};
+use super::pair::{Mixed, PairLoad, blocks, overlap};
 use super::reduction::Reduction;
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use super::source::Source;
-use super::spans::{Mixed, moment_part};
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
 use crate::rod::{Configuration, Load, Order, START, Tangent};
@@ -217,8 +216,7 @@ impl Potential<'_> {
                 let mutual = self.settings.interaction != Interaction::Preceding;
                 for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {
                     if node == second.node || mutual {
-                        let couple = moment_part(&load.couple);
-                        self.work.node_loads[node] += Load { force: load.force, couple, ..Load::zero() };
+                        self.work.node_loads[node] += load.wrench_alone();
                     }
                 }
                 if order == Order::Hessian {

@@ -1,23 +1,13 @@
 //! Rings acting on spans, and spans back on rings.
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 
 use super::chain::Chain;
-use super::pair::PairLoad;
+use super::pair::{Mixed, PairLoad};
 use super::potential::Potential;
 use super::settings::Interaction;
 use super::source::Source;
-use crate::rod::{Load, Order, Station, Tangent};
-
-/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
-/// station, in fixed axes.
-#[derive(Debug, Clone)]
-pub(super) struct Mixed {
-    element: usize,
-    station: usize,
-    node: usize,
-    matrix: Matrix6<f64>,
-}
+use crate::rod::{Order, Station, Tangent};
 
 /// Whether the ring at `node` acts on a station of `element`.
 fn acts(chain: &Chain, level: Interaction, node: usize, element: usize, station: &Station) -> bool {
@@ -37,6 +27,7 @@ impl Potential<'_> {
     /// Adds the energies of all rings with all stations to the loads; their sum.
     pub(super) fn load_spans(&mut self, order: Order) -> Option<f64> {
         let level = self.settings.interaction;
+        let mutual = level == Interaction::Full;
         self.work.mixed.clear();
         if !level.acts_on_spans() {
             return Some(0.0);
@@ -61,28 +52,21 @@ impl Potential<'_> {
                     energy += load.energy;
                     self.work.station_loads[k][index] += load.in_axes(&start.rotation);
                     let pair = PairLoad::reciprocal(&load, pose.position - node.position);
-                    self.react(&pair, body.node, order);
+                    if mutual {
+                        self.work.node_loads[body.node] += pair.on_first.wrench_alone();
+                    }
                     if order == Order::Hessian && body.node > 0 {
-                        let matrix = pair.hessian().first_second;
+                        let second = pair.hessian();
+                        if mutual {
+                            self.add_block(body.node, body.node, &second.first_first);
+                        }
+                        let matrix = second.first_second;
                         self.work.mixed.push(Mixed { element: k, station: index, node: body.node, matrix });
                     }
                 }
             }
         }
         Some(energy)
-    }
-
-    /// What a station does to the ring, where the level has a reaction.
-    fn react(&mut self, pair: &PairLoad, node: usize, order: Order) {
-        if self.settings.interaction != Interaction::Full {
-            return;
-        }
-        let target = &mut self.work.node_loads[node];
-        *target +=
-            Load { force: pair.on_first.force, couple: moment_part(&pair.on_first.couple), ..Load::zero() };
-        if order == Order::Hessian {
-            self.add_block(node, node, &pair.hessian().first_first);
-        }
     }
 
     /// Columns of the rings' nodes beside the Hessian of element `k`.
@@ -115,9 +99,4 @@ impl Potential<'_> {
 /// Segments between a ring and an element.
 fn gap(node: usize, element: usize) -> usize {
     if node <= element { element - node } else { node - element - 1 }
-}
-
-/// The part of a couple that is a moment; its turning is in the pair's own second derivatives.
-pub(super) fn moment_part(couple: &Matrix3<f64>) -> Matrix3<f64> {
-    (couple - couple.transpose()) * 0.5
 }

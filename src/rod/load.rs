@@ -58,6 +58,13 @@ impl Load {
         axial(&self.couple)
     }
 
+    /// Force and moment alone, without energy or any second derivative: of a pair, whose turning is in second
+    /// derivatives of its own.
+    #[must_use]
+    pub fn wrench_alone(&self) -> Self {
+        Self { force: self.force, couple: (self.couple - self.couple.transpose()) * 0.5, ..Self::zero() }
+    }
+
     /// Second derivative by `omega`, the turning of the directors included, N m.
     #[must_use]
     pub fn rotation_hessian(&self) -> Matrix3<f64> {
