@@ -21,13 +21,13 @@ use crate::rod::{Load, Order, Row};
 
 /// Where on the centreline a shape point lies.
 #[derive(Debug, Clone)]
-struct ShapePoint {
+pub(super) struct ShapePoint {
     arc_length: f64,
-    place: Place,
+    pub(super) place: Place,
 }
 
 #[derive(Debug, Clone)]
-enum Place {
+pub(super) enum Place {
     /// On the rigid part after a node, at this distance.
     Rigid(usize, f64),
     /// On an element.
@@ -39,12 +39,12 @@ enum Place {
 /// A clone is a full snapshot: it goes on bit for bit as the original would.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    chain: Arc<Chain>,
+    pub(super) chain: Arc<Chain>,
     settings: Settings,
-    magnet: Option<Assembly>,
-    shape: Arc<Vec<ShapePoint>>,
-    branch: Branch,
-    work: Workspace,
+    pub(super) magnet: Option<Assembly>,
+    pub(super) shape: Arc<Vec<ShapePoint>>,
+    pub(super) branch: Branch,
+    pub(super) work: Workspace,
     rules: PairRules,
 }
 
@@ -155,7 +155,7 @@ impl Equilibrium {
         })
     }
 
-    fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
+    pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
         Potential {
