@@ -105,6 +105,9 @@ pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 /// to the largest effect that an input of usual size has on that output.
 pub(crate) const JACOBIAN: f64 = 1e-6;
 
+/// Symmetries of second derivatives, each side from solves of its own with one factorisation.
+pub(crate) const SYMMETRY: f64 = 1e-9;
+
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;
 

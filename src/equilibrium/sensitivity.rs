@@ -88,8 +88,9 @@ impl Equilibrium {
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] before the first solved shape; at a fold, where the shape moves infinitely far with
-    /// its inputs (the stiffness of some direction is below 1e-5 of the elastic one); and where a part lies inside
-    /// or on an edge of the external magnet, be it switched off.
+    /// its inputs (the stiffness of some direction is below 1e-5 of the elastic one); and where a part or the tip
+    /// lies inside or on an edge of the external magnet. One that is switched off there cannot be switched on: its
+    /// columns are zero.
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         let nothing = || Error::NoDerivatives("nothing is solved yet".into());
         let inputs = self.branch.inputs.clone().ok_or_else(nothing)?;
@@ -104,7 +105,7 @@ impl Equilibrium {
             shape_points: shape.len(),
             cores: self.chain.cores.len(),
         };
-        let (unknowns, magnet) = (self.branch.unknowns.clone(), self.magnet.clone());
+        let (unknowns, mut magnet) = (self.branch.unknowns.clone(), self.magnet.clone());
         let mut potential = self.potential(inputs, &unknowns);
         let stiffness = match potential.linearise(&unknowns) {
             Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
@@ -119,7 +120,13 @@ impl Equilibrium {
         let inside =
             || Error::NoDerivatives("a part lies inside or on an edge of the external magnet".into());
         let by_base = carried(inputs, &counts);
-        let mut columns = potential.columns(magnet.as_ref(), &counts).ok_or_else(inside)?;
+        let mut columns = potential.columns(magnet.as_ref(), &counts);
+        if columns.is_none() && inputs.magnet_strength == 0.0 {
+            // Switched off inside the manipulator, a magnet can only stay so.
+            magnet = None;
+            columns = potential.columns(None, &counts);
+        }
+        let mut columns = columns.ok_or_else(inside)?;
         let mut on_field = columns.clamp.clone();
         on_field.columns_mut(FIELD_INPUTS, counts.inputs() - FIELD_INPUTS).fill(0.0);
         for part in [&mut columns.gradient, &mut columns.clamp, &mut on_field] {

@@ -10,3 +10,4 @@ mod reference;
 mod robustness;
 pub(crate) mod rows;
 mod scaling;
+mod sensitivity;
