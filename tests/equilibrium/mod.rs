@@ -11,3 +11,4 @@ mod robustness;
 pub(crate) mod rows;
 mod scaling;
 mod sensitivity;
+mod stop;

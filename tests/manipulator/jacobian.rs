@@ -229,6 +229,34 @@ fn a_magnet_that_is_switched_off_or_absent() {
     assert_eq!(inside, absent.jacobian().unwrap());
 }
 
+#[test]
+fn windings_that_touch() {
+    let design = Design::new(Specification::paper(2)).unwrap();
+    let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.04, -0.01), ..everything(3) };
+    inputs.base.rotation = RotationVector::new(Vector3::new(0.1, 0.2, 0.3)).matrix();
+    let settings = Settings { bending_stop: true, ..settings(Interaction::Rings) };
+    let mut manipulator = Manipulator::new(&design, Some(&pair()), settings, POINTS).unwrap();
+    let largest = manipulator.solve(&inputs).unwrap().core_angles.iter().copied().fold(0.0, f64::max);
+    assert!(largest.to_degrees() > 40.0, "open at {} deg", largest.to_degrees());
+    check("touching", &manipulator, &inputs);
+}
+
+#[test]
+fn there_are_none_of_what_is_not_solved() {
+    let design = Design::new(Specification::paper(1)).unwrap();
+    let mut manipulator = ready(&design, Interaction::Full, &Inputs::unloaded(2));
+    assert!(manipulator.jacobian().is_ok());
+    // The attraction pulls one segment shut at 35.86 mT.
+    let shut = Inputs { uniform_field: Vector3::new(0.0, 0.06, 0.0), ..Inputs::unloaded(2) };
+    assert_eq!(manipulator.solve(&shut).unwrap().status, Status::NotSolved);
+    let message = manipulator.jacobian().unwrap_err().to_string();
+    assert_eq!(message, "no derivatives: the last inputs are not solved");
+    let jacobian = ready(&design, Interaction::None, &Inputs::unloaded(2)).jacobian().unwrap();
+    assert!(jacobian.block(Output::RingAxis(2), Input::TipForce).is_none());
+    assert!(jacobian.block(Output::TipAngle, Input::RingForce(2)).is_none());
+    assert!(jacobian.along(&[0.0]).is_err());
+}
+
 /// Directions, fields and loads of any size up to the usual ones, at every level.
 fn scenes() -> impl Strategy<Value = (usize, [f64; 16], usize)> {
     (1_usize..=2, proptest::array::uniform16(-1.0..1.0), 0..Interaction::ALL.len())
