@@ -175,9 +175,9 @@ impl Potential<'_> {
         for (k, node) in motion.nodes.iter().skip(1).enumerate() {
             others.rows_mut(6 * k, 6).copy_from(node);
         }
-        // Rows of symmetric matrices are read as their columns.
-        let by_column = DMatrixView::from_slice(&self.work.node_hessian, 6 * last, 6 * last);
-        let mut on_nodes = by_column.tr_mul(&others);
+        // Stored row by row, the matrices are seen transposed.
+        let transposed = DMatrixView::from_slice(&self.work.node_hessian, 6 * last, 6 * last);
+        let mut on_nodes = transposed.tr_mul(&others);
         let mut on_tip = on_nodes.rows_mut(6 * last - 3, 3);
         on_tip -= hat(&self.inputs.tip_moment) * motion.nodes[last].rows(3, 3) * 0.5;
         let mut wrench = DMatrix::zeros(6, others.ncols());
