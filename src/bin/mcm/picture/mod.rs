@@ -20,7 +20,7 @@ const SIZE: (u32, u32) = (900, 600);
 const OVERSAMPLING: u32 = 3;
 
 /// Step between shades: as many as smooth edges need, so that the files stay small. It divides white.
-const SHADE: usize = 17;
+const SHADE: usize = 5;
 
 /// Name under which the font is known.
 const FONT: &str = "sans";
@@ -31,7 +31,7 @@ const TEXT: f64 = 21.0;
 const LINE: f64 = 2.6;
 
 const INK: RGBColor = RGBColor(0x22, 0x25, 0x2a);
-const GRID: RGBColor = RGBColor(0xd9, 0xdc, 0xe1);
+const GRID: RGBColor = RGBColor(0xdc, 0xdc, 0xdc);
 /// What comes from the paper.
 const PAPER: RGBColor = RGBColor(0x80, 0x86, 0x8f);
 
