@@ -2,6 +2,7 @@
 
 mod field;
 mod solve;
+mod study;
 mod sweep;
 
 use std::path::{Path, PathBuf};
