@@ -106,12 +106,14 @@ fn three_segments_in_a_turned_field_stop_near_120_degrees() {
             let report = solve(&mut equilibrium, &turned(3, 0.02, 9.9 * f64::from(angle)));
             assert!(report.snaps == 0 && report.stable == Some(true), "{interaction:?}: {report:?}");
             last = tip_angle(&equilibrium);
-        let cores: Vec<f64> = equilibrium.core_angles().map(f64::to_degrees).collect();
-        println!("{interaction:?}: {angle} tip {last:.2} deg, cores {cores:.2?}");
+            let cores: Vec<f64> = equilibrium.core_angles().map(f64::to_degrees).collect();
+            println!("{interaction:?}: {angle} tip {last:.2} deg, cores {cores:.2?}");
         }
         let cores: Vec<f64> = equilibrium.core_angles().map(f64::to_degrees).collect();
         println!("{interaction:?}: tip {last:.2} deg, cores {cores:.2?}");
-        if false {assert!((last - 119.0).abs() < PAPER_STOP_DEG, "{interaction:?}: stops at {last} deg");}
+        if false {
+            assert!((last - 119.0).abs() < PAPER_STOP_DEG, "{interaction:?}: stops at {last} deg");
+        }
     }
 }
 
