@@ -29,6 +29,9 @@ pub(crate) const IDENTITY: f64 = 1e-11;
 /// Numbers of the paper, printed with four or five digits.
 pub(crate) const PRINTED: f64 = 1.5e-4;
 
+/// Numbers of the paper that are printed with four decimals, absolute.
+pub(crate) const PRINTED_FOUR_DECIMALS: f64 = 5e-5;
+
 /// A few operations in floating point.
 pub(crate) const ROUNDING: f64 = 1e-14;
 

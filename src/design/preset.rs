@@ -1,7 +1,6 @@
 //! The devices of Richter et al. as specifications.
 
 use super::material::PARTICLE_DENSITY;
-
 use super::specification::{Backbone, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind};
 
 impl Helix {
@@ -32,8 +31,24 @@ impl RingMagnet {
     }
 }
 
-impl Specification {
+impl Segmented {
     /// The manipulator of Table 1 with `segments` segments, all rings, no backbone (as simulated there).
+    #[must_use]
+    pub fn paper(segments: usize) -> Self {
+        Self {
+            segments,
+            base_magnet: true,
+            tip_magnet: true,
+            spiral: SpiralKind::Helical,
+            helix: Helix::paper(),
+            ring: RingMagnet::paper(),
+            backbone: None,
+        }
+    }
+}
+
+impl Specification {
+    /// [`Segmented::paper`] as a specification.
     ///
     /// ```
     /// use mcm::design::{Design, Specification};
@@ -43,15 +58,7 @@ impl Specification {
     /// ```
     #[must_use]
     pub fn paper(segments: usize) -> Self {
-        Self::Segmented(Segmented {
-            segments,
-            base_magnet: true,
-            tip_magnet: true,
-            spiral: SpiralKind::Helical,
-            helix: Helix::paper(),
-            ring: RingMagnet::paper(),
-            backbone: None,
-        })
+        Self::Segmented(Segmented::paper(segments))
     }
 }
 

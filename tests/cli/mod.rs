@@ -3,6 +3,7 @@
 mod branches;
 mod field;
 mod solve;
+mod study;
 mod sweep;
 
 use std::path::{Path, PathBuf};

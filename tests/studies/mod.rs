@@ -1,0 +1,23 @@
+//! The paper's figures: each claim beside something independent.
+
+mod fig5;
+
+use mcm::studies::{Comparison, Study, Value};
+
+/// A column of a study.
+fn column<'a>(study: &'a Study, name: &str) -> &'a [f64] {
+    study.column(name).unwrap_or_else(|| panic!("there is no column {name}"))
+}
+
+/// The row of a comparison whose quantity begins so.
+fn row<'a>(study: &'a Study, quantity: &str) -> &'a Comparison {
+    let found = study.comparison.iter().find(|row| row.quantity.starts_with(quantity));
+    found.unwrap_or_else(|| panic!("no comparison of {quantity}"))
+}
+
+fn number(value: Value) -> f64 {
+    match value {
+        Value::Number(number) => number,
+        other => panic!("{other:?} is no number"),
+    }
+}
