@@ -82,9 +82,9 @@ pub(crate) const MARGIN: f64 = 1e-8;
 /// Angle of a bent core against a closed form: the rotation of the discs varies within them by their two Gauss points.
 pub(crate) const BEND: f64 = 1e-9;
 
-/// What the three cores of the device bent beyond or short of their boundary angles, deg: measured 119, three times 40
-/// are 120.
-pub(crate) const PAPER_STOP_DEG: f64 = 5.0;
+/// Tip angle of three closed cores, deg: measured 119 in a field whose direction is not printed; ours stop at 115 to 127
+/// (`none` to `full`) in a field turned by 170 deg.
+pub(crate) const PAPER_STOP_DEG: f64 = 10.0;
 
 /// Width at which a bisection ends: well inside [`CRITICAL`].
 pub(crate) const BISECTION: f64 = 1e-8;

@@ -77,7 +77,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one minimisation; default 200.
+    /// Iterations at most of one minimisation; default 1000.
     pub iterations: u32,
 }
 
@@ -93,7 +93,7 @@ impl Default for Settings {
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
-            iterations: 200,
+            iterations: 1000,
         }
     }
 }

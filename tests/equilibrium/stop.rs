@@ -74,7 +74,7 @@ fn a_pure_moment_bends_the_closed_core_along_its_second_slope() {
             let size = (bending * theta + added * (theta - boundary)) / length;
             solve(&mut equilibrium, &moment(axis * size));
             let angle = equilibrium.core_angles().next().expect("a core");
-            assert_close(&format!("{beyond} of the boundary angle"), &[angle], &[theta], BEND);
+            assert_close(format!("{beyond} of the boundary angle"), &[angle], &[theta], BEND);
         }
     }
 }
@@ -101,19 +101,38 @@ fn three_segments_in_a_turned_field_stop_near_120_degrees() {
     // The device stopped at 119 deg (Richter et al., Fig. 7B); three boundary angles are 120 deg.
     for interaction in [Interaction::None, Interaction::Rings, Interaction::Full] {
         let mut equilibrium = manipulator(3, interaction, true);
-        let mut last = 0.0;
-        for angle in 0..=26 {
-            let report = solve(&mut equilibrium, &turned(3, 0.02, 9.9 * f64::from(angle)));
+        for angle in 0..=17 {
+            let report = solve(&mut equilibrium, &turned(3, 0.02, 10.0 * f64::from(angle)));
             assert!(report.snaps == 0 && report.stable == Some(true), "{interaction:?}: {report:?}");
-            last = tip_angle(&equilibrium);
-            let cores: Vec<f64> = equilibrium.core_angles().map(f64::to_degrees).collect();
-            println!("{interaction:?}: {angle} tip {last:.2} deg, cores {cores:.2?}");
         }
+        let tip = tip_angle(&equilibrium);
         let cores: Vec<f64> = equilibrium.core_angles().map(f64::to_degrees).collect();
-        println!("{interaction:?}: tip {last:.2} deg, cores {cores:.2?}");
-        if false {
-            assert!((last - 119.0).abs() < PAPER_STOP_DEG, "{interaction:?}: stops at {last} deg");
+        println!("{interaction:?}: tip {tip:.2} deg, cores {cores:.2?}");
+        assert!((tip - 119.0).abs() < PAPER_STOP_DEG, "{interaction:?}: stops at {tip} deg");
+        assert!(cores.iter().all(|core| *core < 43.0), "{interaction:?}: cores bend by {cores:?} deg");
+    }
+}
+
+#[test]
+fn a_field_turned_past_the_antiparallel_turns_the_manipulator_over() {
+    // At 180 deg it may turn freely about the field; past it, the other side is downhill.
+    for interaction in [Interaction::None, Interaction::Rings] {
+        let mut equilibrium = manipulator(3, interaction, true);
+        let mut reports = Vec::new();
+        for angle in [90.0, 150.0, 180.0, 190.0, 210.0] {
+            let report = solve(&mut equilibrium, &turned(3, 0.02, angle));
+            let side = equilibrium.tip().rotation[(1, 2)];
+            reports.push((report.stable, report.snaps, side > 0.0));
         }
+        let (held, free) = ((Some(true), 0, false), (Some(false), 0, false));
+        let over = [(Some(true), 1, true), (Some(true), 0, true)];
+        assert_eq!(reports, [held, held, free, over[0], over[1]], "{interaction:?}");
+        let back = tip_angle(&equilibrium);
+        let mut direct = manipulator(3, interaction, true);
+        for angle in [90.0, 120.0, 150.0] {
+            solve(&mut direct, &turned(3, 0.02, angle));
+        }
+        assert_close("mirrored", &[back], &[tip_angle(&direct)], BEND);
     }
 }
 
