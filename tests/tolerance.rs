@@ -170,8 +170,8 @@ pub(crate) const LOCATED: f64 = 1e-5;
 pub(crate) const LOCATED_AGAIN: f64 = 5e-5;
 
 /// A fold predicted from two shapes before it, relative to the distance of the last one: the square of the margin is linear
-/// to leading order only (at a tenth of the load before the fold: 0.22, half as far 0.17).
-pub(crate) const PREDICTED: f64 = 0.25;
+/// to leading order only (at a tenth of the load before the fold: 0.29, half as far 0.17).
+pub(crate) const PREDICTED: f64 = 0.35;
 
 /// The collapse of one segment under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
 pub(crate) const COLLAPSE_MT: f64 = 0.06;
