@@ -106,7 +106,7 @@ pub struct Comparison {
 }
 
 /// What stands in a cell of the comparison.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// Nothing: it is not stated or does not exist.
     Absent,
@@ -115,7 +115,7 @@ pub enum Value {
     /// Smallest and largest.
     Range(f64, f64),
     /// A finding that is no number.
-    Words(&'static str),
+    Words(String),
 }
 
 impl Study {
@@ -143,28 +143,25 @@ impl Curve {
 }
 
 impl Comparison {
-    /// Relative difference of the exact model from the paper, of both ends for ranges; none unless both are numbers.
+    /// Relative difference of the exact model from the paper; none unless both are numbers.
     ///
     /// ```
     /// use mcm::studies::{Comparison, Value};
     /// let row = Comparison {
     ///     quantity: "force (N)".into(),
     ///     decimals: 2,
-    ///     paper: Value::Range(1.0, 2.0),
+    ///     paper: Value::Number(1.0),
     ///     printed: Value::Absent,
-    ///     exact: Value::Range(1.5, 2.0),
+    ///     exact: Value::Number(1.5),
     ///     remark: String::new(),
     /// };
-    /// assert_eq!(row.difference(), vec![0.5, 0.0]);
+    /// assert_eq!(row.difference(), Some(0.5));
     /// ```
     #[must_use]
-    pub fn difference(&self) -> Vec<f64> {
-        match (self.paper, self.exact) {
-            (Value::Number(paper), Value::Number(exact)) => vec![exact / paper - 1.0],
-            (Value::Range(low, high), Value::Range(least, most)) => {
-                vec![least / low - 1.0, most / high - 1.0]
-            }
-            _ => Vec::new(),
+    pub fn difference(&self) -> Option<f64> {
+        match (&self.paper, &self.exact) {
+            (Value::Number(paper), Value::Number(exact)) => Some(exact / paper - 1.0),
+            _ => None,
         }
     }
 }

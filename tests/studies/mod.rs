@@ -15,9 +15,9 @@ fn row<'a>(study: &'a Study, quantity: &str) -> &'a Comparison {
     found.unwrap_or_else(|| panic!("no comparison of {quantity}"))
 }
 
-fn number(value: Value) -> f64 {
+fn number(value: &Value) -> f64 {
     match value {
-        Value::Number(number) => number,
+        Value::Number(number) => *number,
         other => panic!("{other:?} is no number"),
     }
 }

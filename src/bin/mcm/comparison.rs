@@ -16,25 +16,24 @@ pub(super) fn table<'a>(studies: impl IntoIterator<Item = (&'a str, &'a Study)>)
 }
 
 fn row(name: &str, row: &Comparison) -> String {
-    let computed = |value| written(value, |number| format!("{number:.*}", row.decimals));
-    let difference: Vec<String> =
-        row.difference().iter().map(|share| format!("{:+.1} %", 100.0 * share)).collect();
+    let computed = |value: &Value| written(value, |number| format!("{number:.*}", row.decimals));
+    let difference = row.difference().map_or_else(String::new, |share| format!("{:+.1} %", 100.0 * share));
     format!(
         "| {name}: {} | {} | {} | {} | {} | {} |\n",
         row.quantity,
-        written(row.paper, |number| number.to_string()), // with the digits that it has in the paper
-        computed(row.printed),
-        computed(row.exact),
-        difference.join(", "),
+        written(&row.paper, |number| number.to_string()), // with the digits that it has in the paper
+        computed(&row.printed),
+        computed(&row.exact),
+        difference,
         row.remark
     )
 }
 
-fn written(value: Value, digits: impl Fn(f64) -> String) -> String {
+fn written(value: &Value, digits: impl Fn(f64) -> String) -> String {
     match value {
         Value::Absent => String::new(),
-        Value::Number(number) => digits(number),
-        Value::Range(low, high) => format!("{} to {}", digits(low), digits(high)),
-        Value::Words(words) => words.into(),
+        Value::Number(number) => digits(*number),
+        Value::Range(low, high) => format!("{} to {}", digits(*low), digits(*high)),
+        Value::Words(words) => words.clone(),
     }
 }

@@ -18,22 +18,19 @@ pub(super) enum Sample {
     Point,
 }
 
-/// Title and legend of a panel; curves without a label have no entry.
+/// Title and legend of a panel; what has no label has no entry.
 pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
     let (title, curves, marks) = match panel {
         Panel::Curves { title, curves, marks, .. } => (title, curves.as_slice(), marks),
         Panel::Map { title, marks, .. } => (title, &[][..], marks),
     };
-    let curves = curves
-        .iter()
-        .filter(|curve| !curve.label.is_empty())
-        .map(|curve| (curve.label.as_str(), Sample::Curve(curve.colour, curve.stroke)));
+    let curves = curves.iter().map(|curve| (curve.label.as_str(), Sample::Curve(curve.colour, curve.stroke)));
     let marks = marks.iter().map(|mark| match mark {
         Mark::Level(label, _) => (label.as_str(), Sample::Level),
         Mark::Band(label, _) => (label.as_str(), Sample::Band),
         Mark::Point(label, _) => (label.as_str(), Sample::Point),
     });
-    (title, curves.chain(marks).collect())
+    (title, curves.chain(marks).filter(|(label, _)| !label.is_empty()).collect())
 }
 
 /// Draws title and legend in as many lines as they need; returns where they end.

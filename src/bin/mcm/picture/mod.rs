@@ -74,7 +74,7 @@ fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
     let across = study.panels.len().min(2);
     let rows = study.panels.len().div_ceil(2);
     for (panel, area) in study.panels.iter().zip(body.split_evenly((rows, across))) {
-        draw_panel(study, panel, &area)?;
+        draw_panel(study, panel, &area.margin(0, scaled(10.0), 0, 0))?;
     }
     canvas.present()?;
     Ok(())
