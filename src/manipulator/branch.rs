@@ -3,10 +3,6 @@
 use super::{Inputs, Manipulator, Outputs, Status};
 use crate::error::{Error, check};
 
-/// Longest step between two solves, of the path's span: turned inputs go along chords, here of two degrees at most
-/// in half a circle.
-const LONGEST_STEP: f64 = 0.01;
-
 /// Width of the interval in which a fold is located, of the path's span.
 const FOLD_WIDTH: f64 = 1e-5;
 
@@ -33,7 +29,7 @@ pub struct Fold {
 /// // The rings' and the helix' attraction pulls one segment shut at 35.86 mT.
 /// let scene = Scene::parse("[design]\nsegments = 1\n[model]\ninteraction = \"full\"", "doc")?;
 /// let field = |b: f64| Ok(Inputs { uniform_field: [0.0, b, 0.0].into(), ..Inputs::unloaded(2) });
-/// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04)?;
+/// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04, 0.001)?;
 /// branch.to(0.0)?;
 /// branch.to(0.04)?;
 /// assert_eq!(branch.folds().len(), 1);
@@ -45,6 +41,7 @@ pub struct Branch<F> {
     manipulator: Manipulator,
     inputs: F,
     span: f64,
+    longest_step: f64,
     /// Value at which the manipulator's shape is in equilibrium.
     here: Option<f64>,
     /// The branch ended on the last way.
@@ -55,19 +52,21 @@ pub struct Branch<F> {
 }
 
 impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
-    /// The branch of `manipulator`, unsolved; `inputs` gives what acts at each value, and the values to be visited
-    /// span `span`.
+    /// The branch of `manipulator`, unsolved; `inputs` gives what acts at each value.
+    ///
+    /// The values to be visited span `span`. No step between two solves is longer than `longest_step`: between them the
+    /// inputs change linearly, a turned field along the chord.
     ///
     /// # Errors
-    /// [`Error::Range`] for a span that is not positive.
-    pub fn new(manipulator: Manipulator, inputs: F, span: f64) -> Result<Self, Error> {
+    /// [`Error::Range`] for a span or a step that is not positive.
+    pub fn new(manipulator: Manipulator, inputs: F, span: f64, longest_step: f64) -> Result<Self, Error> {
         check("span of the path", span, |v| v > 0.0, "> 0")?;
+        check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
         let (folds, margins) = (Vec::new(), [None; 2]);
-        Ok(Self { manipulator, inputs, span, here: None, lost: false, folds, margins })
+        Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
     }
 
-    /// Follows the branch to `target` (the first time: from the unloaded shape), in steps of a hundredth of the span at
-    /// most, and locates the folds on the way.
+    /// Follows the branch to `target` (the first time: from the unloaded shape), and locates the folds on the way.
     ///
     /// Where the branch ends, the outputs stay those of its last shape with [`Status::NotSolved`]. Farther on the
     /// same way each call tries once to find a shape; the way back goes on from the last one.
@@ -88,7 +87,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
             return Ok(self.manipulator.outputs());
         }
         self.lost = false;
-        let longest = LONGEST_STEP * self.span;
+        let longest = self.longest_step;
         while !self.lost && here.total_cmp(&target).is_ne() {
             let step = (target - here).clamp(-longest, longest);
             let next = if (target - here).abs() <= longest { target } else { here + step };

@@ -49,6 +49,10 @@ pub(crate) struct Sweep {
     folds: Option<PathBuf>,
 }
 
+/// Longest step between two solves, of the first key's range: a field that turns by half a circle goes along chords of
+/// two degrees.
+const LONGEST_STEP: f64 = 0.01;
+
 /// The way of the first key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -131,7 +135,7 @@ impl Sweep {
         let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
         // A single value, or all the same: any span will do.
         let span = if along.span() > 0.0 { along.span() } else { 1.0 };
-        let mut branch = Branch::new(manipulator, inputs, span)?;
+        let mut branch = Branch::new(manipulator, inputs, span, LONGEST_STEP * span)?;
         let forth = along.values.iter().map(|&value| (value, Way::Forth));
         let back = along.values.iter().rev().skip(1).map(|&value| (value, Way::Back));
         let (mut rows, mut folds) = (Vec::new(), Vec::new());
