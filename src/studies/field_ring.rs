@@ -107,7 +107,7 @@ pub fn field_ring() -> Result<Study, Error> {
                 curve("exact", "exact", 0, Stroke::Solid),
                 curve("dipole", "dipole", 2, Stroke::Dashed),
                 curve("fit of 7A", "fit_7a", 1, Stroke::Dots),
-                curve("of 8", "fit_8", 3, Stroke::Dots),
+                curve("fit of 8", "fit_8", 3, Stroke::Dots),
             ],
             marks: Vec::new(),
         }

@@ -231,7 +231,10 @@ fn comparison(
             paper: chosen(),
             printed: design(best(grid, &coarse[PRINTED])),
             exact: design(best(grid, &coarse[EXACT])),
-            remark: "R1".into(),
+            remark: format!(
+                "of the {} round designs that meet the constraints every level of interaction chooses the paper's; its grid is not printed",
+                coarse[EXACT].iter().flatten().count()
+            ),
         },
         Comparison {
             quantity: "best design on a grid of 0.1 mm, 1 deg".into(),
@@ -239,7 +242,7 @@ fn comparison(
             paper: chosen(),
             printed: design(best(grid, &scored[PRINTED])),
             exact: design(best(grid, &scored[EXACT])),
-            remark: "R2".into(),
+            remark: "on a finer grid the paper's own model goes on along the edge of Eq. (16) to smaller segments; the mutual interactions bend further and prefer larger ones".into(),
         },
         Comparison {
             quantity: "score of 4 mm, 40 deg over the best".into(),
@@ -247,7 +250,7 @@ fn comparison(
             paper: Value::Absent,
             printed: share(PRINTED),
             exact: share(EXACT),
-            remark: "R3".into(),
+            remark: "from 0, the worst, to 1, the best".into(),
         },
         Comparison {
             quantity: "lengths within 5 % of the best score (mm)".into(),
@@ -255,7 +258,7 @@ fn comparison(
             paper: Value::Absent,
             printed: good(PRINTED, &|c| f64::from(c.tenths) / 10.0),
             exact: good(EXACT, &|c| f64::from(c.tenths) / 10.0),
-            remark: "R4".into(),
+            remark: "the optimum of the paper's model is a corner of the constraints, that of the full model is flat".into(),
         },
         Comparison {
             quantity: "boundary angles within 5 % of the best score (deg)".into(),
@@ -263,7 +266,7 @@ fn comparison(
             paper: Value::Absent,
             printed: good(PRINTED, &|c| f64::from(c.degrees)),
             exact: good(EXACT, &|c| f64::from(c.degrees)),
-            remark: "R5".into(),
+            remark: "the same designs".into(),
         },
     ]
 }

@@ -9,11 +9,11 @@ use super::{assert_status, folder, mcm, stderr, table};
 /// Largest size of a picture that the README shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
-const STUDIES: [&str; 1] = ["fig5"];
+const STUDIES: [&str; 6] = ["field_ring", "fig4", "fig5", "fig7c", "fig7d", "fig8"];
 
-/// Header endings that name a unit; columns without one are pure numbers or names of cases.
-const PURE: [&str; 2] = ["mu_rel", "segments"];
-const UNITS: [&str; 8] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_nm", "_mn", "_unm"];
+/// Beginnings of pure numbers' headers, and the ends of all others: their unit.
+const PURE: [&str; 4] = ["mu_rel", "segments", "height_over_pitch", "score_"];
+const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
 
 fn assert_picture(path: &Path) {
     let name = path.display();
@@ -43,16 +43,18 @@ fn assert_table(path: &Path) {
 #[test]
 fn every_study_leaves_table_and_picture_and_the_readme_has_their_comparison() {
     let here = folder("study");
+    let readme = include_str!("../../README.md");
     let output = mcm(&here, &["study", "all", "--out", "figures"]);
     assert_status(&output, 0);
     for name in STUDIES {
         assert_table(&here.join("figures").join(name).with_extension("csv"));
         assert_picture(&here.join("figures").join(name).with_extension("png"));
-        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/charts/{name}.png")).is_file());
+        let shown = format!("tests/charts/{name}.png");
+        assert!(readme.contains(&shown), "the README does not show {shown}");
+        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(&shown).is_file());
     }
     let comparison = std::fs::read_to_string(here.join("figures/comparison.md")).unwrap();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), comparison);
-    let readme = include_str!("../../README.md");
     assert!(
         readme.contains(&comparison),
         "the README's comparison is not what `mcm study all` writes:\n{comparison}"

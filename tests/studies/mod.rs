@@ -1,6 +1,11 @@
 //! The paper's figures: each claim beside something independent.
 
+mod field_ring;
+mod fig4;
 mod fig5;
+mod fig7c;
+mod fig7d;
+mod fig8;
 
 use mcm::studies::{Comparison, Study, Value};
 

@@ -72,7 +72,14 @@ fn draw_scale(area: &Canvas, [low, high]: [f64; 2]) -> Drawn {
         .margin_bottom(scaled(62.0))
         .set_label_area_size(LabelAreaPosition::Right, scaled(60.0))
         .build_cartesian_2d(0.0..1.0, low..high)?;
-    chart.configure_mesh().disable_mesh().disable_x_axis().y_labels(6).label_style(text(TEXT)).draw()?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .disable_x_axis()
+        .y_labels(6)
+        .label_style(text(TEXT))
+        .y_label_formatter(&|value| tick(*value))
+        .draw()?;
     chart.draw_series((0..STEPS).map(|i| {
         let from = low + step * f64::from(i);
         let colour = SCALE.get_color_normalized(from + 0.5 * step, low, high);

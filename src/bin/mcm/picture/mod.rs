@@ -19,6 +19,9 @@ const SIZE: (u32, u32) = (900, 600);
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
 
+/// Step between shades: as many as smooth edges need, so that the files stay small. It divides white.
+const SHADE: usize = 5;
+
 /// Name under which the font is known.
 const FONT: &str = "sans";
 
@@ -28,7 +31,7 @@ const TEXT: f64 = 21.0;
 const LINE: f64 = 2.6;
 
 const INK: RGBColor = RGBColor(0x22, 0x25, 0x2a);
-const GRID: RGBColor = RGBColor(0xd9, 0xdc, 0xe1);
+const GRID: RGBColor = RGBColor(0xdc, 0xdc, 0xdc);
 /// What comes from the paper.
 const PAPER: RGBColor = RGBColor(0x80, 0x86, 0x8f);
 
@@ -123,7 +126,7 @@ fn averaged(large: &[u8]) -> Vec<u8> {
             usize::from(large[(y * width * factor + x) * 3 + channel])
         });
         let mean = block.sum::<usize>() / (factor * factor);
-        small.push(u8::try_from(mean).unwrap_or(u8::MAX));
+        small.push(u8::try_from((mean + SHADE / 2) / SHADE * SHADE).unwrap_or(u8::MAX));
     }
     small
 }
