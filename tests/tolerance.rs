@@ -182,6 +182,26 @@ pub(crate) const EFFECT: f64 = 1e-6;
 /// Curl and divergence of a magnet's field beside it, T/m: rounding of gradients around 1 T/m.
 pub(crate) const MAXWELL: f64 = 1e-13;
 
+/// Small loads beside a beam written out by hand: they turn the tip by 1e-5, and shear that varies along a disc has no mode.
+pub(crate) const LINEAR: f64 = 1e-7;
+
+/// Sum of the effects of small loads of several kinds and the effect of their sum: of first order in the tip's turn by
+/// 1e-5 where the rings' attraction couples them.
+pub(crate) const SUPERPOSED: f64 = 1e-4;
+
+/// Where a sweep locates a fold: in an interval of this part of its range.
+pub(crate) const LOCATED: f64 = 1e-5;
+
+/// A fold located by steps from elsewhere: Newton's method may give up some intervals before it, where the branch turns.
+pub(crate) const LOCATED_AGAIN: f64 = 5e-5;
+
+/// A fold predicted from two shapes before it, relative to the distance of the last one: the square of the margin is linear
+/// to leading order only (at a tenth of the load before the fold: 0.29, half as far 0.17).
+pub(crate) const PREDICTED: f64 = 0.35;
+
+/// The collapse of one segment under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
+pub(crate) const COLLAPSE_MT: f64 = 0.06;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

@@ -4,6 +4,7 @@ mod convergence;
 pub(crate) mod critical;
 mod derivatives;
 mod laws;
+mod loads;
 mod lost;
 mod reciprocity;
 mod reference;

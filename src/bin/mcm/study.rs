@@ -34,6 +34,10 @@ enum Name {
     Fig4,
     /// Fig. 5: relative magnetic moment over the number of segments
     Fig5,
+    /// Fig. 7A: one segment in a perpendicular field, gain from the base ring
+    Fig7a,
+    /// Fig. 7B: three segments and a solid cylinder within 20 mT
+    Fig7b,
     /// Fig. 7C: forces of the magnet pair on devices held straight
     Fig7c,
     /// Fig. 7D: field of the magnet pair
@@ -42,6 +46,8 @@ enum Name {
     Fig8,
     /// Fig. 3E: field of one ring magnet
     FieldRing,
+    /// A magnet passes nine segments with its field against them, and comes back
+    Hysteresis,
     /// Every figure
     All,
 }
@@ -52,10 +58,13 @@ impl Name {
         match self {
             Self::Fig4 => Some(studies::fig4),
             Self::Fig5 => Some(studies::fig5),
+            Self::Fig7a => Some(studies::fig7a),
+            Self::Fig7b => Some(studies::fig7b),
             Self::Fig7c => Some(studies::fig7c),
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::FieldRing => Some(studies::field_ring),
+            Self::Hysteresis => Some(studies::hysteresis),
             Self::All => None,
         }
     }
