@@ -1,5 +1,7 @@
 //! Following a stable branch while the inputs change, and falling to the next one past a fold.
 
+use serde::{Deserialize, Serialize};
+
 use super::chain::Chain;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
@@ -51,12 +53,12 @@ const SNAP: f64 = 0.25;
 const PARTS: u32 = 2000;
 
 /// The shape, and the inputs at which it is in equilibrium.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Branch {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
     /// Direction of least stiffness, the first guess for the next search.
-    softest: Vec<f64>,
+    pub(super) softest: Vec<f64>,
 }
 
 impl Branch {
@@ -110,6 +112,8 @@ impl Scene<'_> {
             branch.unknowns.copy_from_slice(&unknowns);
             branch.inputs = Some(target.clone());
             walk.judge(target, &mut branch.softest);
+        } else {
+            walk.work.factored = false; // it is that of a shape on the way, which the branch has not reached
         }
         walk.report
     }

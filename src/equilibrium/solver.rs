@@ -39,13 +39,13 @@ enum Place {
 /// A clone is a full snapshot: it goes on bit for bit as the original would.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    chain: Arc<Chain>,
-    settings: Settings,
-    magnet: Option<Assembly>,
+    pub(super) chain: Arc<Chain>,
+    pub(super) settings: Settings,
+    pub(super) magnet: Option<Assembly>,
     shape: Arc<Vec<ShapePoint>>,
-    branch: Branch,
-    work: Workspace,
-    rules: PairRules,
+    pub(super) branch: Branch,
+    pub(super) work: Workspace,
+    pub(super) rules: PairRules,
 }
 
 impl Equilibrium {
@@ -82,6 +82,7 @@ impl Equilibrium {
     /// Back to the straight shape at the origin; the branch is forgotten.
     pub fn reset(&mut self) {
         self.branch = Branch::new(&self.chain);
+        self.work.factored = false;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
@@ -149,10 +150,12 @@ impl Equilibrium {
         let mut potential = self.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
         let mut solution = rhs.to_vec();
-        potential.factorise(shift).then(|| {
+        let solved = potential.factorise(shift).then(|| {
             potential.solve(&mut solution);
             solution
-        })
+        });
+        self.work.factored = false; // not that of the branch
+        solved
     }
 
     fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {

@@ -58,6 +58,8 @@ fn status(ending: Ending) -> fmi2Status {
     }
 }
 
+const NO_ARRAY: &str = "an array is null or not aligned";
+
 fn pointer(handle: usize) -> *mut c_void {
     ptr::without_provenance_mut(handle)
 }
@@ -94,11 +96,23 @@ unsafe fn write<T>(instance: &Instance, values: &[T], target: *mut T) -> Ending 
         return Ending::Ok;
     }
     if target.is_null() || !target.is_aligned() {
-        return instance.refuse("the array for the values is null or not aligned");
+        return instance.refuse(NO_ARRAY);
     }
     // SAFETY: by the contract of this function; ours and the host's memory do not overlap.
     unsafe { ptr::copy_nonoverlapping(values.as_ptr(), target, values.len()) };
     Ending::Ok
+}
+
+/// Writes the values of an answer.
+///
+/// # Safety
+/// As [`write`].
+unsafe fn answer<T>(instance: &Instance, values: Result<Vec<T>, Ending>, target: *mut T) -> Ending {
+    match values {
+        // SAFETY: by the contract of this function.
+        Ok(values) => unsafe { write(instance, &values, target) },
+        Err(ending) => ending,
+    }
 }
 
 /// # Safety
@@ -110,9 +124,7 @@ unsafe fn get<T>(
     read: fn(Value) -> Option<T>,
     target: *mut T,
 ) -> Ending {
-    let Some(references) = references else {
-        return instance.refuse("the array of value references is null");
-    };
+    let Some(references) = references else { return instance.refuse(NO_ARRAY) };
     match instance.get(references, kind, read) {
         // SAFETY: by the contract of this function.
         Ok((values, ending)) => match unsafe { write(instance, &values, target) } {
@@ -120,6 +132,30 @@ unsafe fn get<T>(
             refused => refused,
         },
         Err(ending) => ending,
+    }
+}
+
+/// Puts a state of the instance behind the host's pointer: a new one, or another one in the place of a known one.
+///
+/// # Safety
+/// A pointer that is not null must be valid for one read and one write.
+unsafe fn keep(
+    instance: &mut Instance,
+    state: *mut fmi2FMUstate,
+    fill: impl FnOnce(&mut Instance, usize) -> Ending,
+) -> Ending {
+    // SAFETY: by the contract of this function.
+    let Some([known]) = (unsafe { array(state, 1) }) else {
+        return instance.refuse("the pointer to the FMU state is null");
+    };
+    let handle = if known.is_null() { registry::new_handle() } else { known.addr() };
+    if !known.is_null() && !instance.has_saved(handle) {
+        return instance.refuse("this FMU state is not, or no longer, one of this instance");
+    }
+    match fill(instance, handle) {
+        // SAFETY: by the contract of this function.
+        Ending::Ok => unsafe { write(instance, &[pointer(handle)], state) },
+        refused => refused,
     }
 }
 
@@ -133,7 +169,7 @@ fn set<T: Copy>(
         (Some(references), Some(values)) => {
             instance.set(references, values.iter().map(|&given| value(given)))
         }
-        _ => instance.refuse("an array is null or not aligned"),
+        _ => instance.refuse(NO_ARRAY),
     }
 }
 
@@ -292,18 +328,7 @@ export! {
         };
     fmi2GetFMUstate: fmi2GetFMUstateTYPE, GetFmuState = |instance, state: *mut fmi2FMUstate| {
         // SAFETY: see above.
-        match unsafe { array(state, 1) } {
-            Some([known]) if !known.is_null() && !instance.has_saved(known.addr()) => {
-                instance.refuse("this FMU state is not, or no longer, one of this instance")
-            }
-            Some([known]) => {
-                let handle = if known.is_null() { registry::new_handle() } else { known.addr() };
-                instance.save(handle);
-                // SAFETY: see above.
-                unsafe { write(instance, &[pointer(handle)], state) }
-            }
-            _ => instance.refuse("the pointer to the FMU state is null"),
-        }
+        unsafe { keep(instance, state, |instance, handle| instance.save(handle)) }
     };
     fmi2SetFMUstate: fmi2SetFMUstateTYPE, SetFmuState = |instance, state: fmi2FMUstate| instance.restore(state.addr());
     fmi2FreeFMUstate: fmi2FreeFMUstateTYPE, FreeFmuState = |instance, state: *mut fmi2FMUstate| {
@@ -317,25 +342,62 @@ export! {
             _ => Ending::Ok, // the standard: freeing null does nothing
         }
     };
-    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE, Unsupported =
-        |_instance, _state: fmi2FMUstate, _size: *mut usize| Ending::Error;
-    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE, Unsupported =
-        |_instance, _state: fmi2FMUstate, _bytes: *mut fmi2Byte, _size: usize| Ending::Error;
-    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE, Unsupported =
-        |_instance, _bytes: *const fmi2Byte, _size: usize, _state: *mut fmi2FMUstate| Ending::Error;
-    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE, Unsupported =
-        |_instance, _unknowns: References, _unknown_count: usize, _knowns: References, _known_count: usize,
-         _seed: *const fmi2Real, _sensitivity: *mut fmi2Real| Ending::Error;
-    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE, Unsupported =
-        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *const fmi2Real|
-            Ending::Error;
-    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, Unsupported =
-        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *mut fmi2Real|
-            Ending::Error;
+    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE, SerializeFmuState =
+        |instance, state: fmi2FMUstate, size: *mut usize| {
+            let size_of = instance.serialised(state.addr()).map(|bytes| vec![bytes.len()]);
+            // SAFETY: see above.
+            unsafe { answer(instance, size_of, size) }
+        };
+    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE, SerializeFmuState =
+        |instance, state: fmi2FMUstate, bytes: *mut fmi2Byte, size: usize| match instance.serialised(state.addr()) {
+            Ok(own) if own.len() > size => {
+                instance.refuse(&format!("the state has {} bytes, and there is room for {size}", own.len()))
+            }
+            // SAFETY: see above.
+            own => unsafe { answer(instance, own, bytes.cast()) },
+        };
+    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE, SerializeFmuState =
+        |instance, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate| {
+            // SAFETY: see above.
+            match unsafe { array(bytes.cast::<u8>(), size) } {
+                // SAFETY: see above.
+                Some(bytes) => unsafe { keep(instance, state, |instance, handle| instance.deserialise(handle, bytes)) },
+                None => instance.refuse("the serialised state is null"),
+            }
+        };
+    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE, GetDirectionalDerivative =
+        |instance, unknowns: References, unknown_count: usize, knowns: References, known_count: usize,
+         seed: *const fmi2Real, sensitivity: *mut fmi2Real| {
+            // SAFETY: see above.
+            let arrays = unsafe { (array(unknowns, unknown_count), array(knowns, known_count), array(seed, known_count)) };
+            let (Some(unknowns), Some(knowns), Some(seed)) = arrays else { return instance.refuse(NO_ARRAY) };
+            let derivatives = instance.directional_derivative(unknowns, knowns, seed);
+            // SAFETY: see above.
+            unsafe { answer(instance, derivatives, sensitivity) }
+        };
+    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE, SetRealInputDerivatives =
+        |instance, references: References, length: usize, orders: *const fmi2Integer, values: *const fmi2Real| {
+            // SAFETY: see above.
+            match unsafe { (array(references, length), array(orders, length), array(values, length)) } {
+                (Some(references), Some(orders), Some(values)) => {
+                    instance.set_input_derivatives(references, orders, values)
+                }
+                _ => instance.refuse(NO_ARRAY),
+            }
+        };
+    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, GetRealOutputDerivatives =
+        |instance, references: References, length: usize, orders: *const fmi2Integer, values: *mut fmi2Real| {
+            // SAFETY: see above.
+            let arrays = unsafe { (array(references, length), array(orders, length)) };
+            let (Some(references), Some(orders)) = arrays else { return instance.refuse(NO_ARRAY) };
+            let derivatives = instance.output_derivatives(references, orders);
+            // SAFETY: see above.
+            unsafe { answer(instance, derivatives, values) }
+        };
     fmi2DoStep: fmi2DoStepTYPE, DoStep =
         |instance, time: fmi2Real, step: fmi2Real, _no_set_state_before: fmi2Boolean| instance.do_step(time, step);
     // Steps are never pending: there is none to cancel, and nothing to tell about one.
-    fmi2CancelStep: fmi2CancelStepTYPE, Unsupported = |_instance| Ending::Error;
+    fmi2CancelStep: fmi2CancelStepTYPE, CancelStep = |_instance| Ending::Error;
     fmi2GetStatus: fmi2GetStatusTYPE, GetStatus =
         |_instance, _kind: fmi2StatusKind, _value: *mut fmi2Status| Ending::Discard;
     fmi2GetRealStatus: fmi2GetRealStatusTYPE, GetStatus =

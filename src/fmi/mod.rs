@@ -13,6 +13,12 @@ pub mod variables; // the table: reference, name, causality, unit, start, get, s
 
 pub mod state; // which call is allowed when
 
+mod condition; // what changes in an instance's life
+
+pub mod rates; // the path of the inputs during a step
+
+mod serialise; // a condition as bytes
+
 pub mod log; // what is told to the host
 
 pub mod guid; // a GUID that follows from content
@@ -26,6 +32,10 @@ pub mod package; // what an archive carries besides the library
 pub mod location; // where a host says that the resources are
 
 pub mod instance; // one instance, safe
+
+mod saved; // its saved states
+
+mod derivatives; // its derivatives by time and by inputs
 
 pub mod guard; // a panic stops here
 

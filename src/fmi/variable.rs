@@ -1,11 +1,13 @@
 //! One row of the variable table: what a variable is, and how it is read and set.
 
+use serde::{Deserialize, Serialize};
+
 use super::given::Given;
 use super::units::Quantity;
 use crate::manipulator::Outputs;
 
 /// A typed value. An enumeration's value is an integer.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Value {
     /// Floating point.
     Real(f64),

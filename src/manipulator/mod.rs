@@ -5,6 +5,6 @@ mod outputs;
 mod scene;
 
 pub use crate::equilibrium::Inputs;
-pub use device::Manipulator;
+pub use device::{Manipulator, Snapshot};
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};
