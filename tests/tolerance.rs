@@ -101,6 +101,10 @@ pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-7;
 /// Slope of the gradient by the same.
 pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 
+/// Derivatives of all outputs by differences of fourth order of solves that each end at a residual of 1e-12, relative
+/// to the largest effect that an input of usual size has on that output.
+pub(crate) const JACOBIAN: f64 = 1e-6;
+
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;
 

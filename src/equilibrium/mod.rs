@@ -1,14 +1,18 @@
 //! The potential of the whole chain, its minimum, its stability.
 
 mod chain;
+mod columns;
 mod condensed;
 mod dead;
+mod field_rates;
 mod follow;
 mod inputs;
+mod jacobian;
 mod pair;
 mod potential;
 mod reduction;
 mod rules;
+mod sensitivity;
 mod settings;
 mod snapshot;
 mod solver;
@@ -17,6 +21,7 @@ mod spans;
 
 pub use follow::Report;
 pub use inputs::Inputs;
+pub use jacobian::{Input, Jacobian, Output};
 pub use settings::{Interaction, Settings};
 pub use snapshot::Snapshot;
 pub use solver::Equilibrium;

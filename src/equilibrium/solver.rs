@@ -21,13 +21,13 @@ use crate::rod::{Load, Order, Row};
 
 /// Where on the centreline a shape point lies.
 #[derive(Debug, Clone)]
-struct ShapePoint {
+pub(super) struct ShapePoint {
     arc_length: f64,
-    place: Place,
+    pub(super) place: Place,
 }
 
 #[derive(Debug, Clone)]
-enum Place {
+pub(super) enum Place {
     /// On the rigid part after a node, at this distance.
     Rigid(usize, f64),
     /// On an element.
@@ -42,7 +42,7 @@ pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
     pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
-    shape: Arc<Vec<ShapePoint>>,
+    pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: Branch,
     pub(super) work: Workspace,
     pub(super) rules: PairRules,
@@ -158,7 +158,7 @@ impl Equilibrium {
         solved
     }
 
-    fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
+    pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
         Potential {

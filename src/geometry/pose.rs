@@ -72,6 +72,30 @@ impl Pose {
         [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
     }
 
+    /// The angular velocity (rad, fixed axes) of the orientation that a quaternion describes, when the quaternion
+    /// changes at the given rate: `2 rate q* / |q|^2`. Both scalar first; the part along `q` turns nothing.
+    ///
+    /// ```
+    /// use mcm::geometry::Pose;
+    /// let spin = Pose::rotation_rate([1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.5, 0.0]);
+    /// assert_eq!(spin.as_slice(), [0.0, 1.0, 0.0]);
+    /// ```
+    #[must_use]
+    pub fn rotation_rate(orientation_wxyz: [f64; 4], rate: [f64; 4]) -> Vector3<f64> {
+        let [w, x, y, z] = orientation_wxyz;
+        let q = Quaternion::new(w, x, y, z);
+        let [w, x, y, z] = rate;
+        (Quaternion::new(w, x, y, z) * q.conjugate()).imag() * (2.0 / q.norm_squared())
+    }
+
+    /// The rate of [`Pose::quaternion`] when the frame turns at an angular velocity (rad, fixed axes).
+    #[must_use]
+    pub fn quaternion_rate(&self, angular_velocity: &Vector3<f64>) -> [f64; 4] {
+        let [w, x, y, z] = self.quaternion();
+        let rate = Quaternion::from_imag(*angular_velocity) * Quaternion::new(w, x, y, z) * 0.5;
+        [rate.w, rate.i, rate.j, rate.k]
+    }
+
     /// The world coordinates of a point given in this frame.
     #[must_use]
     pub fn transform(&self, local: &Vector3<f64>) -> Vector3<f64> {

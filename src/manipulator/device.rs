@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::{Inputs, Outputs, Status};
+use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
 use crate::equilibrium::{self, Equilibrium, Report, Settings};
 use crate::error::Error;
@@ -144,6 +144,34 @@ impl Manipulator {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
+    }
+
+    /// Derivatives of all outputs by all inputs at the last solved shape; see [`Jacobian`].
+    ///
+    /// Nothing changes: the next solve is the one that would have been. The actuation Jacobian of a magnet that a
+    /// robot arm holds, tip twist by magnet twist:
+    ///
+    /// ```
+    /// use mcm::manipulator::Scene;
+    /// let scene = Scene::parse("[design]\nsegments = 3\n[magnet]", "example")?;
+    /// let mut manipulator = scene.manipulator(11)?;
+    /// assert!(manipulator.jacobian().is_err()); // nothing is solved yet
+    /// manipulator.solve(&scene.inputs)?;
+    /// let jacobian = manipulator.jacobian()?.tip_by_magnet();
+    /// // The magnet comes nearer by 1 mm, along y: the tip moves towards it or away, and turns about x.
+    /// let tip = jacobian.column(1) * 1e-3;
+    /// assert!(tip[1].abs() > 1e-6 && tip[3].abs() > 1e-4);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoDerivatives`] when the last solve failed, before the first, at a fold, and where a part lies
+    /// inside the external magnet; see [`Equilibrium::jacobian`].
+    pub fn jacobian(&self) -> Result<Jacobian, Error> {
+        if self.outputs.status == Status::NotSolved {
+            return Err(Error::NoDerivatives("the last inputs are not solved".into()));
+        }
+        self.equilibrium.jacobian()
     }
 
     /// Forgets the shape and the count of snaps.

@@ -4,7 +4,7 @@ mod device;
 mod outputs;
 mod scene;
 
-pub use crate::equilibrium::Inputs;
+pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use device::{Manipulator, Snapshot};
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};

@@ -8,5 +8,5 @@ mod lost;
 mod reciprocity;
 mod reference;
 mod robustness;
-mod rows;
+pub(crate) mod rows;
 mod scaling;

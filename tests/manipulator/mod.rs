@@ -1,3 +1,4 @@
 //! Tests of `manipulator`.
 
+mod jacobian;
 mod scene;
