@@ -150,6 +150,10 @@ pub(crate) const EFFECT: f64 = 1e-6;
 /// Curl and divergence of a magnet's field beside it, T/m: rounding of gradients around 1 T/m.
 pub(crate) const MAXWELL: f64 = 1e-13;
 
+/// Derivatives through the C interface and central differences with a step of 1e-4 of each input's usual size: rounding
+/// of a solve, 1e-11, over the step, and its square.
+pub(crate) const ABI_DIFFERENCE: f64 = 1e-6;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

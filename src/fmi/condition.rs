@@ -1,9 +1,11 @@
 //! Everything that changes in an instance's life: what a saved state keeps.
 
+use std::sync::Arc;
+
 use super::given::Given;
 use super::rates::Rates;
 use super::state::State;
-use crate::manipulator::Manipulator;
+use crate::manipulator::{Jacobian, Manipulator};
 
 /// Where an instance stands, with all that its answers depend on.
 #[derive(Debug, Clone)]
@@ -14,6 +16,8 @@ pub(super) struct Condition {
     pub(super) rates: Rates,
     /// The manipulator that the parameters describe, once it is needed.
     pub(super) device: Option<Manipulator>,
+    /// The device's derivatives where it is solved, once they are needed.
+    pub(super) jacobian: Option<Arc<Jacobian>>,
     /// Whether the device's outputs are those of `given`.
     pub(super) solved: bool,
     /// Whether it was solved for a reading host since the last step, so that the next step finds its work done.
@@ -33,6 +37,7 @@ impl Condition {
             given: start.clone(),
             rates: Rates::default(),
             device: None,
+            jacobian: None,
             solved: false,
             ahead: false,
             near_fold: false,

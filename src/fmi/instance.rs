@@ -210,6 +210,11 @@ impl Instance {
         }
     }
 
+    /// Whether outputs follow what is set.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.state(), State::Initialization | State::Stepping)
+    }
+
     /// The variables with these value references; if one is unknown, the log says so.
     pub(super) fn find(&self, references: &[u32]) -> Option<Vec<&Variable>> {
         let find = |&reference: &u32| {
@@ -236,9 +241,8 @@ impl Instance {
     ) -> Result<(Vec<T>, Ending), Ending> {
         let variables = self.find(references).ok_or(Ending::Error)?;
         let mut ending = Ending::Ok;
-        let live = matches!(self.state(), State::Initialization | State::Stepping);
         let margin = variables.iter().any(|variable| variable.name == MARGIN);
-        if live && variables.iter().any(|variable| variable.role == Role::Output) {
+        if self.is_live() && variables.iter().any(|variable| variable.role == Role::Output) {
             ending = self.ensure_solved();
             if ending == Ending::Error {
                 return Err(ending);
@@ -293,7 +297,7 @@ impl Instance {
     }
 
     /// Solves for the inputs now set, unless that was done.
-    fn ensure_solved(&mut self) -> Ending {
+    pub(super) fn ensure_solved(&mut self) -> Ending {
         if self.condition.solved {
             return Ending::Ok;
         }
@@ -320,6 +324,7 @@ impl Instance {
         if condition.state == State::Initialization {
             device.reset(); // the first equilibrium does not depend on what was read before
         }
+        condition.jacobian = None;
         let device = condition.device.insert(device);
         let snaps = device.outputs().snaps;
         let outputs = device.follow(path, condition.snaps)?;

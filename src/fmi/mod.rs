@@ -7,6 +7,8 @@ pub mod units; // units and quantities
 
 pub mod given; // inputs and parameters as the host sets them
 
+pub mod slope; // where a variable stands in the device's Jacobian
+
 pub mod variable; // one row of the table
 
 pub mod variables; // the table: reference, name, causality, unit, start, get, set

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::given::Given;
+use super::slope::Slope;
 use super::units::Quantity;
 use crate::manipulator::Outputs;
 
@@ -150,6 +151,8 @@ pub struct Variable {
     pub access: Access,
     /// Upon what an output depends; without meaning for others.
     pub reach: Reach,
+    /// How it takes part in derivatives.
+    pub slope: Slope,
 }
 
 impl Variable {

@@ -1,10 +1,16 @@
 //! Tests of `fmi`.
 
+mod derivatives;
+
 mod description;
 
 mod instance;
 
+mod log;
+
 mod package;
+
+mod serialise;
 
 mod state;
 
