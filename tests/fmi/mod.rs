@@ -4,6 +4,8 @@ mod derivatives;
 
 mod description;
 
+mod importer;
+
 mod instance;
 
 mod log;
