@@ -76,6 +76,13 @@ pub(crate) const CRITICAL_WITHOUT_PAIRS: f64 = 5e-7;
 /// Smallest eigenvalue by Lanczos' method and from the whole inverse.
 pub(crate) const MARGIN: f64 = 1e-8;
 
+/// Angle of a bent core against a closed form: the rotation of the discs varies within them by their two Gauss points.
+pub(crate) const BEND: f64 = 1e-9;
+
+/// Tip angle of three closed cores, deg: measured 119 in a field whose direction is not printed; ours stop at 115 to 127
+/// (`none` to `full`) in a field turned by 170 deg.
+pub(crate) const PAPER_STOP_DEG: f64 = 10.0;
+
 /// Width at which a bisection ends: well inside [`CRITICAL`].
 pub(crate) const BISECTION: f64 = 1e-8;
 
@@ -104,6 +111,9 @@ pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 /// Derivatives of all outputs by differences of fourth order of solves that each end at a residual of 1e-12, relative
 /// to the largest effect that an input of usual size has on that output.
 pub(crate) const JACOBIAN: f64 = 1e-6;
+
+/// Symmetries of second derivatives, each side from solves of its own with one factorisation.
+pub(crate) const SYMMETRY: f64 = 1e-9;
 
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;

@@ -62,8 +62,8 @@ pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<
 }
 
 impl Potential<'_> {
-    /// The columns at the shape that was linearised last; `None` where a body lies inside or on the edge of the
-    /// magnet, be it switched off.
+    /// The columns at the shape that was linearised last; `None` where a body lies inside or on an edge of
+    /// the magnet, be it switched off.
     pub(super) fn columns(&mut self, magnet: Option<&Assembly>, counts: &Counts) -> Option<Columns> {
         let mut gradient = DMatrix::zeros(self.chain.freedoms(), counts.inputs());
         let last = self.chain.elements.len();

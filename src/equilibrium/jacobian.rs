@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use nalgebra::{DMatrix, DMatrixView, DVector, Matrix6};
+use nalgebra::{DMatrix, DMatrixView, DVector, Matrix6, Matrix6x3};
 
 /// A continuous input: columns of a [`Jacobian`].
 ///
@@ -220,10 +220,16 @@ impl Jacobian {
         Err(crate::error::Error::Count { quantity, given, expected: self.matrix.ncols().to_string() })
     }
 
-    /// The actuation Jacobian: velocity (m) and rotation (rad) of the tip by those of the magnet, world axes, about
-    /// the tip and the magnet's centre.
+    /// The actuation Jacobian: displacement (m) and rotation (rad) of the tip by those of the magnet about its centre,
+    /// world axes.
     #[must_use]
     pub fn tip_by_magnet(&self) -> Matrix6<f64> {
         self.matrix.fixed_view::<6, 6>(1, 0).into_owned()
+    }
+
+    /// Displacement (m) and rotation (rad) of the tip by the uniform background field (T), world axes.
+    #[must_use]
+    pub fn tip_by_uniform_field(&self) -> Matrix6x3<f64> {
+        self.matrix.fixed_view::<6, 3>(1, 7).into_owned()
     }
 }

@@ -11,6 +11,7 @@ mod jacobian;
 mod pair;
 mod potential;
 mod reduction;
+mod rows;
 mod rules;
 mod sensitivity;
 mod settings;

@@ -10,3 +10,5 @@ mod reference;
 mod robustness;
 pub(crate) mod rows;
 mod scaling;
+mod sensitivity;
+mod stop;

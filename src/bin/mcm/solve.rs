@@ -4,8 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use mcm::manipulator::{Outputs, Status};
-use nalgebra::Vector3;
+use mcm::error::Error;
+use mcm::manipulator::{Jacobian, Outputs, Status};
+use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
 use super::failure::{Failure, NOT_CONVERGED, UNSTABLE};
@@ -14,6 +15,10 @@ use super::files::read_scene;
 /// Solves one equilibrium, starting from the unloaded shape.
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
+In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a magnet) and tip_by_uniform_field (6 x 3). \
+Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
+centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
+jacobian_note says why.\n\n\
 Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable.")]
 pub(crate) struct Solve {
@@ -33,10 +38,12 @@ impl Solve {
         let scene = read_scene(&self.scene)?.scene()?;
         let mut manipulator = scene.manipulator(self.shape_points)?;
         manipulator.solve(&scene.inputs)?;
+        let jacobian = manipulator.jacobian();
         let outputs = manipulator.measure_margin();
         let mut stdout = std::io::stdout().lock();
         if self.json {
-            serde_json::to_writer_pretty(&mut stdout, &as_json(outputs))?;
+            let answer = as_json(outputs, &jacobian, scene.magnets.is_some());
+            serde_json::to_writer_pretty(&mut stdout, &answer)?;
             writeln!(stdout)?;
         } else {
             write!(stdout, "{}", as_table(outputs))?;
@@ -65,8 +72,14 @@ fn warning(status: Status, stable: Option<bool>) -> Option<(u8, &'static str)> {
     }
 }
 
-fn as_json(outputs: &Outputs) -> Value {
+fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) -> Value {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
+    let derivatives = jacobian.as_ref().ok().map(|jacobian| {
+        json!({
+            "tip_by_magnet": magnet.then(|| rows(&jacobian.tip_by_magnet())),
+            "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
+        })
+    });
     json!({
         "alpha_rad": outputs.tip_angle,
         "tip_position_m": vector(&outputs.tip.position),
@@ -89,7 +102,14 @@ fn as_json(outputs: &Outputs) -> Value {
         "energy_j": outputs.energy,
         "interaction": outputs.interaction.name(),
         "method": "potential",
+        "jacobian": derivatives,
+        "jacobian_note": jacobian.as_ref().err().map(ToString::to_string),
     })
+}
+
+/// A matrix as a list of its rows.
+fn rows<const COLUMNS: usize>(matrix: &SMatrix<f64, 6, COLUMNS>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
 fn as_table(outputs: &Outputs) -> String {
