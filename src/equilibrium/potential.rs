@@ -31,6 +31,8 @@ pub(super) struct Workspace {
     pub(super) mixed: Vec<Mixed>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
+    /// The unknowns at which the Hessian was last made.
+    pub(super) linearised: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
     pub(super) factor: Vec<f64>,
     /// The factorisation where the matrix is not symmetric.
@@ -61,6 +63,7 @@ impl Workspace {
             mixed: Vec::new(),
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
+            linearised: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
             factor: vec![0.0; size * size],
             lu: None,

@@ -45,6 +45,21 @@ impl PairRules {
         changed
     }
 
+    /// The numbers of the chosen rules.
+    pub(super) fn chosen(&self) -> &[usize] {
+        &self.chosen
+    }
+
+    /// Chooses the rules by their numbers; false, and nothing happens, if there are no such rules.
+    pub(super) fn restore(&mut self, chosen: &[usize]) -> bool {
+        let most = self.tables.iter().map(Vec::len).min().unwrap_or(0);
+        let known = chosen.len() == self.chosen.len() && chosen.iter().all(|&number| number < most);
+        if known {
+            self.chosen.copy_from_slice(chosen);
+        }
+        known
+    }
+
     /// The rule of pair number `pair`, whose second ring is number `second`.
     pub(super) fn pair(&self, pair: usize, second: usize) -> &AxialRule {
         &self.tables[second][self.chosen[pair]].2

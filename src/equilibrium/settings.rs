@@ -1,9 +1,11 @@
 //! All knobs of the equilibrium, in one place.
 
+use serde::{Deserialize, Serialize};
+
 use crate::error::{Error, check};
 
 /// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interaction {
     /// External field only.
     None = 0,

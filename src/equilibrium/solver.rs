@@ -40,12 +40,12 @@ pub(super) enum Place {
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
-    settings: Settings,
+    pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
     pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: Branch,
     pub(super) work: Workspace,
-    rules: PairRules,
+    pub(super) rules: PairRules,
 }
 
 impl Equilibrium {
@@ -82,6 +82,7 @@ impl Equilibrium {
     /// Back to the straight shape at the origin; the branch is forgotten.
     pub fn reset(&mut self) {
         self.branch = Branch::new(&self.chain);
+        self.work.factored = false;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
@@ -149,10 +150,12 @@ impl Equilibrium {
         let mut potential = self.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
         let mut solution = rhs.to_vec();
-        potential.factorise(shift).then(|| {
+        let solved = potential.factorise(shift).then(|| {
             potential.solve(&mut solution);
             solution
-        })
+        });
+        self.work.factored = false; // not that of the branch
+        solved
     }
 
     pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {

@@ -52,6 +52,9 @@ pub struct Given {
 /// The magnet of a scene that has none: the paper's pair where `[magnet]` puts it, switched off.
 const SWITCHED_OFF: &str = "[magnet]\nstrength = 0.0";
 
+/// Norm below which a quaternion on a path is no orientation.
+const SHORTEST_QUATERNION: f64 = 1e-3;
+
 impl Given {
     /// The start values that a scene states.
     ///
@@ -137,6 +140,14 @@ impl From<Pose> for Placement {
 }
 
 impl Placement {
+    /// Scales the quaternion to unit norm, unless it is too short to tell a direction.
+    pub(super) fn normalise(&mut self) {
+        let norm = self.orientation.iter().map(|component| component * component).sum::<f64>().sqrt();
+        if norm > SHORTEST_QUATERNION {
+            self.orientation = self.orientation.map(|component| component / norm);
+        }
+    }
+
     fn pose(&self, orientation: &str) -> Result<Pose, Error> {
         Pose::new(self.position, self.orientation).map_err(|error| match error {
             Error::Range { value, allowed, .. } => {

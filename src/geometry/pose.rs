@@ -1,6 +1,7 @@
 //! A rigid body's pose: where it is and how it is turned.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::rotation::{RotationVector, rotation_log};
 use crate::error::{Error, check};
@@ -14,7 +15,7 @@ use crate::error::{Error, check};
 /// assert!(Pose::new([0.0; 3], [0.0; 4]).is_err());
 /// # Ok::<(), mcm::error::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Origin of the frame, m.
     pub position: Vector3<f64>,

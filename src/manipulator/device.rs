@@ -1,10 +1,11 @@
 //! The manipulator: a design, an external magnet, and the last shape.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Report, Settings};
+use crate::equilibrium::{self, Equilibrium, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -30,6 +31,13 @@ use crate::magnetics::Assembly;
 #[derive(Debug, Clone)]
 pub struct Manipulator {
     equilibrium: Equilibrium,
+    outputs: Outputs,
+}
+
+/// What a manipulator remembers of its past, in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    equilibrium: equilibrium::Snapshot,
     outputs: Outputs,
 }
 
@@ -76,10 +84,63 @@ impl Manipulator {
         &self.outputs
     }
 
+    /// Follows the equilibrium along `path`, one point after the other; what happens on the way counts as one solve.
+    ///
+    /// It has snapped if there were more jumps than `snaps` in the end. If a point is not solved, the branch and all
+    /// outputs but how it ended are those from before the path.
+    ///
+    /// # Errors
+    /// As [`Manipulator::solve`].
+    pub fn follow(&mut self, path: &[Inputs], snaps: u32) -> Result<&Outputs, Error> {
+        let before = (path.len() > 1).then(|| self.clone());
+        let mut iterations = 0;
+        for inputs in path {
+            let solved = self.solve(inputs).map(|outputs| (outputs.status, outputs.residual));
+            iterations += self.outputs.iterations;
+            if let Ok((Status::Solved | Status::NearFold | Status::Snapped, _)) = solved {
+                continue;
+            }
+            if let Some(before) = before {
+                *self = before;
+            }
+            let (status, residual) = solved?;
+            (self.outputs.status, self.outputs.residual) = (status, residual);
+            break;
+        }
+        self.outputs.iterations = iterations;
+        if self.outputs.status != Status::NotSolved && self.outputs.snaps > snaps {
+            self.outputs.status = Status::Snapped;
+        }
+        Ok(&self.outputs)
+    }
+
+    /// What it remembers: from it another manipulator of the same design goes on bit for bit.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot { equilibrium: self.equilibrium.snapshot(), outputs: self.outputs.clone() }
+    }
+
+    /// Remembers what another manipulator of the same design, magnet and settings did.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a snapshot that is not of this design; the manipulator is then reset.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        self.reset();
+        let lengths = |out: &Outputs| {
+            [out.rings.len(), out.core_angles.len(), out.shape.len(), out.shape_arc_length.len()]
+        };
+        if lengths(&snapshot.outputs) != lengths(&self.outputs) {
+            return Err(Error::Unsupported("the snapshot is not of this design".into()));
+        }
+        self.equilibrium.restore(&snapshot.equilibrium)?;
+        self.outputs = snapshot.outputs.clone();
+        Ok(())
+    }
+
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
-    /// it into the outputs.
+    /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.equilibrium.margin() {
+        if let Some(margin) = self.equilibrium.clone().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs

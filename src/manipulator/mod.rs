@@ -7,6 +7,6 @@ mod scene;
 
 pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use branch::{Branch, Fold};
-pub use device::Manipulator;
+pub use device::{Manipulator, Snapshot};
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};
