@@ -2,6 +2,8 @@
 
 mod description;
 
+mod importer;
+
 mod instance;
 
 mod package;
