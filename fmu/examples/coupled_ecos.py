@@ -2,8 +2,8 @@
 
     .venv/bin/python fmu/examples/coupled_ecos.py mcm.fmu arm.fmu --out coupled.csv
 
-With `--apart` the manipulator runs in a process of its own. What ecos tells of an output after a step is its value with the
-inputs of the next: the manipulator's rows are one step ahead of those of the other masters.
+With `--apart` the manipulator runs in a process of its own. What ecos tells of an output after a step is its value
+with the inputs of the next: the manipulator's rows are one step ahead of those of the other masters.
 """
 
 import stat

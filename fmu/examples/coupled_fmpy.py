@@ -2,8 +2,8 @@
 
     .venv/bin/python fmu/examples/coupled_fmpy.py mcm.fmu arm.fmu --out coupled.csv
 
-What other masters do in the same scheme is compared with this one. `--stiffness` shows what the coupling does: a stiff arm
-keeps to its path.
+What other masters do in the same scheme is compared with this one. `--stiffness` shows what the coupling does: a stiff
+arm keeps to its path.
 """
 
 import shutil

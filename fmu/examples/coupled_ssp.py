@@ -47,6 +47,7 @@ def with_libcosim(ssp: Path) -> Iterator[list[float]]:
 
     folder = extract(ssp)
     try:
+        master.log_output_level(master.CosimLogLevel.WARNING)
         step = round(coupling.STEP * master.NANOSECONDS)
         execution = master.CosimExecution.from_ssp_file(str(folder), step)
         yield from master.step(execution, master.Indices(execution))

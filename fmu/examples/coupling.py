@@ -1,7 +1,7 @@
 """The coupling that the masters of this folder run: a compliant robot arm carries the external magnet.
 
-The arm (`arm.fmu`) says where the magnet is, the manipulator (`mcm.fmu`) says what force its magnets exert on it; the force
-deflects the arm. Both step at once with what the other answered at the end of the step before (Jacobi scheme).
+The arm (`arm.fmu`) says where the magnet is, the manipulator (`mcm.fmu`) says what force its magnets exert on it; the
+force deflects the arm. Both step at once with what the other answered at the end of the step before (Jacobi scheme).
 """
 
 import argparse

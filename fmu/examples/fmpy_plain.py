@@ -2,8 +2,9 @@
 
     .venv/bin/python fmu/examples/fmpy_plain.py mcm.fmu --out driven.csv --picture driven.png
 
-The inputs are a table over time, by default `magnet_pass.csv`: from its start pose beside the middle the magnet goes 60 mm
-along the manipulator and 10 mm aside and turns by 0.5 rad. Inputs hold during a step; outputs are those at its end.
+The inputs are a table over time, by default `magnet_pass.csv`: from its start pose beside the middle the magnet goes
+60 mm along the manipulator and 10 mm aside and turns by 0.5 rad. Inputs hold during a step; outputs are those at its
+end.
 """
 
 import argparse

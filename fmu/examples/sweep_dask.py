@@ -3,10 +3,10 @@
     .venv/bin/python fmu/examples/sweep_dask.py mcm.fmu --vary 'magnet.position[3]=-0.04:0.08:25' \\
         --vary design.helix.length=0.0035:0.0045:5 --out sweep.csv --picture sweep.png
 
-Every combination is a case, solved from the unloaded shape, and becomes a row. By default two workers run on this machine;
-`--scheduler tcp://host:8786` takes a running cluster, whose workers need fmpy and get the FMU sent. The cases of a worker
-that is lost are solved by another one. Rows are on disk as soon as they are solved: the same command again, after whatever
-stopped it, solves what is missing.
+Every combination is a case, solved from the unloaded shape, and becomes a row. By default two workers run on this
+machine; `--scheduler tcp://host:8786` takes a running cluster, whose workers need fmpy and get the FMU sent. The cases
+of a worker that is lost are solved by another one. Rows are on disk as soon as they are solved: the same command again,
+after whatever stopped it, solves what is missing.
 """
 
 import argparse
@@ -153,9 +153,7 @@ def draw(table: Path, axes: list[Axis], picture: Path) -> None:
     for row in rows:
         lines.setdefault(tuple(row[name] for name in others), []).append(row)
     for values, line in lines.items():
-        label = ", ".join(
-            f"{name} = {float(value):.4g}" for name, value in zip(others, values, strict=True)
-        )
+        label = ", ".join(f"{name} = {float(value):.4g}" for name, value in zip(others, values, strict=True))
         angles = np.degrees([float(row["tip.angle"]) for row in line])
         plot.plot([float(row[first]) for row in line], angles, marker=".", label=label)
     plot.set(xlabel=first, ylabel="tip angle (deg)")
