@@ -27,11 +27,11 @@ def port(component: str, variable: str) -> str:
     return f"{component}::{variable}"
 
 
-def step(simulation: EcosSimulation) -> Iterator[list[float]]:
+def step(simulation: EcosSimulation, steps: int) -> Iterator[list[float]]:
     """The rows of the table."""
     if not simulation.init():
         raise SystemExit(f"ecos cannot initialise: {EcosLib.get_last_error()}")
-    for _ in range(coupling.STEPS):
+    for _ in range(steps):
         time = simulation.step()
         # ecos goes on after a step that failed: the manipulator itself says whether it was solved.
         if simulation.get_integer(port("mcm", "solver.status")) == NOT_SOLVED:
@@ -55,7 +55,7 @@ def run(mcm: Path, arm: Path, *, apart: bool = False) -> Iterator[list[float]]:
         for source, sink in coupling.CONNECTIONS:
             structure.make_real_connection(port(*source), port(*sink))
         with EcosSimulation(coupling.STEP, structure=structure) as simulation:
-            yield from step(simulation)
+            yield from step(simulation, coupling.STEPS)
 
 
 def main() -> None:

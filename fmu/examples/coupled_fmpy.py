@@ -6,48 +6,11 @@ What other masters do in the same scheme is compared with this one. `--stiffness
 arm keeps to its path.
 """
 
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import coupling
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
-
-
-class Component:
-    """An FMU in its first communication point, variables by name."""
-
-    def __init__(self, name: str, fmu: Path, start: dict[str, float]) -> None:
-        description = read_model_description(fmu)
-        self.references = {v.name: v.valueReference for v in description.modelVariables}
-        self.folder = extract(fmu)
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=name,
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        for variable, value in start.items():
-            self.set(variable, value)
-        self.slave.exitInitializationMode()
-
-    def get(self, variable: str) -> float:
-        """Reads a variable."""
-        return self.slave.getReal([self.references[variable]])[0]
-
-    def set(self, variable: str, value: float) -> None:
-        """Sets a variable."""
-        self.slave.setReal([self.references[variable]], [value])
-
-    def close(self) -> None:
-        """Ends it and removes its folder."""
-        self.slave.terminate()
-        self.slave.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
+from component import Component
 
 
 def run(mcm: Path, arm: Path, stiffness: float | None = None) -> Iterator[list[float]]:

@@ -33,12 +33,13 @@ class Indices:
         return self.slaves[port[0]], self.references[port]
 
 
-def step(execution: CosimExecution, indices: Indices) -> Iterator[list[float]]:
+def step(execution: CosimExecution, steps: int) -> Iterator[list[float]]:
     """The rows of the table."""
+    indices = Indices(execution)
     observer = CosimObserver.create_last_value()
     if not execution.add_observer(observer):
         raise SystemExit("libcosim takes no observer")
-    for index in range(1, coupling.STEPS + 1):
+    for index in range(1, steps + 1):
         if not execution.step():
             raise SystemExit(f"libcosim stopped in step {index}")
         time = execution.status().current_time / NANOSECONDS
@@ -57,7 +58,7 @@ def run(mcm: Path, arm: Path) -> Iterator[list[float]]:
     for source, sink in coupling.CONNECTIONS:
         if execution.connect_real_variables(*indices.of(source), *indices.of(sink)) != 0:
             raise SystemExit(f"libcosim cannot connect {source} to {sink}")
-    yield from step(execution, indices)
+    yield from step(execution, coupling.STEPS)
 
 
 def main() -> None:

@@ -8,6 +8,7 @@ its parts are used with an exchange before that step.
 
 import argparse
 import shutil
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -15,6 +16,17 @@ import coupling
 from fmpy import extract
 from fmpy.ssp.simulation import do_step, free_fmu, get_value, instantiate_fmu
 from fmpy.ssp.ssd import find_components, get_connections, read_ssd
+from lxml import etree
+from make_ssp import OMS, SSD
+
+
+def experiment(ssp: Path) -> tuple[float, int]:
+    """Communication step (s) and number of steps, as the archive says."""
+    with zipfile.ZipFile(ssp) as archive:
+        root = etree.fromstring(archive.read("SystemStructure.ssd"))
+    step = float(root.find(f".//{OMS}FixedStepMaster").get("stepSize"))
+    stop = float(root.find(f"{SSD}DefaultExperiment").get("stopTime"))
+    return step, round(stop / step)
 
 
 def with_fmpy(ssp: Path) -> Iterator[list[float]]:
@@ -22,19 +34,20 @@ def with_fmpy(ssp: Path) -> Iterator[list[float]]:
     system = read_ssd(ssp).system
     components = {component.name: component for component in find_components(system)}
     connections = get_connections(system)
+    step, steps = experiment(ssp)
     folder = extract(ssp)
     for component in components.values():
         instantiate_fmu(component, folder, start_time=0.0)
     try:
         for source, _ in connections:
             source.value = get_value(source.parent, source.name)
-        for index in range(coupling.STEPS):
+        for index in range(steps):
             for source, sink in connections:
                 sink.value = source.value
             for component in components.values():
-                do_step(component, index * coupling.STEP, coupling.STEP)
+                do_step(component, index * step, step)
             values = [get_value(components[name], variable) for name, variable in coupling.RECORDED]
-            yield [(index + 1) * coupling.STEP, *values]
+            yield [(index + 1) * step, *values]
     finally:
         for component in components.values():
             free_fmu(component)
@@ -45,12 +58,13 @@ def with_libcosim(ssp: Path) -> Iterator[list[float]]:
     """The rows of the table, by libcosim."""
     import coupled_libcosim as master  # noqa: PLC0415 - one master is enough to run this program
 
+    step, steps = experiment(ssp)
     folder = extract(ssp)
     try:
         master.log_output_level(master.CosimLogLevel.WARNING)
-        step = round(coupling.STEP * master.NANOSECONDS)
-        execution = master.CosimExecution.from_ssp_file(str(folder), step)
-        yield from master.step(execution, master.Indices(execution))
+        nanoseconds = round(step * master.NANOSECONDS)
+        execution = master.CosimExecution.from_ssp_file(str(folder), nanoseconds)
+        yield from master.step(execution, steps)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -59,8 +73,9 @@ def with_ecos(ssp: Path) -> Iterator[list[float]]:
     """The rows of the table, by ecos."""
     import coupled_ecos as master  # noqa: PLC0415
 
-    with master.EcosSimulation(coupling.STEP, ssp_path=str(ssp)) as simulation:
-        yield from master.step(simulation)
+    step, steps = experiment(ssp)
+    with master.EcosSimulation(step, ssp_path=str(ssp)) as simulation:
+        yield from master.step(simulation, steps)
 
 
 MASTERS: dict[str, Callable[[Path], Iterator[list[float]]]] = {

@@ -10,14 +10,12 @@ takes `J` from central differences instead, to check the derivatives.
 import argparse
 import csv
 import math
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+from component import Component
 
 STEP = 0.05  # s
 TARGETS = [(0.0, 20.0), (3.0, 60.0), (7.0, 35.0)]  # from when on (s), tip angle (deg)
@@ -38,56 +36,30 @@ def target(time: float) -> float:
 
 
 class Device:
-    """The FMU in its first communication point."""
+    """The manipulator in its first communication point, with the magnet where it starts."""
 
     def __init__(self, fmu: Path, *, differences: bool) -> None:
-        description = read_model_description(fmu)
-        if not differences and not description.coSimulation.providesDirectionalDerivative:
-            raise SystemExit(f"{fmu} provides no directional derivatives: see --differences")
+        self.component = Component("controlled", fmu, {})
+        self.position = np.array([self.component.get(name) for name in POSITION])
         self.differences = differences
-        references = {v.name: v.valueReference for v in description.modelVariables}
-        self.angle_reference = [references[ANGLE]]
-        self.position_references = [references[name] for name in POSITION]
-        self.folder = extract(fmu)
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="controlled",
-        )
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.position = np.array(self.slave.getReal(self.position_references))
-        self.slave.exitInitializationMode()
+        if not differences and not self.component.description.coSimulation.providesDirectionalDerivative:
+            raise SystemExit(f"{fmu} provides no directional derivatives: see --differences")
 
     def angle(self, position: np.ndarray) -> float:
         """Tip angle with the magnet here, rad."""
-        self.slave.setReal(self.position_references, position.tolist())
-        return self.slave.getReal(self.angle_reference)[0]
+        for name, value in zip(POSITION, position.tolist(), strict=True):
+            self.component.set(name, value)
+        return self.component.get(ANGLE)
 
     def jacobian(self) -> np.ndarray:
         """Derivatives of the tip angle by the magnet's position, rad/m."""
-        directions = np.eye(len(POSITION))
-        if self.differences:
-            ends = [
-                self.angle(self.position + h * DIFFERENCE) - self.angle(self.position - h * DIFFERENCE)
-                for h in directions
-            ]
-            return np.array(ends) / (2 * DIFFERENCE)
-        self.angle(self.position)
-        return np.array(
-            [
-                self.slave.getDirectionalDerivative(self.angle_reference, self.position_references, h)[0]
-                for h in directions
-            ]
-        )
-
-    def close(self) -> None:
-        """Ends the instance and removes its folder."""
-        self.slave.terminate()
-        self.slave.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        if not self.differences:
+            return np.array([self.component.derivative(ANGLE, name) for name in POSITION])
+        ends = [
+            self.angle(self.position + h) - self.angle(self.position - h)
+            for h in DIFFERENCE * np.eye(len(POSITION))
+        ]
+        return np.array(ends) / (2 * DIFFERENCE)
 
 
 def run(device: Device) -> Iterator[list[float]]:
@@ -102,7 +74,7 @@ def run(device: Device) -> Iterator[list[float]]:
         move *= min(1.0, FASTEST * STEP / max(np.linalg.norm(move), 1e-12))
         device.position = device.position + move
         device.angle(device.position)
-        device.slave.doStep(time, STEP)
+        device.component.slave.doStep(time, STEP)
 
 
 def draw(picture: Path, rows: list[list[float]]) -> None:
@@ -138,7 +110,7 @@ def main() -> None:
     try:
         rows = list(run(device))
     finally:
-        device.close()
+        device.component.close()
     with arguments.out.open("w", newline="") as file:
         csv.writer(file).writerows([COLUMNS, *rows])
     print(f"wrote {arguments.out}")

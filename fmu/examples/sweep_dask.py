@@ -73,7 +73,7 @@ def solve(fmu: str, names: list[str], cases: list[tuple[int, tuple[float, ...]]]
             answer = [*device.getReal([references[name] for name in OUTPUTS]), ""]
         except FMICallException as refusal:
             answer = [*(float("nan") for _ in OUTPUTS), str(refusal)]
-        rows.append([number, *values, *answer])
+        rows.append([description.guid, number, *values, *answer])
         device.reset()
     device.freeInstance()
     shutil.rmtree(folder, ignore_errors=True)
@@ -83,21 +83,23 @@ def solve(fmu: str, names: list[str], cases: list[tuple[int, tuple[float, ...]]]
 class Table:
     """The rows on disk; each case stands there once."""
 
-    def __init__(self, path: Path, names: list[str], cases: list[tuple[float, ...]]) -> None:
+    def __init__(self, path: Path, guid: str, names: list[str], cases: list[tuple[float, ...]]) -> None:
         self.path = path
-        self.header = ["case", *names, *OUTPUTS, "refused"]
+        self.header = ["fmu", "case", *names, *OUTPUTS, "refused"]
         self.drop_half_a_line()
         if not path.stat().st_size:
             self.append([self.header])
         with path.open(newline="") as file:
             header, *rows = csv.reader(file)
-        same = header == self.header and all(
-            int(row[0]) < len(cases) and tuple(map(float, row[1 : 1 + len(names)])) == cases[int(row[0])]
-            for row in rows
-        )
-        if not same:
+        self.done = {int(row[1]) for row in rows if row[0] == guid and self.is_case(row, cases)}
+        if header != self.header or len(self.done) != len(rows):
             raise SystemExit(f"{path} holds another sweep: remove it, or name another file")
-        self.done = {int(row[0]) for row in rows}
+
+    @staticmethod
+    def is_case(row: list[str], cases: list[tuple[float, ...]]) -> bool:
+        """Whether a row's number and varied values are those of a case."""
+        number = int(row[1])
+        return number < len(cases) and tuple(map(float, row[2 : 2 + len(cases[0])])) == cases[number]
 
     def drop_half_a_line(self) -> None:
         """Whoever was stopped while writing left a line without an end."""
@@ -113,20 +115,22 @@ class Table:
             os.fsync(file.fileno())
 
 
-def check(fmu: Path, axes: list[Axis]) -> None:
-    """Stops unless the FMU has these variables and they can be set."""
-    variables = {v.name: v for v in read_model_description(fmu).modelVariables}
+def checked_guid(fmu: Path, axes: list[Axis]) -> str:
+    """The FMU's GUID; stops unless it has these variables and they can be set."""
+    description = read_model_description(fmu)
+    variables = {v.name: v for v in description.modelVariables}
     for axis in axes:
         variable = variables.get(axis.name)
         if variable is None or variable.type != "Real" or variable.causality not in {"input", "parameter"}:
             raise SystemExit(f"{fmu} has no real input or parameter `{axis.name}`")
+    return description.guid
 
 
-def sweep(client: Client, fmu: Path, axes: list[Axis], out: Path) -> None:
+def sweep(client: Client, fmu: Path, guid: str, axes: list[Axis], out: Path) -> None:
     """Solves the cases that the table lacks."""
     names = [axis.name for axis in axes]
     cases = list(itertools.product(*(axis.values for axis in axes)))
-    table = Table(out, names, cases)
+    table = Table(out, guid, names, cases)
     missing = [case for case in enumerate(cases) if case[0] not in table.done]
     client.register_plugin(UploadFile(str(fmu), load=False))  # also to workers that come later
     tasks = [
@@ -182,12 +186,12 @@ def main() -> None:
     parser.add_argument("--scheduler", help="address of a running cluster")
     parser.add_argument("--workers", type=int, default=2, help="workers on this machine, without --scheduler")
     arguments = parser.parse_args()
-    check(arguments.fmu, arguments.vary)
+    guid = checked_guid(arguments.fmu, arguments.vary)
     cluster = arguments.scheduler or LocalCluster(
         n_workers=arguments.workers, threads_per_worker=1, dashboard_address=None
     )
     with Client(cluster) as client:
-        sweep(client, arguments.fmu, arguments.vary, arguments.out)
+        sweep(client, arguments.fmu, guid, arguments.vary, arguments.out)
     if not arguments.scheduler:
         cluster.close()
     print(f"wrote {arguments.out}")

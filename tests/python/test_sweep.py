@@ -87,9 +87,14 @@ def test_the_program_is_killed(default: Archive, cluster: LocalCluster, tmp_path
     first.communicate()
     kept = rows(out)
     with out.open("a") as file:
-        file.write("17,0.01")  # as if it had been killed while it wrote
+        file.write("{0a1b,17,0.01")  # as if it had been killed while it wrote
     second = start(default, out, "--scheduler", cluster.scheduler_address)
     _, told = second.communicate(timeout=90)
     assert second.returncode == 0, told
     check(default, out)
     assert rows(out)[: len(kept)] == kept, "nothing was solved again"
+    text = out.read_text()
+    out.write_text(text.replace(default.guid, "{another}"))
+    third = start(default, out, "--scheduler", cluster.scheduler_address)
+    _, told = third.communicate(timeout=90)
+    assert (third.returncode, "holds another sweep" in told) == (1, True)
