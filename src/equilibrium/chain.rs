@@ -75,6 +75,7 @@ impl Chain {
             degree: settings.degree + if spans { EXTRA_DEGREES } else { 0 },
             core_points: if spans { CORE_POINTS } else { 0 },
             sections: spans.then_some([NEAR, FAR]),
+            bending_stop: settings.bending_stop,
         };
         let (mut elements, mut cores) = (Vec::new(), Vec::new());
         for segment in design.segments() {

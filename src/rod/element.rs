@@ -2,9 +2,10 @@
 
 use core::ops::Range;
 
-use super::basis::{Modes, Part};
+use super::basis::{Ends, Modes, Part};
 use super::cubature::{Fineness, SectionPoint, section_points};
 use super::moments::SectionMoments;
+use super::stop::{Contact, Stop};
 use crate::design::{Span, SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
@@ -29,6 +30,8 @@ pub struct Resolution {
     pub core_points: usize,
     /// Section points for rings close by and further away; `None` where no ring acts on the element.
     pub sections: Option<[Fineness; 2]>,
+    /// Whether windings that touch stiffen a core.
+    pub bending_stop: bool,
 }
 
 /// Points that resolve the turns of the spiral when its moments are tabulated.
@@ -99,6 +102,7 @@ pub struct Element {
     pub runs: Vec<(usize, Range<usize>)>,
     /// Rows at the ends of the core (or of the whole element, for a plain rod).
     pub core_ends: [Row; 2],
+    stop: Option<Stop>,
     modes: [Modes; COMPONENTS],
     /// Length, nodes on [-1, 1] and first station of each piece.
     pieces: Vec<(f64, Vec<f64>, usize)>,
@@ -111,18 +115,19 @@ impl Element {
         let degree = resolution.degree;
         let core_points = resolution.core_points.max(degree + 1 + EXTRA_POINTS);
         let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
-        let modes = |stiffness: fn(&Stiffness) -> f64, ends_vary: bool| {
+        let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
                 start += piece.length;
                 let compliance = 1.0 / stiffness(&piece.span.stiffness);
                 Part { start: start - piece.length, length: piece.length, compliance }
             });
-            Modes::new(parts.collect(), core, degree, ends_vary)
+            Modes::new(parts.collect(), core, degree, ends)
         };
-        let bending = modes(|k| k.bending, true);
-        let shear = modes(|k| k.shear, false);
-        let (torsion, axial) = (modes(|k| k.torsion, false), modes(|k| k.axial, false));
+        let stop = if resolution.bending_stop { Stop::new(pieces) } else { None };
+        let bending = modes(|k| k.bending, if stop.is_some() { Ends::Jump } else { Ends::Linear });
+        let shear = modes(|k| k.shear, Ends::Constant);
+        let (torsion, axial) = (modes(|k| k.torsion, Ends::Constant), modes(|k| k.axial, Ends::Constant));
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
         let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
         let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
@@ -153,6 +158,7 @@ impl Element {
             component,
             runs,
             core_ends: [empty.clone(), empty],
+            stop,
             modes,
             pieces: tables,
         };
@@ -174,6 +180,11 @@ impl Element {
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.metric.len()
+    }
+
+    /// What the core's windings add to the elastic energy; `None` where they do not touch.
+    pub(super) fn contact(&self, amplitudes: &[f64]) -> Option<Contact> {
+        self.stop.as_ref()?.contact(&self.core_ends, amplitudes, &self.component)
     }
 
     /// Tables at arc length `s` from the element's start, clamped to the element.

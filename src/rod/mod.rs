@@ -1,11 +1,13 @@
 //! The elastic rod: strain modes, kinematics, stiffness, and loads as energies on moving frames.
 
 mod basis;
+mod bending;
 mod cubature;
 mod element;
 mod kinematics;
 mod load;
 mod moments;
+mod stop;
 mod tangent;
 
 pub use cubature::{Fineness, SectionPoint};
