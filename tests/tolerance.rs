@@ -176,6 +176,9 @@ pub(crate) const TWO_DECIMALS_DEG: f64 = 0.01;
 /// The same shape reached on another way, rad: both are solved to 1e-11 turns of one element.
 pub(crate) const SAME_SHAPE: f64 = 1e-9;
 
+/// The packed FMU in another importer beside the Rust API: the same library on the same path, compiled apart.
+pub(crate) const IMPORTER: f64 = 1e-9;
+
 /// A change that counts as an effect of what was changed: far above any tolerance of a solve, rad.
 pub(crate) const EFFECT: f64 = 1e-6;
 
