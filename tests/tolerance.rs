@@ -192,6 +192,9 @@ pub(crate) const LINEAR: f64 = 1e-7;
 /// 1e-5 where the rings' attraction couples them.
 pub(crate) const SUPERPOSED: f64 = 1e-4;
 
+/// Angles of one segment where rings act on spans, deg: the digits that the independent model has.
+pub(crate) const SPANS_ANGLE_DEG: f64 = 5e-3;
+
 /// Where a sweep locates a fold: in an interval of this part of its range.
 pub(crate) const LOCATED: f64 = 1e-5;
 

@@ -78,7 +78,7 @@ pub(super) fn held_force(
         rotation: turn,
     };
     let mut force = Vector3::zeros();
-    for ring in design.base_ring() {
+    if let Some(ring) = design.base_ring() {
         let body = AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?;
         force += force_on(magnet, &body, &mut base)?;
     }

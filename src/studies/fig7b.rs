@@ -144,14 +144,14 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
             Value::Number(paper),
             words(grown[1].end, "mT"),
             Value::Number(last(&grown[3])),
-            "a field fixed at 90 deg cannot bend past 90 deg: the device's field must have been turned, in a direction that is not printed".into(),
+            "a field fixed at 90 deg turns the tip to 90 deg at most: the device's field was turned on, in a direction that is not printed".into(),
         ),
         row(
             "three segments, 20 mT at 170 deg, the same (deg)",
             Value::Number(paper),
             words(turned[1].end, "deg"),
             Value::Number(last(&turned[3])),
-            "with the field turned on, the closed windings hold the device near three boundary angles, 120 deg; the stop is the model's own addition".into(),
+            "with the field turned that far, the closed windings hold the device near three boundary angles, 120 deg; the stop is the model's own addition".into(),
         ),
         row(
             "direction of 20 mT that bends three segments to 119 deg: full, rings, with bending stop (deg)",
@@ -165,7 +165,7 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
             Value::Number(paper_cylinder),
             Value::Absent,
             Value::Number(largest),
-            format!("no direction bends it to 16 deg, which takes {field:.1} mT across it: the cylinder was softer or the field stronger than stated"),
+            format!("no direction bends it to 16 deg, which takes {field:.1} mT across: the cylinder was softer than Eq. (14), (15) say, or the field stronger"),
         ),
     ])
 }

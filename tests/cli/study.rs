@@ -9,10 +9,11 @@ use super::{assert_status, folder, mcm, stderr, table};
 /// Largest size of a picture that the README shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
-const STUDIES: [&str; 6] = ["field_ring", "fig4", "fig5", "fig7c", "fig7d", "fig8"];
+const STUDIES: [&str; 9] =
+    ["field_ring", "fig4", "fig5", "fig7a", "fig7b", "fig7c", "fig7d", "fig8", "hysteresis"];
 
 /// Beginnings of pure numbers' headers, and the ends of all others: their unit.
-const PURE: [&str; 4] = ["mu_rel", "segments", "height_over_pitch", "score_"];
+const PURE: [&str; 5] = ["mu_rel", "segments", "height_over_pitch", "score_", "gain_"];
 const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
 
 fn assert_picture(path: &Path) {

@@ -207,7 +207,7 @@ fn every_mass_sags_as_a_beam_of_its_density() {
             let beam = Beam::new(&chain);
             let sag = beam.sag(1.0);
             if chain.backbone.is_none() && heavy == "backbone" {
-                assert_eq!(sag, 0.0);
+                assert!(sag <= 0.0, "a mass that is not there: {sag}");
                 continue;
             }
             let gravity = SMALL * beam.length / sag;

@@ -30,12 +30,25 @@ fn forces_are_those_on_a_manipulator_too_stiff_to_bend() {
         let index = column(&study, "offset_mm").iter().position(|o| *o == f64::from(offset)).unwrap();
         let held = |name: &str| column(&study, name)[index];
         let got = [held("axial_force_manipulator_n"), held("attraction_manipulator_n")];
-        for degree in [2, 4, 8] { for kind in [mcm::design::SpiralKind::Helical, mcm::design::SpiralKind::Axisymmetric] {
-            let d = Design::new(Specification::Segmented(Segmented { helix, spiral: kind, ..Segmented::paper(9) })).unwrap();
-            let mut s = Manipulator::new(&d, Some(&pair), Settings { degree, ..settings }, 2).unwrap();
-            let o = s.solve(&inputs).unwrap();
-            println!("PROBE {offset} {degree} {kind:?} {:?} {:e} {:e} tip {:e}", o.status, got[0] - o.magnetic_force.z, got[1] + o.magnetic_force.y, o.tip_angle);
-        } }
+        for degree in [2, 4, 8] {
+            for kind in [mcm::design::SpiralKind::Helical, mcm::design::SpiralKind::Axisymmetric] {
+                let d = Design::new(Specification::Segmented(Segmented {
+                    helix,
+                    spiral: kind,
+                    ..Segmented::paper(9)
+                }))
+                .unwrap();
+                let mut s = Manipulator::new(&d, Some(&pair), Settings { degree, ..settings }, 2).unwrap();
+                let o = s.solve(&inputs).unwrap();
+                println!(
+                    "PROBE {offset} {degree} {kind:?} {:?} {:e} {:e} tip {:e}",
+                    o.status,
+                    got[0] - o.magnetic_force.z,
+                    got[1] + o.magnetic_force.y,
+                    o.tip_angle
+                );
+            }
+        }
         assert_close(offset, &got, &[force.z, -force.y], 1.0);
     }
 }

@@ -3,9 +3,12 @@
 mod field_ring;
 mod fig4;
 mod fig5;
+mod fig7a;
+mod fig7b;
 mod fig7c;
 mod fig7d;
 mod fig8;
+mod hysteresis;
 
 use mcm::studies::{Comparison, Study, Value};
 
