@@ -4,22 +4,12 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::Error;
 use crate::magnetics::AxialSource;
-use crate::rod::{Element, Fineness, Piece, Resolution};
+use crate::rod::{Element, Piece, Resolution, Sample, Sight};
 
-use super::settings::Settings;
-
-/// Gauss points along a core on which rings act: with fewer than some 20 the turning spiral near a bent ring
-/// is off by 1e-4 of the length.
-const CORE_POINTS: usize = 24;
+use super::settings::{Interaction, Settings};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
-
-/// Section points of the spans beside a ring; twice as many change the tip by less than 1e-6 of the length.
-const NEAR: Fineness = Fineness { radial: 4, angular: 6 };
-
-/// Section points of the spans one segment further.
-const FAR: Fineness = Fineness { radial: 2, angular: 4 };
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -61,6 +51,8 @@ pub(super) struct Chain {
     pub(super) metric: Vec<f64>,
     /// Elements of each segment's core, first and last.
     pub(super) cores: Vec<(usize, usize)>,
+    /// By element and ring: where the ring acts on the element; nowhere at the levels that leave it out.
+    pub(super) samples: Vec<Vec<Vec<Sample>>>,
 }
 
 impl Chain {
@@ -73,10 +65,15 @@ impl Chain {
         let spans = settings.interaction.acts_on_spans();
         let resolution = Resolution {
             degree: settings.degree + if spans { EXTRA_DEGREES } else { 0 },
-            core_points: if spans { CORE_POINTS } else { 0 },
-            sections: spans.then_some([NEAR, FAR]),
+            nearest: design.rings().next().filter(|_| spans).map(|ring| Sight {
+                distance: 0.0,
+                beyond: false,
+                bonded: true,
+                radius: ring.outer_radius,
+                accuracy: settings.pair_accuracy,
+            }),
         };
-        let (mut elements, mut cores) = (Vec::new(), Vec::new());
+        let (mut elements, mut cores, mut chains) = (Vec::new(), Vec::new(), Vec::new());
         for segment in design.segments() {
             let first = elements.len();
             let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
@@ -88,6 +85,7 @@ impl Chain {
                     .map(|span| Piece { span, length: span.length / parts as f64 })
                     .collect();
                 elements.push(Element::new(offset, &pieces, &resolution));
+                chains.push(pieces);
                 offset = 0.0;
             }
             cores.push((first, elements.len() - 1));
@@ -101,7 +99,12 @@ impl Chain {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores })
+        let samples = elements.iter().zip(&chains).enumerate().map(|(k, (element, pieces))| {
+            let sight = |body| sight(&elements, k, body, settings);
+            rings.iter().map(|body| sight(body).map_or(vec![], |s| element.samples(pieces, &s))).collect()
+        });
+        let samples = samples.collect();
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, samples })
     }
 
     /// Number of unknowns.
@@ -118,4 +121,25 @@ impl Chain {
     pub(super) fn unit(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
+}
+
+/// Where a ring is seen from element `k` of the straight chain, if it acts there.
+fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<Sight> {
+    let beyond = body.node > k;
+    let acts = match settings.interaction {
+        Interaction::None | Interaction::Rings => false,
+        Interaction::Preceding => !beyond,
+        Interaction::Full => true,
+    };
+    let between = if beyond { &elements[k + 1..body.node] } else { &elements[body.node..k] };
+    let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
+    // What stands before an element's start is counted with it: the ring itself, or the one that it faces.
+    let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
+    acts.then(|| Sight {
+        distance,
+        beyond,
+        bonded: body.node == k || body.node == k + 1,
+        radius: body.ring.outer_radius,
+        accuracy: settings.pair_accuracy,
+    })
 }

@@ -27,8 +27,9 @@ pub(super) struct Workspace {
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     pub(super) tangents: Vec<Tangent>,
     pub(super) reductions: Vec<Reduction>,
-    /// Mixed derivatives of rings and stations, and the columns of the rings' nodes that they add up to.
-    pub(super) mixed: Vec<Mixed>,
+    /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
+    /// a node.
+    pub(super) mixed: Vec<Vec<Mixed>>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
@@ -58,7 +59,7 @@ impl Workspace {
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
             reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms(), columns)).collect(),
-            mixed: Vec::new(),
+            mixed: vec![Vec::new(); count],
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
