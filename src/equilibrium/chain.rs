@@ -4,12 +4,13 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::Error;
 use crate::magnetics::AxialSource;
-use crate::rod::{Element, Piece, Resolution, Sample, Sight};
+use crate::rod::{Element, Piece, Resolution, Sight};
 
-use super::settings::{Interaction, Settings};
+use super::settings::Settings;
+use super::views::Views;
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
-const EXTRA_DEGREES: usize = 4;
+const EXTRA_DEGREES: usize = 2;
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -51,8 +52,8 @@ pub(super) struct Chain {
     pub(super) metric: Vec<f64>,
     /// Elements of each segment's core, first and last.
     pub(super) cores: Vec<(usize, usize)>,
-    /// By element and ring: where the ring acts on the element; nowhere at the levels that leave it out.
-    pub(super) samples: Vec<Vec<Vec<Sample>>>,
+    /// Where rings act on elements.
+    pub(super) views: Views,
 }
 
 impl Chain {
@@ -70,6 +71,7 @@ impl Chain {
                 beyond: false,
                 bonded: true,
                 radius: ring.outer_radius,
+                bend: 0.0,
                 accuracy: settings.pair_accuracy,
             }),
         };
@@ -99,12 +101,8 @@ impl Chain {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
-        let samples = elements.iter().zip(&chains).enumerate().map(|(k, (element, pieces))| {
-            let sight = |body| sight(&elements, k, body, settings);
-            rings.iter().map(|body| sight(body).map_or(vec![], |s| element.samples(pieces, &s))).collect()
-        });
-        let samples = samples.collect();
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, samples })
+        let views = Views::new(&elements, &chains, &rings, settings);
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, views })
     }
 
     /// Number of unknowns.
@@ -121,25 +119,4 @@ impl Chain {
     pub(super) fn unit(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
-}
-
-/// Where a ring is seen from element `k` of the straight chain, if it acts there.
-fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<Sight> {
-    let beyond = body.node > k;
-    let acts = match settings.interaction {
-        Interaction::None | Interaction::Rings => false,
-        Interaction::Preceding => !beyond,
-        Interaction::Full => true,
-    };
-    let between = if beyond { &elements[k + 1..body.node] } else { &elements[body.node..k] };
-    let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
-    // What stands before an element's start is counted with it: the ring itself, or the one that it faces.
-    let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
-    acts.then(|| Sight {
-        distance,
-        beyond,
-        bonded: body.node == k || body.node == k + 1,
-        radius: body.ring.outer_radius,
-        accuracy: settings.pair_accuracy,
-    })
 }

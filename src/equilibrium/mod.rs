@@ -5,6 +5,7 @@ mod condensed;
 mod dead;
 mod follow;
 mod inputs;
+mod internal;
 mod pair;
 mod potential;
 mod reduction;
@@ -13,6 +14,7 @@ mod settings;
 mod solver;
 mod source;
 mod spans;
+mod views;
 
 pub use follow::Report;
 pub use inputs::Inputs;

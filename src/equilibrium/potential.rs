@@ -5,6 +5,7 @@ use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 use super::chain::Chain;
 use super::dead::{add_wrench, no_wrench, weight};
 use super::inputs::Inputs;
+use super::internal::Internal;
 use super::pair::{Mixed, PairLoad, blocks, overlap};
 use super::reduction::Reduction;
 use super::rules::PairRules;
@@ -21,6 +22,7 @@ pub(super) struct Workspace {
     pub(super) nodes: Vec<Pose>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
+    pub(super) internal: Internal,
     /// External magnetic force, and torque about the base position.
     pub(super) magnetic: Wrench,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
@@ -55,6 +57,7 @@ impl Workspace {
             nodes: vec![Pose::identity(); count + 1],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
+            internal: Internal::new(chain),
             magnetic: no_wrench(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
@@ -139,8 +142,7 @@ impl Potential<'_> {
         if hessian {
             self.work.node_hessian.fill(0.0);
         }
-        energy += self.load_pairs(order)?;
-        energy += self.load_spans(order)?;
+        energy += self.load_internal(unknowns, order)?;
         self.load_tip();
         for node in 1..self.work.node_loads.len() {
             let load = &self.work.node_loads[node];
@@ -198,7 +200,8 @@ impl Potential<'_> {
         Some(())
     }
 
-    fn load_pairs(&mut self, order: Order) -> Option<f64> {
+    /// Adds the energies of all pairs of rings to the loads; their sum.
+    pub(super) fn load_pairs(&mut self, order: Order) -> Option<f64> {
         if self.settings.interaction == Interaction::None {
             return Some(0.0);
         }
@@ -217,7 +220,7 @@ impl Potential<'_> {
                 let mutual = self.settings.interaction != Interaction::Preceding;
                 for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {
                     if node == second.node || mutual {
-                        self.work.node_loads[node] += load.wrench_alone();
+                        self.work.internal.nodes[node] += load.wrench_alone();
                     }
                 }
                 if order == Order::Hessian {

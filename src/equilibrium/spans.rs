@@ -13,20 +13,20 @@ impl Potential<'_> {
     pub(super) fn load_spans(&mut self, order: Order) -> Option<f64> {
         let mutual = self.settings.interaction == Interaction::Full;
         let mut energy = 0.0;
-        for (k, rings) in self.chain.samples.iter().enumerate() {
+        for k in 0..self.chain.elements.len() {
             self.work.mixed[k].clear();
             let start = self.work.nodes[k];
-            for (body, samples) in self.chain.rings.iter().zip(rings) {
+            for (ring, body) in self.chain.rings.iter().enumerate() {
                 let node = self.work.nodes[body.node];
                 let source = Source::ring(body, &node);
-                for sample in samples {
+                for sample in self.chain.views.samples(k, ring, self.rules.span(k, ring)) {
                     let pose = self.work.station(k, sample.station);
                     let load = source.on_sample(sample, &pose, order)?.in_axes(&source.axes().transpose());
                     energy += load.energy;
-                    self.work.station_loads[k][sample.station] += load.in_axes(&start.rotation);
+                    self.work.internal.stations[k][sample.station] += load.in_axes(&start.rotation);
                     let pair = PairLoad::reciprocal(&load, pose.position - node.position);
                     if mutual {
-                        self.work.node_loads[body.node] += pair.on_first.wrench_alone();
+                        self.work.internal.nodes[body.node] += pair.on_first.wrench_alone();
                     }
                     if order == Order::Hessian && body.node > 0 {
                         let second = pair.hessian();

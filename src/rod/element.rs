@@ -30,7 +30,7 @@ pub struct Resolution {
 }
 
 /// A span, or a part of one, inside an element.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece<'a> {
     /// The span.
     pub span: &'a Span,
