@@ -76,6 +76,13 @@ pub(crate) const CRITICAL_WITHOUT_PAIRS: f64 = 5e-7;
 /// Smallest eigenvalue by Lanczos' method and from the whole inverse.
 pub(crate) const MARGIN: f64 = 1e-8;
 
+/// Angle of a bent core against a closed form: the rotation of the discs varies within them by their two Gauss points.
+pub(crate) const BEND: f64 = 1e-9;
+
+/// Tip angle of three closed cores, deg: measured 119 in a field whose direction is not printed; ours stop at 115 to 127
+/// (`none` to `full`) in a field turned by 170 deg.
+pub(crate) const PAPER_STOP_DEG: f64 = 10.0;
+
 /// Width at which a bisection ends: well inside [`CRITICAL`].
 pub(crate) const BISECTION: f64 = 1e-8;
 

@@ -118,14 +118,16 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         line_density: tube.line_density,
         spiral,
     };
+    let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
     let spiral = Spiral {
         inner_radius: helix.core_outer_radius,
         outer_radius: helix.radius,
         sector_angle: geometry.sector_angle,
         windings: helix.windings,
         kind: chain.spiral,
+        boundary_angle: helix.boundary_angle,
+        closed_bending: disc.stiffness.bending,
     };
-    let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
     let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, Some(spiral));
     let segments = (1..=chain.segments)
         .map(|index| Segment {

@@ -63,6 +63,10 @@ pub struct Spiral {
     pub windings: f64,
     /// Turning or spread.
     pub kind: SpiralKind,
+    /// Angle `Theta` by which the core bends until adjacent windings touch, rad.
+    pub boundary_angle: f64,
+    /// Bending stiffness of the section whose windings touch (annulus `r_ic` to `R`), N m2.
+    pub closed_bending: f64,
 }
 
 /// What a span is.

@@ -10,7 +10,7 @@ use super::settings::Settings;
 use super::views::Views;
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
-const EXTRA_DEGREES: usize = 2;
+const EXTRA_DEGREES: usize = 4;
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -74,6 +74,7 @@ impl Chain {
                 bend: 0.0,
                 accuracy: settings.pair_accuracy,
             }),
+            bending_stop: settings.bending_stop,
         };
         let (mut elements, mut cores, mut chains) = (Vec::new(), Vec::new(), Vec::new());
         for segment in design.segments() {

@@ -47,6 +47,9 @@ const FALL_RADIUS: f64 = 0.1;
 /// A fall further than this (in the chain's unit) is a snap, a shorter one a bend in the branch.
 const SNAP: f64 = 0.25;
 
+/// How much further a fall is tried where it ends on a shape of neutral stability, neither held nor let go.
+const FURTHER: f64 = 16.0;
+
 /// Parts of one input change at most.
 const PARTS: u32 = 2000;
 
@@ -106,10 +109,16 @@ impl Scene<'_> {
     ) -> Report {
         let mut walk = Walk { scene: *self, work, rules, report: Report::start() };
         let mut unknowns = branch.unknowns.clone();
-        if walk.run(branch.inputs.as_ref(), target, &mut unknowns) {
+        let end = walk.run(branch.inputs.as_ref(), target, &mut unknowns);
+        if end != End::Lost {
+            walk.report.solved = true;
             branch.unknowns.copy_from_slice(&unknowns);
             branch.inputs = Some(target.clone());
-            walk.judge(target, &mut branch.softest);
+        }
+        match end {
+            End::Held => walk.judge(target, &mut branch.softest),
+            End::Neutral => walk.report.stable = Some(false),
+            End::Lost => {}
         }
         walk.report
     }
@@ -129,6 +138,18 @@ impl Report {
     }
 }
 
+/// How a search for an equilibrium ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum End {
+    /// At a shape that Newton's method confirms.
+    Held,
+    /// At a shape whose Hessian is singular to rounding, as where a bent manipulator may turn freely about the axis of
+    /// an antiparallel field: an equilibrium that nothing holds.
+    Neutral,
+    /// Nowhere.
+    Lost,
+}
+
 /// One solve under way.
 struct Walk<'a> {
     scene: Scene<'a>,
@@ -138,39 +159,51 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+    fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut Vec<f64>) -> End {
         let start = if let Some(inputs) = from {
             inputs.clone()
         } else {
             // The unloaded shape: its internal forces alone, found from straight.
             let unloaded = target.without_loads();
-            if self.correct(&unloaded, unknowns, SETTLING).is_none() && !self.fall(&unloaded, unknowns) {
-                return false;
+            if self.correct(&unloaded, unknowns, SETTLING).is_none()
+                && self.fall(&unloaded, unknowns) != End::Held
+            {
+                return End::Lost;
             }
             // Settling under its own forces is no jump.
             self.report.snaps = 0;
             unloaded
         };
-        let (mut done, mut part) = (0.0, 1.0);
+        let (mut done, mut part, mut falling) = (0.0, 1.0, false);
         for _ in 0..PARTS {
             let next = f64::min(1.0, done + part);
             let inputs = if next >= 1.0 { target.clone() } else { start.between(target, next) };
             let mut trial = unknowns.clone();
-            if self.correct(&inputs, &mut trial, self.scene.settings.follow_step).is_some() {
+            let settings = self.scene.settings;
+            if !falling && self.correct(&inputs, &mut trial, settings.follow_step).is_some() {
                 *unknowns = trial;
-            } else if part > self.scene.settings.smallest_part {
+            } else if !falling && part > settings.smallest_part {
                 part *= 0.5;
                 continue;
-            } else if !self.fall(&inputs, unknowns) {
-                return false;
+            } else {
+                match self.fall(&inputs, unknowns) {
+                    End::Held => falling = false,
+                    End::Neutral if next < 1.0 => {
+                        falling = true;
+                        part *= FURTHER;
+                        continue;
+                    }
+                    End::Neutral if self.report.residual <= ROUNDING => return End::Neutral,
+                    _ => return End::Lost,
+                }
             }
             done = next;
             part *= 2.0;
             if done >= 1.0 {
-                return true;
+                return End::Held;
             }
         }
-        false
+        End::Lost
     }
 
     fn potential<'b>(&'b mut self, inputs: &'b Inputs) -> Potential<'b> {
@@ -272,9 +305,9 @@ impl Walk<'_> {
     }
 
     /// Downhill to the next minimum; counts a snap if it is far.
-    fn fall(&mut self, inputs: &Inputs, unknowns: &mut Vec<f64>) -> bool {
+    fn fall(&mut self, inputs: &Inputs, unknowns: &mut Vec<f64>) -> End {
         if !self.potential(inputs).conservative() {
-            return false;
+            return End::Lost;
         }
         let Scene { chain, settings, .. } = self.scene;
         let unit = chain.unit();
@@ -288,16 +321,25 @@ impl Walk<'_> {
         let mut fallen = unknowns.clone();
         let minimum = trust_region::minimise(&mut self.potential(inputs), &mut fallen, &region);
         self.report.iterations += minimum.iterations;
-        self.report.residual = minimum.residual / unit;
-        if !minimum.converged || self.correct(inputs, &mut fallen, settings.follow_step).is_none() {
-            return false;
+        let residual = minimum.residual / unit;
+        self.report.residual = residual;
+        if !minimum.converged {
+            return if residual <= NEARLY { End::Neutral } else { End::Lost };
         }
+        let mut corrected = fallen.clone();
+        let end = if self.correct(inputs, &mut corrected, settings.follow_step).is_some() {
+            fallen = corrected;
+            End::Held
+        } else {
+            self.report.residual = residual;
+            End::Neutral
+        };
         let moved: Vec<f64> = fallen.iter().zip(unknowns.iter()).map(|(a, b)| a - b).collect();
         if norm(&chain.metric, &moved) / unit > SNAP {
             self.report.snaps += 1;
         }
         *unknowns = fallen;
-        true
+        end
     }
 
     /// Whether any rule is another one than before.
@@ -311,15 +353,15 @@ impl Walk<'_> {
         let metric = &self.scene.chain.metric;
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);
-        self.report.solved = true;
         let mut potential = self.potential(inputs);
         if !potential.has_verdict() {
             return;
         }
         let margin = eigenvalue::smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
         if margin.is_finite() {
-            // The correction has found the Hessian positive definite.
-            (self.report.margin, self.report.stable) = (margin, Some(true));
+            // The correction has found the Hessian positive definite, if only by rounding.
+            let held = margin > ROUNDING;
+            (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));
         } else {
             softest.fill(0.0);
         }

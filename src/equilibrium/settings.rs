@@ -57,6 +57,9 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
+    /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
+    /// windings touch; default no, as in the paper's model.
+    pub bending_stop: bool,
     /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
     /// rings act on spans.
     pub degree: usize,
@@ -74,7 +77,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one minimisation; default 200.
+    /// Iterations at most of one minimisation; default 1000.
     pub iterations: u32,
 }
 
@@ -82,6 +85,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
+            bending_stop: false,
             degree: 2,
             cylinder_elements: 8,
             pair_accuracy: 1e-5,
@@ -89,7 +93,7 @@ impl Default for Settings {
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
-            iterations: 200,
+            iterations: 1000,
         }
     }
 }

@@ -51,6 +51,12 @@ pub struct Minimum {
 /// Smallest radius, relative to the first, before the search is given up.
 const SMALLEST: f64 = 1e-10;
 
+/// Width of the bracket of the shift, relative to it, at which a step that is still inside the region is the hard case.
+const HARD: f64 = 1e-3;
+
+/// Shifts at most that are tried for one step.
+const SHIFTS: u32 = 40;
+
 /// Norm of `x` in the metric.
 #[must_use]
 pub fn norm(metric: &[f64], x: &[f64]) -> f64 {
@@ -79,12 +85,8 @@ pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) 
             return end;
         }
         end.iterations += 1;
-        let predicted = if definite || !stationary {
-            model_step(objective, definite, radius, &mut step)
-        } else {
-            end.tie = true;
-            escape(objective, radius, &mut step)
-        };
+        end.tie |= stationary;
+        let predicted = model_step(objective, definite, radius, &mut step);
         for (t, (a, b)) in trial.iter_mut().zip(x.iter().zip(&step)) {
             *t = a + b;
         }
@@ -117,7 +119,7 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
     let mut shift = 0.0;
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut factored = definite;
-    for _ in 0..40 {
+    for _ in 0..SHIFTS {
         if factored {
             for (s, g) in step.iter_mut().zip(objective.gradient()) {
                 *s = -g;
@@ -129,6 +131,9 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
             }
             if length < radius {
                 high = high.min(shift);
+                if high - low <= HARD * high {
+                    return along_negative_curvature(objective, shift, radius, step);
+                }
             } else {
                 low = low.max(shift);
             }
@@ -144,7 +149,7 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
             low = low.max(shift);
             shift = middle(low, high);
         }
-        if high.is_finite() && high - low <= 1e-3 * high {
+        if high.is_finite() && high - low <= HARD * high {
             shift = high;
         }
         factored = objective.factorise(shift);
@@ -170,24 +175,36 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// A step of length `radius` along the direction of most negative curvature.
-fn escape(objective: &mut impl Objective, radius: f64, step: &mut [f64]) -> f64 {
-    let mut shift = 0.05;
-    while !objective.factorise(shift) && shift < 1e12 {
-        shift *= 2.0;
-    }
+/// Lengthens `step`, which solves `(H + shift K) s = -g` inside the region, to its rim along the direction `z` of most
+/// negative curvature `lambda`: the hard case of Moré and Sorensen, as at a saddle. Returns the decrease that the model
+/// predicts, with `H s = -g - shift K s`.
+fn along_negative_curvature(
+    objective: &mut impl Objective,
+    shift: f64,
+    radius: f64,
+    step: &mut [f64],
+) -> f64 {
     let metric = objective.metric().to_vec();
-    step.fill(0.0);
-    spread(&metric, step, 1.0);
-    let search = Search { vectors: 40, settled: 1e-2 };
-    let value = eigenvalue::smallest(&metric, shift, step, search, |x| objective.solve(x));
+    let linear: f64 = objective.gradient().iter().zip(step.iter()).map(|(g, s)| g * s).sum();
     let length = norm(&metric, step);
-    // The tie is broken towards positive first components, for repeatability.
-    let sign = if step.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    for s in step.iter_mut() {
-        *s *= sign * radius / length;
+    let inside = 0.5 * (shift * length * length - linear);
+    let mut direction = vec![0.0; step.len()];
+    spread(&metric, &mut direction, 1.0);
+    let search = Search { vectors: 40, settled: 1e-2 };
+    let lambda = eigenvalue::smallest(&metric, shift, &mut direction, search, |x| objective.solve(x));
+    let size = norm(&metric, &direction);
+    let along =
+        metric.iter().zip(&direction).zip(step.iter()).map(|((k, z), s)| k * z * s).sum::<f64>() / size;
+    let reach = (along * along + radius * radius - length * length).max(0.0).sqrt();
+    let decrease = |tau: f64| tau * shift * along - 0.5 * tau * tau * lambda;
+    // A tie is broken towards positive first components, for repeatability.
+    let sign = if direction.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
+    let (one, other) = (sign * reach - along, -sign * reach - along);
+    let tau = if decrease(one) >= decrease(other) { one } else { other };
+    for (s, z) in step.iter_mut().zip(&direction) {
+        *s += tau * z / size;
     }
-    -0.5 * value * radius * radius
+    inside + decrease(tau)
 }
 
 /// Adds to `x` a fixed vector of norm `size` in the metric with a part in every direction.

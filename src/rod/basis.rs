@@ -1,9 +1,9 @@
 //! Strain modes of an element: a stress resultant times the local compliance.
 //!
 //! One element spans a whole segment, stiff discs and soft core alike. Along the core the resultant is a
-//! Legendre polynomial; along a disc it keeps the value at the core's end, and may vary linearly where a
-//! distributed couple makes it. Orthogonal in the elastic energy, all modes but the first leave the element's
-//! ends where they are.
+//! Legendre polynomial; along a disc it keeps the value at the core's end, may vary linearly where a distributed
+//! couple makes it, and may jump where windings that touch bear their part along the core. Orthogonal in the elastic
+//! energy, all modes but the first leave the element's ends where they are.
 
 use crate::numerics::quadrature::gauss_legendre;
 
@@ -18,6 +18,17 @@ pub(super) struct Part {
     pub(super) compliance: f64,
 }
 
+/// How the resultant in the discs follows from that at the core's ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ends {
+    /// It is the same.
+    Constant,
+    /// It may vary linearly from there.
+    Linear,
+    /// It may jump by the same amount at both ends of the core, and vary linearly from there.
+    Jump,
+}
+
 /// Orthogonal modes `psi_j(s) = compliance(s) pi_j(s) / integral of the compliance`.
 ///
 /// `pi_0 = 1`, so the integral of `psi_0` is one and that of every other mode zero; the mean square of every
@@ -27,8 +38,7 @@ pub(super) struct Modes {
     parts: Vec<Part>,
     core: usize,
     degree: usize,
-    /// Whether the resultant may vary along the discs.
-    ends_vary: bool,
+    ends: Ends,
     total: f64,
     /// Each mode's coefficients of the raw functions.
     coefficients: Vec<Vec<f64>>,
@@ -36,9 +46,9 @@ pub(super) struct Modes {
 
 impl Modes {
     /// Modes of polynomial degree 0 to `degree` along part `core`.
-    pub(super) fn new(parts: Vec<Part>, core: usize, degree: usize, ends_vary: bool) -> Self {
+    pub(super) fn new(parts: Vec<Part>, core: usize, degree: usize, ends: Ends) -> Self {
         let total = parts.iter().map(|part| part.compliance * part.length).sum();
-        let mut out = Self { parts, core, degree, ends_vary, total, coefficients: Vec::new() };
+        let mut out = Self { parts, core, degree, ends, total, coefficients: Vec::new() };
         out.orthogonalise();
         out
     }
@@ -94,7 +104,7 @@ impl Modes {
         }
     }
 
-    /// Raw functions at `s` in part `index`: Legendre polynomials clamped to the core, then one slope a disc.
+    /// Raw functions at `s` in part `index`: Legendre polynomials clamped to the core, one slope a disc, and a jump.
     fn raw(&self, index: usize, s: f64) -> Vec<f64> {
         let core = self.parts[self.core];
         let x = match index.cmp(&self.core) {
@@ -108,11 +118,14 @@ impl Modes {
             let before = if j > 1 { values[j - 2] } else { 0.0 };
             values.push(((2.0 * n - 1.0) * x * last - (n - 1.0) * before) / n);
         }
-        if self.ends_vary {
+        if self.ends != Ends::Constant {
             for (other, part) in self.parts.iter().enumerate().filter(|(other, _)| *other != self.core) {
                 let edge = if other < self.core { part.start + part.length } else { part.start };
                 values.push(if other == index { (s - edge) / part.length } else { 0.0 });
             }
+        }
+        if self.ends == Ends::Jump {
+            values.push(if index == self.core { 1.0 } else { 0.0 });
         }
         values
     }

@@ -2,9 +2,15 @@
 
 use core::ops::Range;
 
+<<<<<<< HEAD
 use super::basis::{Modes, Part};
 use super::cubature::{SPIRAL_POINTS, Sight};
+=======
+use super::basis::{Ends, Modes, Part};
+use super::cubature::{Fineness, SectionPoint, section_points};
+>>>>>>> main
 use super::moments::SectionMoments;
+use super::stop::{Contact, Stop};
 use crate::design::{Span, SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
@@ -25,8 +31,17 @@ const EXTRA_POINTS: usize = 1;
 pub struct Resolution {
     /// Polynomial degree of the strain modes; at least two more Gauss points are taken.
     pub degree: usize,
+<<<<<<< HEAD
     /// The nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
     pub nearest: Option<Sight>,
+=======
+    /// Gauss points of a core or rod; at least two more than the degree are taken.
+    pub core_points: usize,
+    /// Section points for rings close by and further away; `None` where no ring acts on the element.
+    pub sections: Option<[Fineness; 2]>,
+    /// Whether windings that touch stiffen a core.
+    pub bending_stop: bool,
+>>>>>>> main
 }
 
 /// A span, or a part of one, inside an element.
@@ -88,6 +103,7 @@ pub struct Element {
     pub runs: Vec<(usize, Range<usize>)>,
     /// Rows at the ends of the core (or of the whole element, for a plain rod).
     pub core_ends: [Row; 2],
+    stop: Option<Stop>,
     modes: [Modes; COMPONENTS],
     /// Length, nodes on [-1, 1] and first station of each piece.
     pieces: Vec<(f64, Vec<f64>, usize)>,
@@ -99,22 +115,27 @@ impl Element {
     pub fn new(offset: f64, pieces: &[Piece<'_>], resolution: &Resolution) -> Self {
         let degree = resolution.degree;
         let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
+<<<<<<< HEAD
         let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
         let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
         let core_points = resolved.max(degree + 1 + EXTRA_POINTS);
         let modes = |stiffness: fn(&Stiffness) -> f64, ends_vary: bool| {
+=======
+        let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
+>>>>>>> main
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
                 start += piece.length;
                 let compliance = 1.0 / stiffness(&piece.span.stiffness);
                 Part { start: start - piece.length, length: piece.length, compliance }
             });
-            Modes::new(parts.collect(), core, degree, ends_vary)
+            Modes::new(parts.collect(), core, degree, ends)
         };
-        let bending = modes(|k| k.bending, true);
-        let shear = modes(|k| k.shear, false);
-        let (torsion, axial) = (modes(|k| k.torsion, false), modes(|k| k.axial, false));
+        let stop = if resolution.bending_stop { Stop::new(pieces) } else { None };
+        let bending = modes(|k| k.bending, if stop.is_some() { Ends::Jump } else { Ends::Linear });
+        let shear = modes(|k| k.shear, Ends::Constant);
+        let (torsion, axial) = (modes(|k| k.torsion, Ends::Constant), modes(|k| k.axial, Ends::Constant));
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
         let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
         let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
@@ -143,6 +164,7 @@ impl Element {
             component,
             runs,
             core_ends: [empty.clone(), empty],
+            stop,
             modes,
             pieces: tables,
         };
@@ -157,6 +179,11 @@ impl Element {
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.metric.len()
+    }
+
+    /// What the core's windings add to the elastic energy; `None` where they do not touch.
+    pub(super) fn contact(&self, amplitudes: &[f64]) -> Option<Contact> {
+        self.stop.as_ref()?.contact(&self.core_ends, amplitudes, &self.component)
     }
 
     /// Tables at arc length `s` from the element's start, clamped to the element.

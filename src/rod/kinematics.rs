@@ -107,7 +107,7 @@ impl Configuration {
     /// Elastic energy, J.
     #[must_use]
     pub fn elastic_energy(&self, element: &Element, amplitudes: &[f64]) -> f64 {
-        let mut energy = 0.0;
+        let mut energy = element.contact(amplitudes).map_or(0.0, |contact| contact.energy);
         for (state, station) in self.stations.iter().zip(&element.stations) {
             let curvature = state.left.tr_mul(&state.rate);
             let k = &station.stiffness;

@@ -1,12 +1,14 @@
 //! The elastic rod: strain modes, kinematics, stiffness, and loads as energies on moving frames.
 
 mod basis;
+mod bending;
 mod cubature;
 mod element;
 mod kinematics;
 mod load;
 mod moments;
 mod sheet;
+mod stop;
 mod tangent;
 
 pub use cubature::{Sample, SectionPoint, Sight};

@@ -6,10 +6,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::bending::{self, Bending};
 use super::element::{COMPONENTS, Element, ROTATIONS};
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
-use crate::design::Stiffness;
+use super::stop::Contact;
 
 /// How far an evaluation goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,6 +100,9 @@ impl Tangent {
             }
         }
         self.add_end(configuration, end.1, second);
+        if let Some(contact) = element.contact(amplitudes) {
+            self.add_contact(element, &contact, second);
+        }
         for i in 0..3 {
             self.gradient[i] = start_force[i];
             self.gradient[3 + i] = start_moment[i];
@@ -166,7 +170,7 @@ impl Tangent {
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let (bend, rate) = bending_gradient(state, &station.stiffness, station.weight);
+        let (bend, rate) = bending::gradient(state, &station.stiffness, station.weight);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let slope = state.theta.rotation_gradient(&pull) + bend;
         let along = state.directors.tr_mul(beyond);
@@ -188,7 +192,7 @@ impl Tangent {
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let bend = bending(state, &station.stiffness, station.weight);
+        let bend = Bending::new(state, &station.stiffness, station.weight);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let (slope, curve) = state.theta.contract_rotation(&pull);
         let slope = slope + bend.slope;
@@ -315,6 +319,28 @@ impl Tangent {
         }
     }
 
+    /// Closed windings act on the rotation vectors at both ends of the core.
+    fn add_contact(&mut self, element: &Element, contact: &Contact, second: bool) {
+        let [near, far] = &element.core_ends;
+        for (i, a) in element.component.iter().enumerate().filter(|(_, a)| **a < ROTATIONS) {
+            let own = [near.integral[i], far.integral[i]];
+            self.gradient[START + i] += own[0] * contact.slope[*a] + own[1] * contact.slope[ROTATIONS + a];
+            if !second {
+                continue;
+            }
+            let by: [f64; 2 * ROTATIONS] = core::array::from_fn(|column| {
+                own[0] * contact.curve[(*a, column)] + own[1] * contact.curve[(ROTATIONS + a, column)]
+            });
+            let target = &mut self.hessian[(START + i) * self.size + START..][..element.freedoms()];
+            for (c, run) in element.runs.iter().filter(|(c, _)| *c < ROTATIONS) {
+                let columns = near.integral[run.clone()].iter().zip(&far.integral[run.clone()]);
+                for (entry, (near, far)) in target[run.clone()].iter_mut().zip(columns) {
+                    *entry += by[*c] * near + by[ROTATIONS + c] * far;
+                }
+            }
+        }
+    }
+
     /// The moment on the end acts on the rotation vector from start to end alone.
     fn add_end(&mut self, configuration: &Configuration, moment: &Vector3<f64>, second: bool) {
         let theta = &configuration.end_theta;
@@ -335,47 +361,5 @@ impl Tangent {
                 self.hessian[(3 + b) * self.size + START + a] += cross[b];
             }
         }
-    }
-}
-
-/// Derivatives of a station's bending and torsion energy by rotation vector and rate.
-struct Bending {
-    slope: Vector3<f64>,
-    rate_slope: Vector3<f64>,
-    curve: Matrix3<f64>,
-    mixed: Matrix3<f64>,
-    rate_curve: Matrix3<f64>,
-}
-
-/// Weighted section stiffness against curvature, as a diagonal.
-fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
-    Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
-}
-
-fn bending_gradient(
-    state: &StationState,
-    stiffness: &Stiffness,
-    weight: f64,
-) -> (Vector3<f64>, Vector3<f64>) {
-    let curvature = state.left.tr_mul(&state.rate);
-    let moment = curvature_stiffness(stiffness, weight).component_mul(&curvature);
-    (state.theta.right_product_derivative(&state.rate).tr_mul(&moment), state.left * moment)
-}
-
-fn bending(state: &StationState, stiffness: &Stiffness, weight: f64) -> Bending {
-    let right = state.left.transpose();
-    let curvature = right * state.rate;
-    let stiffness = curvature_stiffness(stiffness, weight);
-    let moment = stiffness.component_mul(&curvature);
-    let by_vector = state.theta.right_product_derivative(&state.rate);
-    let weighted = Matrix3::from_diagonal(&stiffness);
-    Bending {
-        slope: by_vector.tr_mul(&moment),
-        rate_slope: right.tr_mul(&moment),
-        curve: by_vector.tr_mul(&(weighted * by_vector))
-            + state.theta.contract_curvature(&moment, &state.rate),
-        mixed: by_vector.tr_mul(&(weighted * right))
-            + state.theta.left_product_derivative(&moment).transpose(),
-        rate_curve: right.tr_mul(&(weighted * right)),
     }
 }

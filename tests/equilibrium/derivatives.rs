@@ -40,8 +40,10 @@ fn cases() -> Vec<Case> {
     let design = Design::new(Specification::paper(3)).expect("the paper's design is allowed");
     let mut out = Vec::new();
     for interaction in [Interaction::None, Interaction::Rings, Interaction::Full] {
-        for (magnet, degree) in [(false, 0), (false, 2), (true, 3)] {
-            let settings = Settings { interaction, degree, ..Settings::default() };
+        for (magnet, degree, closed) in
+            [(false, 0, false), (false, 2, false), (true, 3, false), (true, 2, true)]
+        {
+            let settings = Settings { interaction, degree, bending_stop: closed, ..Settings::default() };
             let assembly = pair();
             let equilibrium =
                 Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).expect("allowed");
@@ -49,8 +51,10 @@ fn cases() -> Vec<Case> {
                 equilibrium.metric().iter().map(|k| (equilibrium.metric()[0] / k).sqrt()).collect();
             let vector =
                 |seed, size: f64| scale.iter().enumerate().map(|(i, s)| size * s * pseudo(seed, i)).collect();
-            let (shape, direction) = (vector(1, 0.12), vector(2, 1.0));
-            let name = format!("{interaction:?}, magnet {magnet}, degree {degree}");
+            // Bent so far that windings of some cores touch, and of others are about to.
+            let bent = if closed { 0.5 } else { 0.12 };
+            let (shape, direction) = (vector(1, bent), vector(2, 1.0));
+            let name = format!("{interaction:?}, magnet {magnet}, degree {degree}, stop {closed}");
             out.push((name, equilibrium, everything(magnet), shape, direction));
         }
     }

@@ -10,3 +10,4 @@ mod reference;
 mod robustness;
 mod rows;
 mod scaling;
+mod stop;

@@ -142,8 +142,8 @@ fn refusals_name_line_path_and_remedy() {
             "test, line 2: `model.method`: unknown variant `shooting`, expected `potential`",
         ),
         (
-            "[model]\nbending_stop = true",
-            "model.bending_stop = true is not available in this version: leave it out or set it to false",
+            "[model]\nbending_stop = \"yes\"",
+            "test, line 2: `model.bending_stop`: invalid type: string \"yes\", expected a boolean",
         ),
         (
             "[design]\nlength_mm = 4",

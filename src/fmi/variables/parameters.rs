@@ -98,6 +98,15 @@ impl Rows {
             )
             .role(Role::Fixed),
         );
+        self.fixed(Draft::new(
+            "model.bending_stop",
+            Kind::Boolean,
+            "Whether a core stiffens once it has bent by its boundary angle, because windings touch",
+            Access::Boolean {
+                get: |given| given.settings.bending_stop,
+                set: |given, on| given.settings.bending_stop = on,
+            },
+        ));
     }
 
     fn fixed(&mut self, draft: Draft) {

@@ -35,7 +35,7 @@ impl SceneFile {
         let specification = self.design.specification()?;
         let inputs = self.inputs(&Design::new(specification.clone())?)?;
         let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
-        Ok(Scene { specification, magnets, inputs, settings: self.settings()? })
+        Ok(Scene { specification, magnets, inputs, settings: self.settings() })
     }
 
     /// Writes down what `key` names if it was left out because it follows from the design.
@@ -78,14 +78,9 @@ impl SceneFile {
         Ok(inputs)
     }
 
-    fn settings(&self) -> Result<Settings, Error> {
-        if self.model.bending_stop {
-            return Err(Error::Unsupported(
-                "model.bending_stop = true is not available in this version: leave it out or set it to false"
-                    .into(),
-            ));
-        }
-        Ok(Settings { interaction: self.model.interaction, ..Settings::default() })
+    fn settings(&self) -> Settings {
+        let (interaction, bending_stop) = (self.model.interaction, self.model.bending_stop);
+        Settings { interaction, bending_stop, ..Settings::default() }
     }
 }
 

@@ -1,0 +1,55 @@
+//! Elastic bending and torsion of a station, by the rotation vector and its rate.
+//!
+//! The curvature is `J_r(theta) theta'`, so that the energy density `1/2 u^T K_bt u` (Richter et al., Eq. 12) depends on
+//! both.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::kinematics::StationState;
+use crate::design::Stiffness;
+
+/// First and second derivatives.
+pub(super) struct Bending {
+    pub(super) slope: Vector3<f64>,
+    pub(super) rate_slope: Vector3<f64>,
+    pub(super) curve: Matrix3<f64>,
+    pub(super) mixed: Matrix3<f64>,
+    pub(super) rate_curve: Matrix3<f64>,
+}
+
+impl Bending {
+    /// At a station with quadrature weight `weight`, m.
+    pub(super) fn new(state: &StationState, stiffness: &Stiffness, weight: f64) -> Self {
+        let right = state.left.transpose();
+        let curvature = right * state.rate;
+        let stiffness = curvature_stiffness(stiffness, weight);
+        let moment = stiffness.component_mul(&curvature);
+        let by_vector = state.theta.right_product_derivative(&state.rate);
+        let weighted = Matrix3::from_diagonal(&stiffness);
+        Self {
+            slope: by_vector.tr_mul(&moment),
+            rate_slope: right.tr_mul(&moment),
+            curve: by_vector.tr_mul(&(weighted * by_vector))
+                + state.theta.contract_curvature(&moment, &state.rate),
+            mixed: by_vector.tr_mul(&(weighted * right))
+                + state.theta.left_product_derivative(&moment).transpose(),
+            rate_curve: right.tr_mul(&(weighted * right)),
+        }
+    }
+}
+
+/// Weighted section stiffness against curvature, as a diagonal.
+fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
+    Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
+}
+
+/// Derivatives of a station's bending and torsion energy by rotation vector and rate.
+pub(super) fn gradient(
+    state: &StationState,
+    stiffness: &Stiffness,
+    weight: f64,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let curvature = state.left.tr_mul(&state.rate);
+    let moment = curvature_stiffness(stiffness, weight).component_mul(&curvature);
+    (state.theta.right_product_derivative(&state.rate).tr_mul(&moment), state.left * moment)
+}
