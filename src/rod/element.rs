@@ -2,7 +2,6 @@
 
 use core::ops::Range;
 
-<<<<<<< HEAD
 use super::basis::{Modes, Part};
 use super::cubature::{SPIRAL_POINTS, Sight};
 =======
@@ -120,10 +119,7 @@ impl Element {
         let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
         let core_points = resolved.max(degree + 1 + EXTRA_POINTS);
-        let modes = |stiffness: fn(&Stiffness) -> f64, ends_vary: bool| {
-=======
         let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
->>>>>>> main
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
                 start += piece.length;
