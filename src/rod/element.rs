@@ -2,12 +2,8 @@
 
 use core::ops::Range;
 
-use super::basis::{Modes, Part};
-use super::cubature::{SPIRAL_POINTS, Sight};
-=======
 use super::basis::{Ends, Modes, Part};
-use super::cubature::{Fineness, SectionPoint, section_points};
->>>>>>> main
+use super::cubature::{SPIRAL_POINTS, Sight};
 use super::moments::SectionMoments;
 use super::stop::{Contact, Stop};
 use crate::design::{Span, SpanKind, Stiffness};
@@ -30,17 +26,10 @@ const EXTRA_POINTS: usize = 1;
 pub struct Resolution {
     /// Polynomial degree of the strain modes; at least two more Gauss points are taken.
     pub degree: usize,
-<<<<<<< HEAD
     /// The nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
     pub nearest: Option<Sight>,
-=======
-    /// Gauss points of a core or rod; at least two more than the degree are taken.
-    pub core_points: usize,
-    /// Section points for rings close by and further away; `None` where no ring acts on the element.
-    pub sections: Option<[Fineness; 2]>,
     /// Whether windings that touch stiffen a core.
     pub bending_stop: bool,
->>>>>>> main
 }
 
 /// A span, or a part of one, inside an element.
@@ -114,7 +103,6 @@ impl Element {
     pub fn new(offset: f64, pieces: &[Piece<'_>], resolution: &Resolution) -> Self {
         let degree = resolution.degree;
         let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
-<<<<<<< HEAD
         let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
         let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
