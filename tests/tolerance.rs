@@ -38,9 +38,6 @@ pub(crate) const PRINTED_THREE_DECIMALS: f64 = 5e-4;
 /// Numbers known to two or three digits, of which the last may be one off.
 pub(crate) const PRINTED_THREE_DIGITS: f64 = 1e-2;
 
-/// Forces on a stiff device: the solver's spans see a field of third degree over their section as one of second.
-pub(crate) const HELD: f64 = 1e-5;
-
 /// Forces on two devices of one length, one magnetised in lumps of a millimetre: second order in 1 mm over 60 mm, and the
 /// lumps at its ends make it a little longer.
 pub(crate) const SAME_SHAPE_OF_MAGNETISATION: f64 = 0.02;

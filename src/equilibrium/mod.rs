@@ -7,6 +7,7 @@ mod dead;
 mod field_rates;
 mod follow;
 mod inputs;
+mod internal;
 mod jacobian;
 mod pair;
 mod potential;
@@ -19,6 +20,7 @@ mod snapshot;
 mod solver;
 mod source;
 mod spans;
+mod views;
 
 pub use follow::Report;
 pub use inputs::Inputs;

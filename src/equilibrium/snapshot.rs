@@ -26,7 +26,7 @@ impl Equilibrium {
         Snapshot {
             branch: self.branch.clone(),
             factorised: self.work.factored.then(|| self.work.linearised.clone()),
-            rules: self.rules.chosen().to_vec(),
+            rules: self.rules.chosen(),
         }
     }
 

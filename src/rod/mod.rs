@@ -7,12 +7,14 @@ mod element;
 mod kinematics;
 mod load;
 mod moments;
+mod sheet;
 mod stop;
 mod tangent;
 
-pub use cubature::{Fineness, SectionPoint};
+pub use cubature::{Sample, SectionPoint, Sight};
 pub use element::{COMPONENTS, Element, Piece, Resolution, Row, Station};
 pub use kinematics::{Configuration, StationState};
 pub use load::{Load, turning};
 pub use moments::SectionMoments;
+pub use sheet::Sheet;
 pub use tangent::{Order, START, Tangent};

@@ -8,7 +8,7 @@ use mcm::manipulator::{Inputs, Manipulator};
 use mcm::studies::fig7c;
 
 use super::{column, number, row};
-use crate::tolerance::{HELD, PRINTED_THREE_DECIMALS, SAME_SHAPE_OF_MAGNETISATION, assert_close};
+use crate::tolerance::{PRINTED_THREE_DECIMALS, SAME_SHAPE_OF_MAGNETISATION, assert_close};
 
 #[test]
 fn forces_are_those_on_a_manipulator_too_stiff_to_bend() {
