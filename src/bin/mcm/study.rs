@@ -30,6 +30,8 @@ pub(crate) struct Study {
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 enum Name {
+    /// Fig. 3E: field of one ring magnet
+    FieldRing,
     /// Fig. 4: choice of helix length and boundary angle
     Fig4,
     /// Fig. 5: relative magnetic moment over the number of segments
@@ -40,8 +42,6 @@ enum Name {
     Fig7d,
     /// Fig. 8: torque on the last of several rings
     Fig8,
-    /// Fig. 3E: field of one ring magnet
-    FieldRing,
     /// Every figure
     All,
 }
@@ -50,12 +50,12 @@ impl Name {
     /// The study of this name; `None` for all.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
+            Self::FieldRing => Some(studies::field_ring),
             Self::Fig4 => Some(studies::fig4),
             Self::Fig5 => Some(studies::fig5),
             Self::Fig7c => Some(studies::fig7c),
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
-            Self::FieldRing => Some(studies::field_ring),
             Self::All => None,
         }
     }
