@@ -38,12 +38,15 @@ pub(crate) const PRINTED_THREE_DECIMALS: f64 = 5e-4;
 /// Numbers known to two or three digits, of which the last may be one off.
 pub(crate) const PRINTED_THREE_DIGITS: f64 = 1e-2;
 
-/// Forces on two devices of one length, one magnetised in lumps of a millimetre: second order in 1 mm over 60 mm, and the
-/// lumps at its ends make it a little longer.
-pub(crate) const SAME_SHAPE_OF_MAGNETISATION: f64 = 0.02;
+/// Forces on a stiff device: the solver's spans see a field of third degree over their section as one of second.
+pub(crate) const HELD: f64 = 1e-5;
 
-/// Slopes by differences over 2 mm of a field that changes over 20 mm.
-pub(crate) const STEP_OF_A_MILLIMETRE: f64 = 1e-2;
+/// Forces on two devices of one length over their moments: rings lie further out than an even magnetisation, which makes
+/// the mean square of the distance from the middle 13 mm2 larger, and the force changes over about 22 mm.
+pub(crate) const SAME_SHAPE_OF_MAGNETISATION: f64 = 0.03;
+
+/// Slopes by central differences with steps of a twentieth of the length over which the field changes.
+pub(crate) const COARSE_DIFFERENCE: f64 = 1e-2;
 
 /// Sums over some ten thousand cells of a ring, and numbers of four digits.
 pub(crate) const CELLS: f64 = 1e-3;

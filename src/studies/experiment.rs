@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use crate::constants::VACUUM_PERMEABILITY;
-use crate::design::{Cylinder, CylinderMaterial, Design, Helix, Span, Specification, Spiral};
+use crate::design::{Cylinder, CylinderMaterial, Design, Helix, Ring, Span, Specification, Spiral};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet, AxialSource};
@@ -79,8 +79,7 @@ pub(super) fn held_force(
     };
     let mut force = Vector3::zeros();
     if let Some(ring) = design.base_ring() {
-        let body = AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?;
-        force += force_on(magnet, &body, &mut base)?;
+        force += force_on_ring(magnet, ring, &mut base)?;
     }
     for segment in design.segments() {
         for span in &segment.spans {
@@ -92,11 +91,15 @@ pub(super) fn held_force(
             force += force_on(magnet, &body, &mut base)?;
         }
         if let Some(ring) = &segment.ring {
-            let body = AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?;
-            force += force_on(magnet, &body, &mut base)?;
+            force += force_on_ring(magnet, ring, &mut base)?;
         }
     }
     Ok(turn.transpose() * force)
+}
+
+fn force_on_ring(magnet: &Assembly, ring: &Ring, base: &mut Pose) -> Result<Vector3<f64>, Error> {
+    let body = AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?;
+    force_on(magnet, &body, base)
 }
 
 /// Force on a body that begins at `base`, which moves on to its end.

@@ -3,7 +3,7 @@
 use mcm::studies::field_ring;
 
 use super::column;
-use crate::tolerance::{FIELD, assert_close};
+use crate::tolerance::{COARSE_DIFFERENCE, FIELD, assert_close};
 
 /// Field of a solenoid of radius `a` on its axis over its remanence (mm).
 fn solenoid(z: f64, a: f64) -> f64 {
@@ -31,9 +31,16 @@ fn the_window_is_symmetric_and_its_gradients_are_its_slopes() {
     let (y, size) = (column(&study, "y_mm"), column(&study, "b_mt"));
     let rows = y.len() / 21;
     assert_eq!((rows, y[0], y[y.len() - 1]), (61, -3.0, 3.0));
+    let block = |values: &[f64], row: usize| values[21 * row..21 * (row + 1)].to_vec();
     for i in 0..rows {
-        let block = |values: &[f64], row: usize| values[21 * row..21 * (row + 1)].to_vec();
         assert_close(("y", y[21 * i]), &block(size, i), &block(size, rows - 1 - i), FIELD);
+        for (field, slope) in [("bz_mt", "dbz_dz_t_per_m"), ("by_mt", "dby_dz_t_per_m")] {
+            let (field, slope) = (block(column(&study, field), i), block(column(&study, slope), i));
+            let differences: Vec<f64> = field.windows(3).map(|v| (v[2] - v[0]) / 0.2).collect();
+            if y[21 * i] != 0.0 || slope[0] != 0.0 {
+                assert_close(("slope at y", y[21 * i]), &differences, &slope[1..20], COARSE_DIFFERENCE);
+            }
+        }
     }
 }
 

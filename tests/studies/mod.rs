@@ -12,9 +12,17 @@ mod hysteresis;
 
 use mcm::studies::{Comparison, Study, Value};
 
+use crate::tolerance::ROUNDING;
+
 /// A column of a study.
 fn column<'a>(study: &'a Study, name: &str) -> &'a [f64] {
     study.column(name).unwrap_or_else(|| panic!("there is no column {name}"))
+}
+
+/// The number of the row in which a column has a value.
+fn row_with(study: &Study, name: &str, value: f64) -> usize {
+    let same = |other: &f64| (other - value).abs() <= ROUNDING * value.abs();
+    column(study, name).iter().position(same).unwrap_or_else(|| panic!("{name} is nowhere {value}"))
 }
 
 /// The row of a comparison whose quantity begins so.

@@ -8,6 +8,7 @@ use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressStyle};
 use mcm::error::Error;
 use mcm::studies;
+use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::files::create_table;
@@ -30,6 +31,8 @@ pub(crate) struct Study {
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 enum Name {
+    /// Fig. 3E: field of one ring magnet
+    FieldRing,
     /// Fig. 4: choice of helix length and boundary angle
     Fig4,
     /// Fig. 5: relative magnetic moment over the number of segments
@@ -44,8 +47,6 @@ enum Name {
     Fig7d,
     /// Fig. 8: torque on the last of several rings
     Fig8,
-    /// Fig. 3E: field of one ring magnet
-    FieldRing,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
     /// Every figure
@@ -56,6 +57,7 @@ impl Name {
     /// The study of this name; `None` for all.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
+            Self::FieldRing => Some(studies::field_ring),
             Self::Fig4 => Some(studies::fig4),
             Self::Fig5 => Some(studies::fig5),
             Self::Fig7a => Some(studies::fig7a),
@@ -63,7 +65,6 @@ impl Name {
             Self::Fig7c => Some(studies::fig7c),
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
-            Self::FieldRing => Some(studies::field_ring),
             Self::Hysteresis => Some(studies::hysteresis),
             Self::All => None,
         }
@@ -87,15 +88,17 @@ impl Study {
             .filter_map(|name| Some((name.typed(), name.study()?)))
             .collect();
         let bar = progress_bar(chosen.len() as u64);
-        let mut computed = Vec::with_capacity(chosen.len());
-        for (name, study) in chosen {
-            bar.set_message(name.clone());
-            let study = study()?;
-            write_table(&study, &self.out.join(&name).with_extension("csv"))?;
-            picture::write(&study, &self.out.join(&name).with_extension("png"))?;
-            computed.push((name, study));
-            bar.inc(1);
-        }
+        let computed = chosen
+            .into_par_iter()
+            .map(|(name, study)| {
+                bar.set_message(name.clone());
+                let study = study()?;
+                write_table(&study, &self.out.join(&name).with_extension("csv"))?;
+                picture::write(&study, &self.out.join(&name).with_extension("png"))?;
+                bar.inc(1);
+                Ok((name, study))
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
         bar.finish_and_clear();
         let table = comparison::table(computed.iter().map(|(name, study)| (name.as_str(), study)));
         if self.name == Name::All {
