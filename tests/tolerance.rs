@@ -195,6 +195,9 @@ pub(crate) const SUPERPOSED: f64 = 1e-4;
 /// Angles of one segment where rings act on spans, deg: the digits that the independent model has.
 pub(crate) const SPANS_ANGLE_DEG: f64 = 5e-3;
 
+/// Ratios of angles reached on two ways, by default settings (reached: 1.2e-7 for `preceding`, 7e-11 for the others).
+pub(crate) const RATIO_ON_TWO_WAYS: f64 = 1e-6;
+
 /// Where a sweep locates a fold: in an interval of this part of its range.
 pub(crate) const LOCATED: f64 = 1e-5;
 

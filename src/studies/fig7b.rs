@@ -26,10 +26,10 @@ const LAST_TURN: f64 = 170.0;
 type Drawn = (&'static str, &'static str, usize, Stroke);
 
 const DEVICES: [Drawn; 5] = [
-    ("rings", "three segments, rings, no stop", 0, Stroke::Dashed),
-    ("full", "three segments, full, no stop", 1, Stroke::Dashed),
-    ("rings_stop", "three segments, rings, bending stop", 0, Stroke::Solid),
-    ("full_stop", "three segments, full, bending stop", 1, Stroke::Solid),
+    ("rings", "rings", 0, Stroke::Dashed),
+    ("full", "full", 1, Stroke::Dashed),
+    ("rings_stop", "rings, bending stop", 0, Stroke::Solid),
+    ("full_stop", "full, bending stop", 1, Stroke::Solid),
     ("cylinder", "solid cylinder", 2, Stroke::Solid),
 ];
 
@@ -49,11 +49,11 @@ pub fn fig7b() -> Result<Study, Error> {
     let mut columns = vec![Column::new("field_mt", fields), Column::new("turn_deg", turns)];
     let mut panels = Vec::new();
     for (way, bent, title, x) in [
-        ("across", grown, "field at 90 deg from the base's axis", ("field (mT)", "field_mt")),
+        ("across", grown, "three segments; field at 90 deg from the base's axis", ("field (mT)", "field_mt")),
         (
             "turned",
             turned,
-            "20 mT, turned from the base's axis",
+            "three segments; 20 mT, turned from the base's axis",
             ("direction of the field (deg)", "turn_deg"),
         ),
     ] {

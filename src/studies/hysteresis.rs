@@ -14,9 +14,9 @@ use crate::manipulator::{Branch, Inputs, Manipulator};
 const DISTANCE: f64 = 0.12;
 
 /// Places of the magnet along the manipulator's axis: first and last (mm), and steps.
-const FIRST: f64 = -80.0;
-const LAST: f64 = 70.0;
-const STEPS: u32 = 30;
+const FIRST: f64 = -40.0;
+const LAST: f64 = 0.0;
+const STEPS: u32 = 40;
 
 /// Nine segments with bending stop, the paper's pair of magnets passing along them at 120 mm from axis to axis and coming
 /// back, magnetised along +z: beside it its field opposes the manipulator, which turns over. `rings`.
@@ -36,18 +36,25 @@ pub fn hysteresis() -> Result<Study, Error> {
     let places: Vec<f64> = (0..=STEPS).map(|i| FIRST + step * f64::from(i)).collect();
     let mut branch = Branch::new(manipulator, inputs, LAST - FIRST, step)?;
     let mut walk = |places: &mut dyn Iterator<Item = &f64>| {
-        places.map(|&place| Ok(branch.to(place)?.tip_angle.to_degrees())).collect::<Result<Vec<f64>, Error>>()
+        let at = |&place: &f64| {
+            let outputs = branch.to(place)?;
+            Ok((outputs.tip_angle.to_degrees(), 1e3 * outputs.tip.position.y))
+        };
+        places.map(at).collect::<Result<(Vec<f64>, Vec<f64>), Error>>()
     };
     let forth = walk(&mut places.iter())?;
     let mut back = walk(&mut places.iter().rev())?;
-    back.reverse();
-    let mut marks = Vec::new();
+    back.0.reverse();
+    back.1.reverse();
+    let mut marks = [Vec::new(), Vec::new()];
     let mut comparison = Vec::new();
     for fold in branch.folds() {
         let way = if fold.upwards { "forth" } else { "back" };
         let before = fold.before.tip_angle.to_degrees();
         let after = fold.after.as_ref().map_or(f64::NAN, |(_, shape)| shape.tip_angle.to_degrees());
-        marks.push(Mark::Point(format!("snap on the way {way}"), [fold.value, before]));
+        for (marks, height) in marks.iter_mut().zip([before, 1e3 * fold.before.tip.position.y]) {
+            marks.push(Mark::Point(format!("snap, {way}"), [fold.value, height]));
+        }
         comparison.push(Comparison {
             quantity: format!("place of the magnet at which nine segments snap over, {way} (mm)"),
             decimals: 2,
@@ -63,19 +70,26 @@ pub fn hysteresis() -> Result<Study, Error> {
         title: "Hysteresis: a magnet passes nine segments with its field against them, and comes back",
         columns: vec![
             Column::new("magnet_z_mm", places),
-            Column::new("alpha_forth_deg", forth),
-            Column::new("alpha_back_deg", back),
+            Column::new("alpha_forth_deg", forth.0),
+            Column::new("alpha_back_deg", back.0),
+            Column::new("tip_y_forth_mm", forth.1),
+            Column::new("tip_y_back_mm", back.1),
         ],
-        panels: vec![Panel::Curves {
-            title: "120 mm from axis to axis; rings, bending stop".into(),
-            x: ("place of the magnet along the axis (mm)".into(), "magnet_z_mm".into()),
-            y: "tip angle (deg)".into(),
-            curves: vec![
-                Curve::new("forth", "alpha_forth_deg", 0, Stroke::Solid),
-                Curve::new("back", "alpha_back_deg", 1, Stroke::Dashed),
-            ],
-            marks,
-        }],
+        panels: ["tip angle (deg)", "tip, away from the magnet (mm)"]
+            .into_iter()
+            .zip([["alpha_forth_deg", "alpha_back_deg"], ["tip_y_forth_mm", "tip_y_back_mm"]])
+            .zip(marks)
+            .map(|((y, [forth, back]), marks)| Panel::Curves {
+                title: "120 mm from axis to axis; rings, bending stop".into(),
+                x: ("place of the magnet along the axis (mm)".into(), "magnet_z_mm".into()),
+                y: y.into(),
+                curves: vec![
+                    Curve::new("forth", forth, 0, Stroke::Solid),
+                    Curve::new("back", back, 1, Stroke::Dashed),
+                ],
+                marks,
+            })
+            .collect(),
         comparison,
     })
 }
