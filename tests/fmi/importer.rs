@@ -12,7 +12,11 @@ use crate::tolerance::EFFECT;
 /// An archive of the default design.
 fn packed(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    let done = Command::new(env!("CARGO_BIN_EXE_mcm")).args(["pack", "--out"]).arg(&path).output().unwrap();
+    // The library of this build lies beside this program; the one beside the command may be of an earlier build.
+    let name = format!("{}mcm{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    let library = std::env::current_exe().unwrap().with_file_name(name);
+    let mut pack = Command::new(env!("CARGO_BIN_EXE_mcm"));
+    let done = pack.args(["pack", "--out"]).arg(&path).arg("--library").arg(library).output().unwrap();
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     path
 }
