@@ -139,6 +139,7 @@ def test_archive_is_plain_deflate_with_licences_and_documentation(default: Archi
     assert {entry.compress_type for entry in entries} <= {zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED}
     assert all(entry.extract_version <= 20 and "\\" not in entry.filename for entry in entries)
     names = {entry.filename for entry in entries}
+    assert "src=" not in page and "http" not in page, "the page stands alone"
     assert {"documentation/licenses/license.txt", "model.png", "resources/scene.toml"} <= names
     assert all(f"<code>{name}</code>" in page for name in default.variables)
 
