@@ -211,9 +211,9 @@ pub(crate) const PREDICTED: f64 = 0.35;
 /// The collapse of one segment under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
 pub(crate) const COLLAPSE_MT: f64 = 0.06;
 
-/// Derivatives through the C interface and central differences with a step of 1e-4 of each input's usual size: rounding
-/// of a solve, 1e-11, over the step, and its square.
-pub(crate) const ABI_DIFFERENCE: f64 = 1e-6;
+/// Derivatives through the C interface by differences of fourth order: rounding of a solve, 1e-11, over a step of 1e-3,
+/// relative to the largest effect that an input of usual size has on that kind of output (reached: 4e-8).
+pub(crate) const ABI_DIFFERENCE: f64 = 3e-7;
 
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {

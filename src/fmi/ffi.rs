@@ -180,7 +180,7 @@ export! {
         };
     fmi2GetFMUstate: fmi2GetFMUstateTYPE, GetFmuState = |instance, state: *mut fmi2FMUstate| {
         // SAFETY: see above.
-        unsafe { keep(instance, state, |instance, handle| instance.save(handle)) }
+        unsafe { keep(instance, state, Instance::save) }
     };
     fmi2SetFMUstate: fmi2SetFMUstateTYPE, SetFmuState = |instance, state: fmi2FMUstate| instance.restore(state.addr());
     fmi2FreeFMUstate: fmi2FreeFMUstateTYPE, FreeFmuState = |instance, state: *mut fmi2FMUstate| {

@@ -68,7 +68,8 @@ impl Rates {
             }
         }
         for (moved, given) in [(&mut moved.magnet, &given.magnet), (&mut moved.base, &given.base)] {
-            if moved.orientation != given.orientation {
+            // As it was given where nothing turns it, to the last bit.
+            if moved.orientation.map(f64::to_bits) != given.orientation.map(f64::to_bits) {
                 moved.normalise();
             }
         }

@@ -12,7 +12,7 @@ use super::rates::Rates;
 use super::state::State;
 use super::variable::{Role, Value, Variable};
 use crate::error::Error;
-use crate::manipulator::Snapshot;
+use crate::manipulator::{Manipulator, Snapshot};
 
 const MARK: [u8; 8] = *b"mcmstate";
 
@@ -57,7 +57,7 @@ pub(super) fn to_bytes(condition: &Condition, package: &Package) -> Result<Vec<u
         state: condition.state,
         values: settable(package).filter_map(|variable| variable.given(&condition.given)).collect(),
         rates: condition.rates.clone(),
-        device: condition.device.as_ref().map(|device| device.snapshot()),
+        device: condition.device.as_ref().map(Manipulator::snapshot),
         solved: condition.solved,
         ahead: condition.ahead,
         near_fold: condition.near_fold,
