@@ -7,7 +7,7 @@ use crate::magnetics::AxialSource;
 use crate::rod::{Element, Piece, Resolution, Sight};
 
 use super::settings::Settings;
-use super::views::Views;
+use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
@@ -72,7 +72,7 @@ impl Chain {
                 bonded: true,
                 radius: ring.outer_radius,
                 bend: 0.0,
-                accuracy: settings.pair_accuracy,
+                accuracy: SPAN_SHARE * settings.pair_accuracy,
             }),
             bending_stop: settings.bending_stop,
         };

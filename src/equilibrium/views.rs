@@ -8,6 +8,9 @@ use crate::rod::{Element, Piece, Sample, Sight};
 /// Bends up to which each of the samples of a view is made, rad; the last serves beyond too.
 const BENDS: [f64; 5] = [0.08, 0.16, 0.32, 0.64, 1.28];
 
+/// Part of the accuracy of the pairs that is asked for between a ring and a span: the errors of a ring's spans add up.
+pub(super) const SPAN_SHARE: f64 = 0.3;
+
 /// The samples of an element for one ring, by bend.
 #[derive(Debug, Clone)]
 struct View {
@@ -80,6 +83,6 @@ fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -
         bonded: body.node == k || body.node == k + 1,
         radius: body.ring.outer_radius,
         bend: 0.0,
-        accuracy: settings.pair_accuracy,
+        accuracy: SPAN_SHARE * settings.pair_accuracy,
     })
 }

@@ -65,25 +65,26 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// Relative error allowed at a distance from the ring's face (m): the energy falls with its cube.
-    fn tolerance(&self, distance: f64) -> f64 {
-        self.accuracy * (0.5 * distance / self.radius).max(1.0).powi(3)
+    /// Natural logarithm of the accuracy needed at a distance from the ring's face (m): the energy falls with its cube.
+    fn digits(&self, distance: f64) -> f64 {
+        -(self.accuracy * (0.5 * distance / self.radius).max(1.0).powi(3)).ln()
     }
 
     /// Gauss points for a field that is singular so far from the two ends of an interval.
     ///
-    /// The error is `rho^(-2n)`, `rho` the sum of the half axes of the ellipse through the singularity with the
-    /// ends `-1` and `1` as foci (Trefethen, SIAM Review 50, 2008, Theorem 4.5).
+    /// The error is `rho^(-2n)` (Trefethen, SIAM Review 50, 2008, Theorem 4.5).
     fn gauss_points(&self, distance: f64, to_ends: [f64; 2], length: f64) -> usize {
-        let axis = (to_ends[0] + to_ends[1]) / length;
-        let rho = axis + (axis * axis - 1.0).max(0.0).sqrt();
-        let points = (-self.tolerance(distance).ln() / (2.0 * rho.ln())).ceil();
-        if points < MOST_POINTS as f64 { points.max(1.0) as usize } else { MOST_POINTS }
+        whole(0.5 * self.digits(distance) / decay(to_ends, length))
     }
 
     /// Points along a piece so far from the ring's face.
     pub(super) fn along(&self, distance: f64, length: f64) -> usize {
         (self.gauss_points(distance, [distance, distance + length], length) + TURNING).min(MOST_POINTS)
+    }
+
+    /// The same for points that are not Gauss's: the error is that of the interpolation, `rho^(-n)`.
+    fn interpolated(&self, distance: f64, length: f64) -> usize {
+        whole(self.digits(distance) / decay([distance, distance + length], length))
     }
 
     /// Radial points (in the squared radius) of a section: the edge of the ring's face is the singularity.
@@ -97,8 +98,20 @@ impl Sight {
     /// Harmonics of the field around a section, at this distance from its centre (m), before they are negligible.
     fn harmonics(&self, distance: f64, radius: f64) -> usize {
         let ratio = HARMONICS * self.bend * radius / self.radius.hypot(distance);
-        (self.tolerance(distance).ln() / ratio.ln() - 1.0).ceil().max(1.0) as usize
+        whole(-self.digits(distance) / ratio.ln() - 1.0)
     }
+}
+
+/// Logarithm of `rho`, the sum of the half axes of the ellipse through a singularity so far from the ends of an interval,
+/// with these as its foci, over half the interval: what each further degree of a polynomial leaves of the error.
+fn decay(to_ends: [f64; 2], length: f64) -> f64 {
+    let axis = (to_ends[0] + to_ends[1]) / length;
+    (axis + (axis * axis - 1.0).max(0.0).sqrt()).ln()
+}
+
+/// The next whole number of points.
+fn whole(points: f64) -> usize {
+    if points < MOST_POINTS as f64 { points.ceil().max(1.0) as usize } else { MOST_POINTS }
 }
 
 impl Element {
@@ -116,7 +129,7 @@ impl Element {
             }
             let (nodes, first) = self.nodes(index);
             let distance = sight.distance + before;
-            let chosen = subset(nodes, sight.along(distance, piece.length));
+            let chosen = subset(nodes, sight.interpolated(distance, piece.length));
             let own: Vec<f64> = chosen.iter().map(|i| nodes[*i]).collect();
             for (i, station) in chosen.iter().enumerate() {
                 let x = if sight.beyond { -nodes[*station] } else { nodes[*station] };
@@ -182,7 +195,8 @@ impl Section<'_> {
                 SpiralKind::Axisymmetric => {
                     self.add_circle(&mut out, sector, spiral.sector_angle, radial, &harmonics);
                 }
-                SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial, &harmonics),
+                // The odd harmonics are no polynomials of the squared radius.
+                SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial.max(2), &harmonics),
             }
         }
         out
