@@ -13,7 +13,10 @@ static HOOK: Once = Once::new();
 
 /// The hook that was set before. Were it captured, the new hook would need memory that is lost when the host unloads the
 /// library.
-static BEFORE: OnceLock<Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>> = OnceLock::new();
+static BEFORE: OnceLock<Hook> = OnceLock::new();
+
+/// What std calls when a thread panics.
+type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 
 /// Does `work`; a panic in it becomes its text.
 ///

@@ -111,7 +111,7 @@ fn decay(to_ends: [f64; 2], length: f64) -> f64 {
 
 /// The next whole number of points.
 fn whole(points: f64) -> usize {
-    if points < MOST_POINTS as f64 { points.ceil().max(1.0) as usize } else { MOST_POINTS }
+    (1..MOST_POINTS).find(|count| *count as f64 >= points).unwrap_or(MOST_POINTS)
 }
 
 impl Element {
@@ -148,7 +148,7 @@ impl Element {
 
 /// At least `count` of the nodes, spread like the Gauss points of their number and as symmetric.
 fn subset(nodes: &[f64], count: usize) -> Vec<usize> {
-    let even = nodes.len() % 2 == 0;
+    let even = nodes.len().is_multiple_of(2);
     // The centre is only there to be taken if the number of nodes is odd.
     let count = if even { count.next_multiple_of(2) } else { count };
     if count >= nodes.len() {
@@ -187,16 +187,16 @@ impl Section<'_> {
             return self.moments();
         }
         let mut out = Vec::new();
-        self.add_circle(&mut out, circle, TAU, sight.radial(distance, circle), &harmonics);
+        self.add_circle(&mut out, circle, TAU, sight.radial(distance, circle), harmonics);
         if let Some(spiral) = &span.spiral {
             let sector = [spiral.inner_radius, spiral.outer_radius];
             let radial = sight.radial(distance, sector);
             match spiral.kind {
                 SpiralKind::Axisymmetric => {
-                    self.add_circle(&mut out, sector, spiral.sector_angle, radial, &harmonics);
+                    self.add_circle(&mut out, sector, spiral.sector_angle, radial, harmonics);
                 }
                 // The odd harmonics are no polynomials of the squared radius.
-                SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial.max(2), &harmonics),
+                SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial.max(2), harmonics),
             }
         }
         out

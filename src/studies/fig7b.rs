@@ -25,12 +25,13 @@ const LAST_TURN: f64 = 170.0;
 /// A device as a name in columns, a label, and how it is drawn.
 type Drawn = (&'static str, &'static str, usize, Stroke);
 
-const DEVICES: [Drawn; 5] = [
+const DEVICES: [Drawn; 6] = [
     ("rings", "rings", 0, Stroke::Dashed),
     ("full", "full", 1, Stroke::Dashed),
     ("rings_stop", "rings, bending stop", 0, Stroke::Solid),
     ("full_stop", "full, bending stop", 1, Stroke::Solid),
     ("cylinder", "solid cylinder", 2, Stroke::Solid),
+    ("preceding", "preceding", 3, Stroke::Dashed),
 ];
 
 /// Tip angles of three segments and of the solid cylinder, in a perpendicular field that grows to 20 mT, and in 20 mT that
@@ -98,6 +99,7 @@ fn devices() -> Result<Vec<Device>, Error> {
         device(Interaction::Rings, true),
         device(Interaction::Full, true),
         Device::new(cylinder, Settings::default()),
+        device(Interaction::Preceding, false),
     ])
 }
 
@@ -119,12 +121,11 @@ fn turning(degrees: f64) -> (f64, f64) {
 }
 
 fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec<Comparison>, Error> {
-    let last = |bent: &Bent| bent.angles[ROWS as usize];
-    let words = |end: Option<[f64; 2]>, unit: &str| {
-        end.map_or(Value::Absent, |[place, angle]| {
-            Value::Words(format!("ends at {place:.2} {unit}, at {angle:.1} deg"))
-        })
+    let last = |bent: &Bent, unit: &str| match bent.end {
+        Some([place, angle]) => Value::Words(format!("ends at {place:.2} {unit}, at {angle:.1} deg")),
+        None => Value::Number(bent.angles[ROWS as usize]),
     };
+    let ends = |bent: &Bent| bent.end.map_or(f64::NAN, |[place, _]| place);
     let [paper, paper_cylinder] = PAPER;
     let reached = |device: &Device| device.place_of(turning, paper, [90.0, LAST_TURN]);
     let directions = [reached(&devices[3])?, reached(&devices[2])?];
@@ -140,32 +141,44 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
     };
     Ok(vec![
         row(
-            "three segments, 20 mT at 90 deg, full with bending stop; as printed, full without (deg)",
+            "three segments, 20 mT at 90 deg, exact with bending stop (deg)",
             Value::Number(paper),
-            words(grown[1].end, "mT"),
-            Value::Number(last(&grown[3])),
-            "a field fixed at 90 deg turns the tip to 90 deg at most: the device's field was turned on, in a direction that is not printed".into(),
+            last(&grown[5], "mT"),
+            last(&grown[3], "mT"),
+            format!(
+                "a field fixed at 90 deg turns the tip to 90 deg at most, so the device's was turned on, in a direction that is \
+                 not printed; without stop the exact branch ends at {:.2} mT",
+                ends(&grown[1])
+            ),
         ),
         row(
-            "three segments, 20 mT at 170 deg, the same (deg)",
+            "three segments, 20 mT at 170 deg, exact with bending stop (deg)",
             Value::Number(paper),
-            words(turned[1].end, "deg"),
-            Value::Number(last(&turned[3])),
-            "with the field turned that far, the closed windings hold the device near three boundary angles, 120 deg; the stop is the model's own addition".into(),
+            last(&turned[5], "deg"),
+            last(&turned[3], "deg"),
+            format!(
+                "closed windings hold the device near three boundary angles, 120 deg; without stop, `rings` ends at {:.1} deg, \
+                 `full` at {:.1}",
+                ends(&turned[0]),
+                ends(&turned[1])
+            ),
         ),
         row(
-            "direction of 20 mT that bends three segments to 119 deg: full, rings, with bending stop (deg)",
+            "direction of 20 mT that bends three segments to 119 deg, bending stop (deg)",
             Value::Absent,
-            words(turned[0].end, "deg"),
+            Value::Absent,
             Value::Range(directions[0], directions[1]),
-            "as printed: rings without stop, which never reaches 119 deg; the experiment's direction would decide between the levels".into(),
+            "first `full`, second `rings`: the direction of the experiment would decide between them".into(),
         ),
         row(
             "solid cylinder, 20 mT in the direction that bends it most (deg)",
             Value::Number(paper_cylinder),
             Value::Absent,
             Value::Number(largest),
-            format!("no direction bends it to 16 deg, which takes {field:.1} mT across: the cylinder was softer than Eq. (14), (15) say, or the field stronger"),
+            format!(
+                "no direction bends it to 16 deg, which takes {field:.1} mT across: the cylinder was softer than Eq. (14), (15) \
+                 say, or the field stronger"
+            ),
         ),
     ])
 }

@@ -75,7 +75,7 @@ pub fn hysteresis() -> Result<Study, Error> {
             Column::new("tip_y_forth_mm", forth.1),
             Column::new("tip_y_back_mm", back.1),
         ],
-        panels: ["tip angle (deg)", "tip, away from the magnet (mm)"]
+        panels: ["tip angle (deg)", "tip's distance from the axis, away from the magnet (mm)"]
             .into_iter()
             .zip([["alpha_forth_deg", "alpha_back_deg"], ["tip_y_forth_mm", "tip_y_back_mm"]])
             .zip(marks)
