@@ -187,9 +187,9 @@ impl Potential<'_> {
             let end = self.end_motion(k);
             let size = end.nrows();
             let hessian = DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size);
-            let cross = DMatrixView::from_slice(&self.work.cross[k], 6 * last, size);
+            let cross = DMatrixView::from_slice(&self.work.cross[k], size, 6 * last);
             let local = hessian.columns(0, START).tr_mul(&motion.elements[k])
-                + cross.columns(0, START).tr_mul(&others)
+                + cross.rows(0, START) * &others
                 + end.rows(0, START) * turned(&axes.transpose(), &wrench);
             wrench = turned(&axes, &local);
         }
