@@ -208,7 +208,7 @@ pub(crate) const LOCATED_AGAIN: f64 = 5e-5;
 /// to leading order only (at a tenth of the load before the fold: 0.29, half as far 0.17).
 pub(crate) const PREDICTED: f64 = 0.35;
 
-/// The collapse of one segment under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
+/// Collapses under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
 pub(crate) const COLLAPSE_MT: f64 = 0.06;
 
 /// Derivatives through the C interface by differences of fourth order: rounding of a solve, 1e-11, over a step of 1e-3,
