@@ -20,6 +20,7 @@ mod snapshot;
 mod solver;
 mod source;
 mod spans;
+mod transfer;
 mod views;
 
 pub use follow::Report;
@@ -28,3 +29,4 @@ pub use jacobian::{Input, Jacobian, Output};
 pub use settings::{Interaction, Settings};
 pub use snapshot::Snapshot;
 pub use solver::Equilibrium;
+pub use transfer::Gap;
