@@ -1,5 +1,5 @@
-//! Time of one solve, cold from the unloaded shape and warm after an input change of one 1 kHz step, of all derivatives
-//! there, and the error on a case with a closed form: `cargo bench --bench solve`.
+//! Time of one solve, cold from the unloaded shape and warm as one of many input changes of one 1 kHz step, of all
+//! derivatives there, and the error on a case with a closed form: `cargo bench --bench solve`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -18,15 +18,33 @@ use nalgebra::{Rotation3, Vector3};
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
 
-/// 20 mT across the manipulator; one step later the field has turned by 0.1 deg (100 deg/s).
-fn uniform() -> (&'static str, [Vector3<f64>; 2]) {
+/// Steps that a walk goes before it turns back: further than a factorisation is kept.
+const STEPS: u32 = 100;
+
+/// 20 mT across the manipulator; with every step the field turns by 0.1 deg (100 deg/s).
+fn uniform(scene: &Scene) -> Vec<Inputs> {
     let field = Vector3::new(0.0, 0.02, 0.0);
-    ("[field]", [field, Rotation3::from_axis_angle(&Vector3::x_axis(), 0.1_f64.to_radians()) * field])
+    walk(|step| {
+        let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), (0.1 * step).to_radians());
+        Inputs { uniform_field: turn * field, ..scene.inputs.clone() }
+    })
 }
 
-/// The paper's pair at 120 mm; one step later it is 0.1 mm further along the manipulator (0.1 m/s).
+/// The paper's pair at 120 mm; with every step it moves by 0.1 mm along the manipulator (0.1 m/s).
 const PAIR: &str = "[magnet]\norientation_wxyz = [0, 1, 0, 0]";
-const PAIR_STEP: f64 = 1e-4;
+
+fn passing(scene: &Scene) -> Vec<Inputs> {
+    walk(|step| {
+        let mut inputs = scene.inputs.clone();
+        inputs.magnet.position.z += 1e-4 * step;
+        inputs
+    })
+}
+
+/// The inputs of all steps forth and back.
+fn walk(at: impl Fn(f64) -> Inputs) -> Vec<Inputs> {
+    (0..STEPS).chain((1..=STEPS).rev()).map(|step| at(f64::from(step))).collect()
+}
 
 fn scene(segments: usize, interaction: &str, field: &str) -> Scene {
     let text = format!("{field}\n[design]\nsegments = {segments}\n[model]\ninteraction = \"{interaction}\"");
@@ -39,20 +57,17 @@ fn checked_solve(manipulator: &mut Manipulator, inputs: &Inputs) -> f64 {
     outputs.tip_angle
 }
 
-fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, inputs: &[Inputs; 2]) {
+fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, path: &[Inputs]) {
     let mut manipulator = scene.manipulator(SHAPE_POINTS).expect("a valid design");
     criterion.bench_function(&format!("cold {name}"), |b| {
         b.iter(|| {
             manipulator.reset();
-            checked_solve(&mut manipulator, &inputs[0])
+            checked_solve(&mut manipulator, &path[0])
         });
     });
-    let mut turn = 0;
+    let mut inputs = path.iter().cycle();
     criterion.bench_function(&format!("warm {name}"), |b| {
-        b.iter(|| {
-            turn = 1 - turn;
-            checked_solve(&mut manipulator, &inputs[turn])
-        });
+        b.iter(|| checked_solve(&mut manipulator, inputs.next().expect("no end")));
     });
     criterion.bench_function(&format!("jacobian {name}"), |b| {
         b.iter(|| manipulator.jacobian().expect("no fold"));
@@ -61,17 +76,11 @@ fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, inputs: &[Input
 
 fn solve(criterion: &mut Criterion) {
     for segments in [1, 3, 9] {
-        for interaction in ["none", "rings"] {
-            let (table, fields) = uniform();
-            let in_field = scene(segments, interaction, table);
-            let inputs = fields.map(|uniform_field| Inputs { uniform_field, ..in_field.inputs.clone() });
-            measure(criterion, &format!("S={segments} {interaction} uniform"), &in_field, &inputs);
-
+        for interaction in ["none", "rings", "full"] {
+            let in_field = scene(segments, interaction, "[field]");
+            measure(criterion, &format!("S={segments} {interaction} uniform"), &in_field, &uniform(&in_field));
             let beside = scene(segments, interaction, PAIR);
-            let mut moved = beside.inputs.clone();
-            moved.magnet.position.z += PAIR_STEP;
-            let inputs = [beside.inputs.clone(), moved];
-            measure(criterion, &format!("S={segments} {interaction} pair"), &beside, &inputs);
+            measure(criterion, &format!("S={segments} {interaction} pair"), &beside, &passing(&beside));
         }
     }
 }
@@ -84,12 +93,12 @@ fn tip_dipole(criterion: &mut Criterion) {
     let mut scene = Scene::parse(text, "tip dipole").expect("a valid scene");
     // The moment is the same everywhere: constant strains are exact.
     scene.settings.degree = 0;
-    let inputs = uniform().1.map(|uniform_field| Inputs { uniform_field, ..scene.inputs.clone() });
+    let path = uniform(&scene);
     let mut manipulator = scene.manipulator(SHAPE_POINTS).expect("a valid design");
-    let theta = checked_solve(&mut manipulator, &inputs[0]);
+    let theta = checked_solve(&mut manipulator, &path[0]);
     let error = (theta - closed_form(&scene.design().expect("a valid design"), 0.02)).abs();
     println!("tip dipole: error of the angle {error:.2e} rad");
-    measure(criterion, "tip dipole", &scene, &inputs);
+    measure(criterion, "tip dipole", &scene, &path);
 }
 
 /// Angle (rad) in a perpendicular field (T): Newton on `theta = Lam cos(theta)`.
