@@ -7,7 +7,7 @@ use super::rules::PairRules;
 use super::settings::Settings;
 use super::source::Source;
 use crate::magnetics::Assembly;
-use crate::numerics::eigenvalue::{Lanczos, Search};
+use crate::numerics::eigenvalue::{Lanczos, Search, inner};
 use crate::numerics::trust_region::{Objective, dual_norm, norm, spread};
 
 /// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
@@ -32,7 +32,7 @@ const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 const EVERY_DIRECTION: f64 = 0.3;
 
 /// Newton corrections at most for one part of an input change.
-const CORRECTIONS: u32 = 12;
+const CORRECTIONS: usize = 12;
 
 /// How often the rules may change at a solved shape: a distance at which two rules meet could swap them for ever.
 const RULE_CHOICES: u32 = 3;
@@ -50,7 +50,8 @@ pub struct Report {
     /// Dual norm of the gradient, relative to turning one element by a radian.
     pub residual: f64,
     /// Upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the elastic
-    /// energy; see [`super::Equilibrium::margin`].
+    /// energy; see [`super::Equilibrium::margin`]. Along small steps it is that of the last factorisation, which the
+    /// present one undercuts or exceeds by some percent at most.
     pub margin: f64,
     /// Whether the equilibrium is stable; `None` where the forces have no potential to tell.
     pub stable: Option<bool>,
@@ -87,14 +88,20 @@ impl Report {
 pub(super) struct Scratch {
     pub(super) last: Vec<f64>,
     pub(super) trial: Vec<f64>,
-    step: Vec<f64>,
+    /// Steps with one factorisation.
+    steps: Vec<Vec<f64>>,
     lanczos: Lanczos,
 }
 
 impl Scratch {
     pub(super) fn new(chain: &Chain) -> Self {
         let zeros = vec![0.0; chain.freedoms()];
-        Self { last: zeros.clone(), trial: zeros.clone(), step: zeros, lanczos: Lanczos::default() }
+        Self {
+            last: zeros.clone(),
+            trial: zeros.clone(),
+            steps: vec![zeros; CORRECTIONS],
+            lanczos: Lanczos::default(),
+        }
     }
 }
 
@@ -163,10 +170,10 @@ impl Walk<'_> {
             let mut settled = residual <= settings.tolerance;
             (self.report.residual, self.report.energy) = (residual, energy);
             if !settled {
-                let length = self.step(inputs);
+                let length = self.step(inputs, 0);
                 self.report.iterations += 1;
                 if length <= CONTRACTION * previous {
-                    apply(unknowns, &self.scratch.step);
+                    apply(unknowns, &self.scratch.steps[0]);
                     settled =
                         length <= NEARLY && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
                     previous = length;
@@ -187,16 +194,33 @@ impl Walk<'_> {
         None
     }
 
-    /// The step from the last gradient with the last factorisation; its length in the chain's unit.
-    fn step(&mut self, inputs: &Inputs) -> f64 {
-        let mut step = std::mem::take(&mut self.scratch.step);
+    /// The step from the last gradient with the last factorisation, corrected by what the last `done` steps of this kind
+    /// have shown; its length in the chain's unit.
+    ///
+    /// Broyden's method in its form without matrices, in the metric of the elastic energy (C. T. Kelley, Iterative Methods
+    /// for Linear and Nonlinear Equations, SIAM 1995, section 7.3).
+    fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
+        let metric = &self.scene.chain.metric;
+        let mut steps = std::mem::take(&mut self.scratch.steps);
+        let (earlier, rest) = steps.split_at_mut(done);
+        let step = &mut rest[0];
         let mut potential = self.potential(inputs);
         for (s, g) in step.iter_mut().zip(potential.gradient()) {
             *s = -g;
         }
-        potential.solve(&mut step);
-        self.scratch.step = step;
-        norm(&self.scene.chain.metric, &self.scratch.step) / self.scene.chain.unit()
+        potential.solve(step);
+        let along = |s: &[f64], z: &[f64]| inner(metric, s, z) / inner(metric, s, s);
+        for pair in earlier.windows(2) {
+            let factor = along(&pair[0], step);
+            step.iter_mut().zip(&pair[1]).for_each(|(z, s)| *z += factor * s);
+        }
+        if let Some(last) = earlier.last() {
+            let stretch = 1.0 / (1.0 - along(last, step));
+            step.iter_mut().for_each(|z| *z *= stretch);
+        }
+        let length = norm(metric, step) / self.scene.chain.unit();
+        self.scratch.steps = steps;
+        length
     }
 
     /// Steps with the last factorisation, as long as they contract well: cheap, for small changes.
@@ -205,7 +229,7 @@ impl Walk<'_> {
     /// be within `until`. Whether the shape is solved, and evaluated.
     fn chord(&mut self, inputs: &Inputs, unknowns: &mut [f64], mut longest: f64, until: f64) -> bool {
         let Scene { chain, settings, .. } = self.scene;
-        for _ in 0..CORRECTIONS {
+        for done in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             let Some(energy) = potential.slope(unknowns) else { return false };
             let residual = dual_norm(potential.metric(), potential.gradient()) / chain.unit();
@@ -214,11 +238,11 @@ impl Walk<'_> {
             if residual <= settings.tolerance {
                 return holds;
             }
-            let length = self.step(inputs);
+            let length = self.step(inputs, done);
             if length.is_nan() || length > longest {
                 return holds && length < ROUNDING;
             }
-            apply(unknowns, &self.scratch.step);
+            apply(unknowns, &self.scratch.steps[done]);
             self.report.iterations += 1;
             longest = CHORD_CONTRACTION * length;
             if !holds && longest <= until {

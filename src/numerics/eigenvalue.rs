@@ -15,6 +15,12 @@ pub struct Search {
     pub settled: f64,
 }
 
+/// Inner product of two vectors in a diagonal metric.
+#[must_use]
+pub fn inner(metric: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum()
+}
+
 /// The search, with storage that makes the next one allocate nothing.
 #[derive(Debug, Clone, Default)]
 pub struct Lanczos {
@@ -41,8 +47,7 @@ impl Lanczos {
         mut solve: impl FnMut(&mut [f64]),
     ) -> f64 {
         let size = vector.len();
-        let inner =
-            |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
+        let inner = |a: &[f64], b: &[f64]| inner(metric, a, b);
         let Self { basis, image, diagonal, beside, weights } = self;
         let most = search.vectors.min(size);
         if basis.len() < most || image.len() != size {

@@ -12,6 +12,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use mcm::design::Design;
+use mcm::equilibrium::Settings;
 use mcm::manipulator::{Inputs, Manipulator, Scene, Status};
 use nalgebra::{Rotation3, Vector3};
 
@@ -65,22 +66,88 @@ fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, path: &[Inputs]
             checked_solve(&mut manipulator, &path[0])
         });
     });
-    let mut inputs = path.iter().cycle();
-    criterion.bench_function(&format!("warm {name}"), |b| {
-        b.iter(|| checked_solve(&mut manipulator, inputs.next().expect("no end")));
-    });
+    warm(criterion, &format!("warm {name}"), &mut manipulator, path);
     criterion.bench_function(&format!("jacobian {name}"), |b| {
         b.iter(|| manipulator.jacobian().expect("no fold"));
+    });
+}
+
+fn warm(criterion: &mut Criterion, name: &str, manipulator: &mut Manipulator, path: &[Inputs]) {
+    let mut inputs = path.iter().cycle();
+    criterion.bench_function(name, |b| {
+        b.iter(|| checked_solve(manipulator, inputs.next().expect("no end")));
     });
 }
 
 fn solve(criterion: &mut Criterion) {
     for segments in [1, 3, 9] {
         for interaction in ["none", "rings", "full"] {
-            let in_field = scene(segments, interaction, "[field]");
-            measure(criterion, &format!("S={segments} {interaction} uniform"), &in_field, &uniform(&in_field));
+            // Across 20 mT the longer ones pull themselves shut.
+            if segments == 1 || interaction != "full" {
+                let name = format!("S={segments} {interaction} uniform");
+                let in_field = scene(segments, interaction, "[field]");
+                measure(criterion, &name, &in_field, &uniform(&in_field));
+            }
             let beside = scene(segments, interaction, PAIR);
             measure(criterion, &format!("S={segments} {interaction} pair"), &beside, &passing(&beside));
+        }
+    }
+}
+
+/// What a control loop may ask for: a setting for it, its worst error along the walk, and its time.
+fn targets(criterion: &mut Criterion) {
+    let uniform_scene = scene(1, "rings", "[field]");
+    target(criterion, "S=1 rings uniform, 0.1 mm", uniform_scene.clone(), &uniform(&uniform_scene), COARSE);
+    let passed = scene(9, "rings", PAIR);
+    target(criterion, "S=9 rings pair, 0.1 mm", passed.clone(), &passing(&passed), COARSE);
+    let passed = scene(9, "full", PAIR);
+    target(criterion, "S=9 full pair, 1 um", passed.clone(), &passing(&passed), MICROMETRE);
+}
+
+/// For 0.1 mm and 0.1 deg at the tip of nine segments.
+const COARSE: fn(&mut Settings) = |settings| {
+    (settings.degree, settings.pair_accuracy, settings.tolerance) = (1, 1e-3, 1e-5);
+};
+
+/// For 1 um.
+const MICROMETRE: fn(&mut Settings) = |settings| settings.tolerance = 1e-7;
+
+/// What those are compared with.
+const RICHEST: fn(&mut Settings) = |settings| {
+    (settings.degree, settings.pair_accuracy) = (4, 1e-7);
+};
+
+fn target(criterion: &mut Criterion, name: &str, scene: Scene, path: &[Inputs], set: fn(&mut Settings)) {
+    let manipulator = |set: fn(&mut Settings)| {
+        let mut scene = scene.clone();
+        set(&mut scene.settings);
+        scene.manipulator(SHAPE_POINTS).expect("a valid design")
+    };
+    let (mut cheap, mut rich) = (manipulator(set), manipulator(RICHEST));
+    let (mut distance, mut angle) = (0.0_f64, 0.0_f64);
+    for inputs in path.iter().step_by(10) {
+        checked_solve(&mut cheap, inputs);
+        checked_solve(&mut rich, inputs);
+        let (tip, exact) = (cheap.outputs().tip, rich.outputs().tip);
+        distance = distance.max((tip.position - exact.position).norm());
+        angle = angle.max(tip.axis().angle(&exact.axis()));
+    }
+    println!("target {name}: tip within {:.2e} m, {:.2e} deg", distance, angle.to_degrees());
+    warm(criterion, &format!("target {name}"), &mut cheap, path);
+}
+
+/// Time against the number of segments.
+fn growth(criterion: &mut Criterion) {
+    for interaction in ["none", "rings", "full"] {
+        for segments in [1, 2, 4, 9, 16, 32] {
+            let scene = scene(segments, interaction, "[field]");
+            let path: Vec<Inputs> = uniform(&scene)
+                .into_iter()
+                .map(|inputs| Inputs { uniform_field: inputs.uniform_field * 0.05, ..inputs })
+                .collect();
+            let mut manipulator = scene.manipulator(SHAPE_POINTS).expect("a valid design");
+            checked_solve(&mut manipulator, &path[0]);
+            warm(criterion, &format!("growth S={segments} {interaction}"), &mut manipulator, &path);
         }
     }
 }
@@ -118,6 +185,6 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1))
         .sample_size(20);
-    targets = tip_dipole, solve
+    targets = tip_dipole, targets, solve, growth
 }
 criterion_main!(benches);

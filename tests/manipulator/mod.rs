@@ -5,3 +5,5 @@ mod jacobian;
 mod scene;
 
 mod snapshot;
+
+mod steps;
