@@ -136,7 +136,11 @@ impl Walk<'_> {
             chain: self.scene.chain,
             settings: self.scene.settings,
             inputs,
-            field: Source::external(self.scene.magnet, inputs),
+            field: Source::external(self.scene.magnet, inputs).seen_by(
+                self.scene.chain,
+                &inputs.base,
+                self.scene.settings.pair_accuracy,
+            ),
             rules: self.rules,
             work: self.work,
         }

@@ -173,7 +173,11 @@ impl Equilibrium {
             chain: &self.chain,
             settings: &self.settings,
             inputs,
-            field: Source::external(self.magnet.as_ref(), inputs),
+            field: Source::external(self.magnet.as_ref(), inputs).seen_by(
+                &self.chain,
+                &inputs.base,
+                self.settings.pair_accuracy,
+            ),
             rules: &self.rules,
             work: &mut self.work,
         }
