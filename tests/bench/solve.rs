@@ -8,7 +8,12 @@
     reason = "a program that stops when a scene is wrong; criterion's macros write undocumented items"
 )]
 
+#[path = "cpu_time.rs"]
+mod cpu_time;
+
 use std::time::Duration;
+
+use cpu_time::CpuTime;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use mcm::design::Design;
@@ -58,7 +63,7 @@ fn checked_solve(manipulator: &mut Manipulator, inputs: &Inputs) -> f64 {
     outputs.tip_angle
 }
 
-fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, path: &[Inputs]) {
+fn measure(criterion: &mut Criterion<CpuTime>, name: &str, scene: &Scene, path: &[Inputs]) {
     let mut manipulator = scene.manipulator(SHAPE_POINTS).expect("a valid design");
     criterion.bench_function(&format!("cold {name}"), |b| {
         b.iter(|| {
@@ -72,14 +77,14 @@ fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, path: &[Inputs]
     });
 }
 
-fn warm(criterion: &mut Criterion, name: &str, manipulator: &mut Manipulator, path: &[Inputs]) {
+fn warm(criterion: &mut Criterion<CpuTime>, name: &str, manipulator: &mut Manipulator, path: &[Inputs]) {
     let mut inputs = path.iter().cycle();
     criterion.bench_function(name, |b| {
         b.iter(|| checked_solve(manipulator, inputs.next().expect("no end")));
     });
 }
 
-fn solve(criterion: &mut Criterion) {
+fn solve(criterion: &mut Criterion<CpuTime>) {
     for segments in [1, 3, 9] {
         for interaction in ["none", "rings", "full"] {
             // Across 20 mT the longer ones pull themselves shut.
@@ -95,7 +100,7 @@ fn solve(criterion: &mut Criterion) {
 }
 
 /// What a control loop may ask for: a setting for it, its worst error along the walk, and its time.
-fn targets(criterion: &mut Criterion) {
+fn targets(criterion: &mut Criterion<CpuTime>) {
     let uniform_scene = scene(1, "rings", "[field]");
     target(criterion, "S=1 rings uniform, 0.1 mm", uniform_scene.clone(), &uniform(&uniform_scene), COARSE);
     let passed = scene(9, "rings", PAIR);
@@ -117,7 +122,13 @@ const RICHEST: fn(&mut Settings) = |settings| {
     (settings.degree, settings.pair_accuracy) = (4, 1e-7);
 };
 
-fn target(criterion: &mut Criterion, name: &str, scene: Scene, path: &[Inputs], set: fn(&mut Settings)) {
+fn target(
+    criterion: &mut Criterion<CpuTime>,
+    name: &str,
+    scene: Scene,
+    path: &[Inputs],
+    set: fn(&mut Settings),
+) {
     let manipulator = |set: fn(&mut Settings)| {
         let mut scene = scene.clone();
         set(&mut scene.settings);
@@ -137,7 +148,7 @@ fn target(criterion: &mut Criterion, name: &str, scene: Scene, path: &[Inputs], 
 }
 
 /// Time against the number of segments.
-fn growth(criterion: &mut Criterion) {
+fn growth(criterion: &mut Criterion<CpuTime>) {
     for interaction in ["none", "rings", "full"] {
         for segments in [1, 2, 4, 9, 16, 32] {
             let scene = scene(segments, interaction, "[field]");
@@ -154,7 +165,7 @@ fn growth(criterion: &mut Criterion) {
 
 /// One segment without magnetic particles: only the tip ring feels the field, the moment is the same everywhere, and
 /// the angle solves `theta = Lam sin(phi - theta)`.
-fn tip_dipole(criterion: &mut Criterion) {
+fn tip_dipole(criterion: &mut Criterion<CpuTime>) {
     let text = "[design]\nsegments = 1\nbase_magnet = false\n[design.helix]\nparticle_remanence_t = 0.0\n\
                 [model]\ninteraction = \"none\"";
     let mut scene = Scene::parse(text, "tip dipole").expect("a valid scene");
@@ -182,6 +193,8 @@ fn closed_form(design: &Design, field: f64) -> f64 {
 criterion_group! {
     name = benches;
     config = Criterion::default()
+        .with_measurement(CpuTime)
+        .without_plots()
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1))
         .sample_size(20);
