@@ -112,7 +112,7 @@ impl Potential<'_> {
         let pose = self.work.station(k, index);
         let mut out = Wrenches::none(counts);
         if station.magnetisation != 0.0 {
-            let points = station.material.points();
+            let points = self.field.points(station);
             let moment =
                 pose.axis() * (station.magnetisation * station.material.volume / points.len() as f64);
             for point in points {

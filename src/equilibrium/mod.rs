@@ -3,7 +3,9 @@
 mod chain;
 mod columns;
 mod condensed;
+mod correction;
 mod dead;
+mod drift;
 mod field_rates;
 mod follow;
 mod inputs;
@@ -23,7 +25,7 @@ mod spans;
 mod transfer;
 mod views;
 
-pub use follow::Report;
+pub use correction::Report;
 pub use inputs::Inputs;
 pub use jacobian::{Input, Jacobian, Output};
 pub use settings::{Interaction, Settings};

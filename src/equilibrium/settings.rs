@@ -74,8 +74,8 @@ pub struct Settings {
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of a ring's energy in a field, relative to that energy, and of the energy of two rings,
-    /// relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Thirteen nodes are the most:
+    /// Largest error of the energy of a ring or of a span in a field, relative to that energy, and of the energy of two
+    /// rings, relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Thirteen nodes are the most:
     /// rings closer than 5 mm (the paper's) are good to 4e-6 of their force, those about to snap to 1e-3.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.

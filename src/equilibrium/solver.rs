@@ -5,8 +5,9 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::Chain;
+use super::correction::{Report, Scene, Scratch, measure};
 use super::dead::{add_wrench, no_wrench};
-use super::follow::{Branch, Report, Scene, measure};
+use super::follow::Branch;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
@@ -46,6 +47,7 @@ pub struct Equilibrium {
     pub(super) branch: Branch,
     pub(super) work: Workspace,
     pub(super) rules: PairRules,
+    scratch: Scratch,
 }
 
 impl Equilibrium {
@@ -79,6 +81,7 @@ impl Equilibrium {
             branch: Branch::new(&chain),
             work,
             rules,
+            scratch: Scratch::new(&chain),
             chain: Arc::new(chain),
         };
         out.reset();
@@ -106,7 +109,7 @@ impl Equilibrium {
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
-        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules))
+        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules, &mut self.scratch))
     }
 
     /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
@@ -173,11 +176,20 @@ impl Equilibrium {
     pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
+        self.potential_as_ruled(inputs)
+    }
+
+    /// With the rules that were chosen last.
+    pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
         Potential {
             chain: &self.chain,
             settings: &self.settings,
             inputs,
-            field: Source::external(self.magnet.as_ref(), inputs),
+            field: Source::external(self.magnet.as_ref(), inputs).seen_by(
+                &self.chain,
+                &inputs.base,
+                self.settings.pair_accuracy,
+            ),
             rules: &self.rules,
             work: &mut self.work,
         }

@@ -51,7 +51,8 @@ pub struct Outputs {
     /// Whether the equilibrium is stable; `None` when the model has no potential to tell.
     pub stable: Option<bool>,
     /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold. An upper
-    /// bound, close near a fold, until [`super::Manipulator::measure_margin`] measures it.
+    /// bound, close near a fold and up to some percent old along small steps, until
+    /// [`super::Manipulator::measure_margin`] measures it.
     pub stability_margin: f64,
     /// Jumps to another branch since the first solve.
     pub snaps: u32,

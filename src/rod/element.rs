@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use nalgebra::Vector2;
+
 use super::basis::{Ends, Modes, Part};
 use super::cubature::{SPIRAL_POINTS, Sight};
 use super::moments::SectionMoments;
@@ -68,6 +70,10 @@ pub struct Station {
     pub stiffness: Stiffness,
     /// Moments of the material that this station stands for.
     pub material: SectionMoments,
+    /// Its centroid and four points, for fields that are linear and quadratic over the section, m.
+    pub points: ([Vector2<f64>; 1], [Vector2<f64>; 4]),
+    /// Mean square distance of the material from its centroid, m2.
+    pub spread: f64,
     /// Magnetisation of the material, A/m.
     pub magnetisation: f64,
     /// Mass on the centreline that this station stands for, kg.
@@ -237,6 +243,8 @@ impl Element {
                 weight,
                 stiffness: span.stiffness,
                 material,
+                points: ([material.centroid()], material.points()),
+                spread: material.spread(),
                 magnetisation: span.magnetisation,
                 line_mass: span.line_density * weight,
                 density: span.density,

@@ -52,6 +52,21 @@ impl SectionMoments {
         self.second += Matrix2::identity() * (weight * 0.125 * angle * (outer.powi(4) - inner.powi(4)));
     }
 
+    /// Mean square distance of the material from its centroid, m2.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        if self.volume <= 0.0 {
+            return 0.0;
+        }
+        self.second.trace() / self.volume - (self.first / self.volume).norm_squared()
+    }
+
+    /// Centroid of the section; fields that are linear over the section are integrated exactly by this one point.
+    #[must_use]
+    pub fn centroid(&self) -> Vector2<f64> {
+        if self.volume <= 0.0 { Vector2::zeros() } else { self.first / self.volume }
+    }
+
     /// Four points of equal volume in the section plane with the same zeroth, first and second moments.
     ///
     /// Fields that are quadratic over the section are integrated exactly; of a cubic part only what the

@@ -3,6 +3,8 @@
 
 use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::magnetics::Assembly;
+use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
 use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT};
@@ -114,5 +116,27 @@ fn full_by_default_is_close_to_its_own_refinement() {
         let error = (tip(&design, full, field) - exact).norm() / design.length();
         println!("full, S = {segments}, {:.0} mT: tip error over the length {error:.1e}", 1e3 * field);
         assert!(error <= FULL_BY_DEFAULT, "{segments} segments: {error:e}");
+    }
+}
+
+/// Far from the magnet a section counts as one point: within the accuracy asked for, and only if that allows it.
+#[test]
+fn sections_are_as_coarse_as_the_accuracy_allows() {
+    let text = "[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, 120.0, 10.0]\norientation_wxyz = [0.8, 0.6, 0, 0]";
+    let scene = Scene::parse(text, "test scene").unwrap();
+    let assembly = Assembly::new(scene.magnets.clone().unwrap()).unwrap();
+    let energy = |pair_accuracy: f64| {
+        let settings = Settings { pair_accuracy, interaction: Interaction::None, ..scene.settings };
+        let mut equilibrium =
+            Equilibrium::new(&scene.design().unwrap(), Some(&assembly), settings, 2).unwrap();
+        let straight = vec![0.0; equilibrium.freedoms()];
+        equilibrium.gradient(&scene.inputs, &straight).unwrap().0
+    };
+    let fine = energy(1e-9);
+    for (accuracy, coarse) in [(1e-5, false), (5e-3, true)] {
+        let error = (energy(accuracy) / fine - 1.0).abs();
+        println!("accuracy {accuracy:.0e}: {error:.1e}");
+        assert!(error <= accuracy);
+        assert_eq!(error > 1e-5, coarse);
     }
 }

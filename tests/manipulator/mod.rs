@@ -7,3 +7,5 @@ mod jacobian;
 mod scene;
 
 mod snapshot;
+
+mod steps;
