@@ -27,6 +27,9 @@ const CHANGED: f64 = 0.02;
 /// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a rung is judged again.
 const MOVED: f64 = 0.02;
 
+/// Most judgements that pass between two trials of a cheaper rung: each failed one doubles their number.
+const PATIENCE: u32 = 16;
+
 /// Accuracy of the pairs on the coarse rungs.
 const COARSE: f64 = 1e-3;
 
@@ -36,6 +39,7 @@ pub(super) struct Ladder {
     rungs: Vec<Equilibrium>,
     present: usize,
     judged: Option<Judged>,
+    wait: Wait,
     length: f64,
     fold_margin: f64,
     /// Largest error of the tip: position (m) and angle (rad).
@@ -51,10 +55,32 @@ struct Judged {
     gap: Gap,
 }
 
+/// How many judgements are still to pass, and after the next failure, before a cheaper rung is tried.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Wait {
+    left: u32,
+    next: u32,
+}
+
+impl Wait {
+    const NONE: Self = Self { left: 0, next: 1 };
+
+    fn is_over(&mut self) -> bool {
+        let over = self.left == 0;
+        self.left = self.left.saturating_sub(1);
+        over
+    }
+
+    fn longer(self) -> Self {
+        Self { left: self.next, next: PATIENCE.min(2 * self.next) }
+    }
+}
+
 /// What a ladder remembers of its past.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshot {
     present: usize,
+    wait: Wait,
     equilibrium: equilibrium::Snapshot,
     judged: Option<Judged>,
 }
@@ -74,6 +100,7 @@ impl Ladder {
             rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
             present: 0,
             judged: None,
+            wait: Wait::NONE,
             length: design.length(),
             fold_margin: settings.fold_margin,
             tolerance: Gap { distance: settings.tolerance_position, angle: settings.tolerance_angle },
@@ -99,7 +126,7 @@ impl Ladder {
 
     /// Forgets the shape.
     pub(super) fn reset(&mut self) {
-        (self.present, self.judged) = (0, None);
+        (self.present, self.judged, self.wait) = (0, None, Wait::NONE);
         self.rungs.iter_mut().for_each(Equilibrium::reset);
     }
 
@@ -135,7 +162,16 @@ impl Ladder {
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if changed && from > 0 && report.solved { self.descend(inputs, report) } else { Ok(report) }
+        if !(changed && from > 0 && report.solved) {
+            return Ok(report);
+        }
+        if self.wait.is_over() {
+            return self.descend(inputs, report);
+        }
+        if from == last {
+            self.note(inputs, Gap::NONE);
+        }
+        Ok(report)
     }
 
     /// From rung `first` up to one that is good enough, each solved by `solve`.
@@ -173,10 +209,11 @@ impl Ladder {
         let other = cheaper.solve(inputs)?;
         self.present = from - 1;
         if self.is_sound(&other) && self.judge(inputs, DESCEND) {
+            self.wait = Wait::NONE;
             let iterations = report.iterations + other.iterations;
             return Ok(Report { iterations, snaps: report.snaps, ..other });
         }
-        self.present = from;
+        (self.present, self.wait) = (from, self.wait.longer());
         if let Some(kept) = kept {
             self.rungs[from] = kept;
         }
@@ -231,7 +268,7 @@ impl Ladder {
     /// What it remembers.
     pub(super) fn snapshot(&self) -> Snapshot {
         let equilibrium = self.present().snapshot();
-        Snapshot { present: self.present, equilibrium, judged: self.judged.clone() }
+        Snapshot { present: self.present, wait: self.wait, equilibrium, judged: self.judged.clone() }
     }
 
     /// Goes on from there.
@@ -244,7 +281,7 @@ impl Ladder {
             return Err(Error::Unsupported("the snapshot is not of this model".into()));
         };
         rung.restore(&snapshot.equilibrium)?;
-        (self.present, self.judged) = (snapshot.present, snapshot.judged.clone());
+        (self.present, self.wait, self.judged) = (snapshot.present, snapshot.wait, snapshot.judged.clone());
         Ok(())
     }
 }
