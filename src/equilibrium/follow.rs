@@ -52,9 +52,6 @@ const SNAP: f64 = 0.25;
 /// How much further a fall is tried where it ends on a shape of neutral stability, neither held nor let go.
 const FURTHER: f64 = 16.0;
 
-/// Parts of one input change at most.
-const PARTS: u32 = 2000;
-
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Branch {
@@ -179,7 +176,7 @@ impl Walk<'_> {
             unloaded
         };
         let (mut done, mut part, mut falling) = (0.0, 1.0, false);
-        for _ in 0..PARTS {
+        while self.left() > 0 {
             let next = f64::min(1.0, done + part);
             let inputs = if next >= 1.0 { target.clone() } else { start.between(target, next) };
             let mut trial = unknowns.clone();
@@ -208,6 +205,11 @@ impl Walk<'_> {
             }
         }
         End::Lost
+    }
+
+    /// Iterations that this solve may still take.
+    fn left(&self) -> u32 {
+        self.scene.settings.iterations.saturating_sub(self.report.iterations)
     }
 
     fn potential<'b>(&'b mut self, inputs: &'b Inputs) -> Potential<'b> {
@@ -320,7 +322,7 @@ impl Walk<'_> {
             radius: FALL_RADIUS * unit,
             largest: unit,
             tolerance: settings.tolerance.max(ROUNDING) * unit,
-            iterations: settings.iterations,
+            iterations: self.left(),
         };
         let mut fallen = unknowns.clone();
         let minimum = trust_region::minimise(&mut self.potential(inputs), &mut fallen, &region);

@@ -16,6 +16,9 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use host::start::{initialise, instantiate};
@@ -27,6 +30,9 @@ use rand::{Rng, SeedableRng};
 
 /// A call that takes longer hangs.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Hosts at once.
+const THREADS: u32 = 4;
 
 /// Step of time, s.
 const STEP: f64 = 1e-3;
@@ -49,26 +55,34 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Random calls, one seed after the other, until there are so many.
+/// Random calls on some threads, every host with a seed of its own, until there are so many.
 fn calls(count: u64, first: u64) {
     let folder = folder();
     let designs = Design::all(&folder);
-    let (mut sum, mut seed, start) = (Tally::default(), first, Instant::now());
-    while sum.calls < count {
-        let mut bytes = [0; BYTES];
-        StdRng::seed_from_u64(seed).fill_bytes(&mut bytes);
-        match catch_unwind(AssertUnwindSafe(|| Host::new(&designs, &bytes, PATIENCE).run())) {
-            Ok(tally) => add(&mut sum, &tally),
-            Err(broken) => {
-                println!("seed {seed}");
-                resume_unwind(broken);
+    let (sum, next, start) = (Mutex::new(Tally::default()), AtomicU64::new(first), Instant::now());
+    let hosts = || {
+        while sum.lock().unwrap().calls < count {
+            let seed = next.fetch_add(1, Ordering::Relaxed);
+            let mut bytes = [0; BYTES];
+            StdRng::seed_from_u64(seed).fill_bytes(&mut bytes);
+            match catch_unwind(AssertUnwindSafe(|| Host::new(&designs, &bytes, PATIENCE).run())) {
+                Ok(tally) => add(&mut sum.lock().unwrap(), &tally),
+                Err(broken) => {
+                    println!("seed {seed}");
+                    resume_unwind(broken);
+                }
             }
         }
-        seed += 1;
-    }
+    };
+    thread::scope(|scope| {
+        for _ in 0..THREADS {
+            scope.spawn(hosts);
+        }
+    });
+    let sum = sum.into_inner().unwrap();
     let [ok, warning, discard, error] = sum.endings;
-    let (slowest, name) = sum.slowest;
-    println!("{} calls of {} hosts in {:.0} s", sum.calls, seed - first, start.elapsed().as_secs_f64());
+    let ((slowest, name), hosts) = (sum.slowest, next.into_inner() - first);
+    println!("{} calls of {hosts} hosts in {:.0} s", sum.calls, start.elapsed().as_secs_f64());
     println!("OK {ok}, Warning {warning}, Discard {discard}, Error {error}; {} messages", sum.told);
     println!("slowest: {name}, {:.0} ms", 1e3 * slowest.as_secs_f64());
     fs::remove_dir_all(folder).unwrap();

@@ -7,14 +7,17 @@ use std::path::Path;
 use mcm::fmi::Package;
 use mcm::fmi::variable::{Kind, Role, Value};
 
-/// Scenes that are quick to solve, of every kind: rings and none, backbone, stop, magnets.
+/// Scenes of every kind: rings and none, stop, backbone, every level of interaction. The first are quick to build.
 const SCENES: [&str; 4] = [
     "[design]\nsegments = 1\n[model]\nbending_stop = true",
+    "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0",
+    "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 10.0, 0.0]\n[model]\ninteraction = \"preceding\"",
     "[design]\nsegments = 2\nbase_magnet = false\n[design.backbone]\nouter_radius_mm = 0.7\ninner_radius_mm = 0.25\n\
      shore_a = 50.0\npoisson = 0.4\n[model]\ninteraction = \"full\"",
-    "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 10.0, 0.0]\n[model]\ninteraction = \"preceding\"",
-    "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0",
 ];
+
+/// How many of them are.
+pub(crate) const QUICK: usize = 2;
 
 /// A packed design with its unpacked resources; of its variables the references by type and role.
 pub(crate) struct Design {

@@ -2,7 +2,7 @@
 
 use arbitrary::Unstructured;
 
-/// Numbers at which arithmetic ends.
+/// Numbers at which arithmetic ends, first those that are none.
 const EXTREMES: [f64; 16] = [
     f64::NAN,
     f64::INFINITY,
@@ -23,19 +23,25 @@ const EXTREMES: [f64; 16] = [
 ];
 
 /// A source of decisions: random bytes, or those that a fuzzer has found to lead somewhere.
-pub(crate) struct Draw<'a>(Unstructured<'a>);
+pub(crate) struct Draw<'a> {
+    bytes: Unstructured<'a>,
+    /// Whether finite numbers may be of any size: equilibria are then seldom found, which takes long.
+    bold: bool,
+}
 
 impl<'a> Draw<'a> {
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        Self(Unstructured::new(bytes))
+        let mut draw = Self { bytes: Unstructured::new(bytes), bold: false };
+        draw.bold = draw.once_in(200);
+        draw
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.bytes.is_empty()
     }
 
     pub(crate) fn byte(&mut self) -> u8 {
-        self.0.arbitrary().unwrap_or_default()
+        self.bytes.arbitrary().unwrap_or_default()
     }
 
     /// Below `end`, which is at most 256.
@@ -49,24 +55,30 @@ impl<'a> Draw<'a> {
     }
 
     pub(crate) fn pick<T: Copy>(&mut self, among: &[T]) -> Option<T> {
-        let index = usize::from(self.0.arbitrary::<u16>().unwrap_or_default());
+        let index = usize::from(self.bytes.arbitrary::<u16>().unwrap_or_default());
         among.get(index % among.len().max(1)).copied()
     }
 
     pub(crate) fn integer(&mut self) -> i32 {
-        if self.once_in(8) { self.0.arbitrary().unwrap_or_default() } else { i32::from(self.byte() % 8) - 1 }
+        if self.once_in(8) {
+            self.bytes.arbitrary().unwrap_or_default()
+        } else {
+            i32::from(self.byte() % 8) - 1
+        }
     }
 
     /// Mostly a number near `near`, or of its size; sometimes anything.
     pub(crate) fn real(&mut self, near: f64) -> f64 {
-        let part = f64::from(self.0.arbitrary::<i16>().unwrap_or_default()) / f64::from(i16::MAX);
-        match self.byte() % 32 {
+        let part = f64::from(self.bytes.arbitrary::<i16>().unwrap_or_default()) / f64::from(i16::MAX);
+        match self.byte() % 64 {
+            0 if !self.bold => self.pick(&EXTREMES[..3]).unwrap_or_default(),
+            1..=24 if !self.bold => near,
             0 => self.pick(&EXTREMES).unwrap_or_default(),
-            1 => f64::from_bits(self.0.arbitrary().unwrap_or_default()),
-            2..=4 => part * 10_f64.powi(i32::from(self.byte() % 16) - 8),
-            5..=8 => near + 0.1 * part,
-            9..=20 => near * (1.0 + 0.1 * part) + 1e-3 * part,
-            _ => near * (1.0 + 0.01 * part) + 1e-4 * part,
+            1 => f64::from_bits(self.bytes.arbitrary().unwrap_or_default()),
+            2 => part * 10_f64.powi(i32::from(self.byte() % 16) - 8),
+            3..=4 => near + 0.1 * part,
+            5..=24 => near * (1.0 + 0.1 * part) + 1e-4 * part,
+            _ => near * (1.0 + 0.01 * part) + 1e-6 * part,
         }
     }
 
@@ -76,7 +88,7 @@ impl<'a> Draw<'a> {
 
     /// Some value references, mostly of `likely`.
     pub(crate) fn references(&mut self, likely: &[u32]) -> Vec<u32> {
-        let length = if self.once_in(64) { 300 } else { self.below(6) };
+        let length = if self.once_in(64) { 40 } else { self.below(6) };
         let wild = self.once_in(12);
         let one = |draw: &mut Self| {
             let any = draw.integer().unsigned_abs();

@@ -109,25 +109,25 @@ impl<'a> Host<'a> {
         let at = self.draw.below(self.guests.len());
         // Taken out, so that host and guest can be used side by side.
         let mut guest = self.guests.swap_remove(at);
-        match self.draw.byte() % 64 {
-            0 if self.guests.len() + 1 < GUESTS => self.instantiate(),
-            1 => self.free_twice(&mut guest),
-            2..=17 => self.advance(&mut guest),
-            18 => self.live_out_of_order(&mut guest),
-            19 => self.debug_logging(&mut guest),
-            20..=29 => self.set_reals(&mut guest),
-            30..=31 => self.set_others(&mut guest),
-            32..=41 => self.get_reals(&mut guest),
-            42..=44 => self.get_others(&mut guest),
-            45..=47 => self.directional_derivative(&mut guest),
-            48..=50 => self.set_input_derivatives(&mut guest),
-            51..=52 => self.output_derivatives(&mut guest),
-            53..=55 => self.save(&mut guest),
-            56..=57 => self.restore(&mut guest),
-            58 => self.forget(&mut guest),
-            59 => self.serialise(&mut guest),
-            60 => self.deserialise(&mut guest),
-            61..=62 => self.step_anyhow(&mut guest),
+        match self.draw.byte() {
+            0..=1 if self.guests.len() + 1 < GUESTS => self.instantiate(),
+            2..=3 => self.free_twice(&mut guest),
+            4..=23 => self.advance(&mut guest),
+            24..=29 => self.live_out_of_order(&mut guest),
+            30..=45 => self.debug_logging(&mut guest),
+            46..=89 => self.set_reals(&mut guest),
+            90..=119 => self.set_others(&mut guest),
+            120..=131 => self.get_reals(&mut guest),
+            132..=139 => self.get_others(&mut guest),
+            140..=143 => self.directional_derivative(&mut guest),
+            144..=173 => self.set_input_derivatives(&mut guest),
+            174..=177 => self.output_derivatives(&mut guest),
+            178..=189 => self.save(&mut guest),
+            190..=191 => self.restore(&mut guest),
+            192..=203 => self.forget(&mut guest),
+            204..=205 => self.serialise(&mut guest),
+            206..=211 => self.deserialise(&mut guest),
+            212..=213 => self.step_anyhow(&mut guest),
             _ => self.ask_status(&mut guest),
         }
         if guest.alive || self.guests.is_empty() || !self.draw.once_in(4) {
@@ -145,12 +145,6 @@ impl<'a> Host<'a> {
         let start = processor_time();
         let status = work(guest.handle);
         let took = processor_time() - start;
-        if took > Duration::from_millis(100) { // DEBUG
-            let d = &self.designs[guest.design];
-            println!("SLOW {name} {took:?} design {} status {status:?} {:?}", guest.design, logger::heard(guest.environment));
-            for &r in d.inputs.iter().chain(&d.parameters).chain(&d.outputs) { let mut v = 0.0; unsafe { mcm::fmi::ffi::fmi2GetReal(guest.handle, &r, 1, &mut v); }
-              if v != d.start(r) { println!("   {r} = {v:e} ({:e})", d.start(r)); } }
-        }
         self.count(name, took);
         self.tally.endings[status.0 as usize] += 1; // out of range: no status of the standard for a finished call
         let said = logger::take(guest.environment);
