@@ -1,7 +1,7 @@
 //! Long runs of the C interface, to be recorded:
 //!
 //! ```text
-//! cargo run --release --example hostile calls 10000000     # random calls; a further number: the first seed
+//! cargo run --release --example hostile calls 10000000     # random calls; further: first seed, seconds a call may take
 //! cargo run --release --example hostile cycles 1000        # instances made, initialised, stepped and freed
 //! cargo run --release --example hostile steps 1000000      # steps of one instance
 //! ```
@@ -28,9 +28,6 @@ use mcm::fmi::ffi::*;
 use rand::rngs::StdRng;
 use rand::{Rng, SeedableRng};
 
-/// A call that takes longer hangs.
-const PATIENCE: Duration = Duration::from_secs(1);
-
 /// Hosts at once.
 const THREADS: u32 = 4;
 
@@ -44,19 +41,20 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |at: usize| arguments.get(at).and_then(|text| text.parse::<u64>().ok());
     match (arguments.first().map(String::as_str), number(1)) {
-        (Some("calls"), Some(count)) => calls(count, number(2).unwrap_or_default()),
+        (Some("calls"), Some(count)) => calls(count, number(2).unwrap_or(0), Duration::from_secs(number(3).unwrap_or(1))),
         (Some("cycles"), Some(count)) => cycles(count),
         (Some("steps"), Some(count)) => steps(count),
         _ => {
-            println!("say: calls COUNT [SEED], cycles COUNT, or steps COUNT");
+            println!("say: calls COUNT [SEED [SECONDS]], cycles COUNT, or steps COUNT");
             return ExitCode::FAILURE;
         }
     }
     ExitCode::SUCCESS
 }
 
-/// Random calls on some threads, every host with a seed of its own, until there are so many.
-fn calls(count: u64, first: u64) {
+/// Random calls on some threads, every host with a seed of its own, until there are so many. A call that takes longer
+/// than `patience` hangs.
+fn calls(count: u64, first: u64, patience: Duration) {
     let folder = folder();
     let designs = Design::all(&folder);
     let (sum, next, start) = (Mutex::new(Tally::default()), AtomicU64::new(first), Instant::now());
@@ -65,7 +63,7 @@ fn calls(count: u64, first: u64) {
             let seed = next.fetch_add(1, Ordering::Relaxed);
             let mut bytes = [0; BYTES];
             StdRng::seed_from_u64(seed).fill_bytes(&mut bytes);
-            match catch_unwind(AssertUnwindSafe(|| Host::new(&designs, &bytes, PATIENCE).run())) {
+            match catch_unwind(AssertUnwindSafe(|| Host::new(&designs, &bytes, patience).run())) {
                 Ok(tally) => add(&mut sum.lock().unwrap(), &tally),
                 Err(broken) => {
                     println!("seed {seed}");

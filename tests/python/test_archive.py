@@ -7,7 +7,7 @@ import zipfile
 from collections.abc import Callable
 
 import pytest
-from conftest import PACKAGE, Archive, Device, run
+from conftest import PACKAGE, Archive, Device
 from fmpy.validation import validate_fmu
 from lxml import etree
 
