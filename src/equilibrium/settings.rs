@@ -86,7 +86,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one minimisation; default 1000.
+    /// Iterations at most of one solve, after which it has failed; default 500.
     pub iterations: u32,
 }
 
@@ -104,7 +104,7 @@ impl Default for Settings {
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
-            iterations: 1000,
+            iterations: 500,
         }
     }
 }
