@@ -1,14 +1,15 @@
 //! The C interface, driven through the exported functions.
 #![allow(unsafe_code, reason = "the functions under test take raw pointers")]
 
-use std::ffi::{CStr, CString, c_char, c_void};
+use std::ffi::{CStr, CString, c_void};
 use std::ptr;
-use std::sync::{Mutex, PoisonError};
 
 use mcm::fmi::Package;
 use mcm::fmi::bindings::*;
 use mcm::fmi::ffi::*;
 
+use crate::hostile::host::logger::{callbacks, heard};
+use crate::hostile::host::start::{self, initialise};
 use crate::tolerance::EFFECT;
 
 mod derivatives;
@@ -19,77 +20,11 @@ const OK: fmi2Status = fmi2Status::fmi2OK;
 const ERROR: fmi2Status = fmi2Status::fmi2Error;
 const DISCARD: fmi2Status = fmi2Status::fmi2Discard;
 
-/// What the logger has heard, by the environment that each test gives it.
-static HEARD: Mutex<Vec<(usize, String)>> = Mutex::new(Vec::new());
-
-/// The standard's logger is variadic; one that ignores what follows the format is compatible with it in C's calling
-/// convention on every platform that FMUs run on. It checks what the FMU promises: a category and the format `%s`.
-unsafe extern "C" fn logger(
-    environment: fmi2ComponentEnvironment,
-    name: fmi2String,
-    _status: fmi2Status,
-    category: fmi2String,
-    format: fmi2String,
-    message: *const c_char,
-) {
-    // SAFETY: the FMU gives zero-terminated texts.
-    let text = |text: *const c_char| unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned();
-    let said = format!("{} {} {}: {}", text(name), text(category), text(format), text(message));
-    HEARD.lock().unwrap_or_else(PoisonError::into_inner).push((environment.addr(), said));
-}
-
-fn heard(environment: usize) -> Vec<String> {
-    let heard = HEARD.lock().unwrap_or_else(PoisonError::into_inner);
-    heard.iter().filter(|(by, _)| *by == environment).map(|(_, said)| said.clone()).collect()
-}
-
-fn callbacks(environment: usize) -> fmi2CallbackFunctions {
-    type Fixed = unsafe extern "C" fn(
-        fmi2ComponentEnvironment,
-        fmi2String,
-        fmi2Status,
-        fmi2String,
-        fmi2String,
-        *const c_char,
-    );
-    // SAFETY: see `logger`.
-    let logger: fmi2CallbackLogger = unsafe { std::mem::transmute::<Option<Fixed>, _>(Some(logger)) };
-    fmi2CallbackFunctions {
-        logger,
-        allocateMemory: None,
-        freeMemory: None,
-        stepFinished: None,
-        componentEnvironment: ptr::without_provenance_mut(environment),
-    }
-}
-
 /// An instance of the default design; `environment` names the test to its logger.
 fn instantiate(environment: usize) -> fmi2Component {
     let guid = CString::new(Package::built_in().unwrap().guid()).unwrap();
-    let functions = callbacks(environment);
-    // SAFETY: all texts and the callbacks outlive the call.
-    let made = unsafe {
-        fmi2Instantiate(
-            c"one".as_ptr(),
-            fmi2Type::fmi2CoSimulation,
-            guid.as_ptr(),
-            ptr::null(),
-            &raw const functions,
-            0,
-            0,
-        )
-    };
-    assert!(!made.is_null(), "{:?}", heard(environment));
-    made
-}
-
-fn initialise(component: fmi2Component) {
-    // SAFETY: no pointers but the handle.
-    unsafe {
-        assert_eq!(fmi2SetupExperiment(component, 0, 0.0, 0.0, 0, 0.0), OK);
-        assert_eq!(fmi2EnterInitializationMode(component), OK);
-        assert_eq!(fmi2ExitInitializationMode(component), OK);
-    }
+    // SAFETY: null is allowed.
+    unsafe { start::instantiate(&guid, ptr::null(), environment) }
 }
 
 fn reference(name: &str) -> fmi2ValueReference {
@@ -259,22 +194,26 @@ fn saved_states_belong_to_their_instance() {
 }
 
 #[test]
-fn instances_live_in_their_own_threads() {
-    let runs: Vec<_> = (0..4)
-        .map(|row| {
-            std::thread::spawn(move || {
-                let component = instantiate(106);
-                initialise(component);
-                assert_eq!(set(component, "magnet.strength", 0.5 + 0.1 * f64::from(row % 2)), OK);
-                // SAFETY: no pointers but the handle.
-                assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, OK);
-                let angle = get(component, "tip.angle").1.to_bits();
-                fmi2FreeInstance(component);
-                angle
-            })
-        })
-        .collect();
-    let angles: Vec<u64> = runs.into_iter().map(|run| run.join().unwrap()).collect();
-    assert_eq!(angles[..2], angles[2..]);
-    assert_ne!(angles[0], angles[1]);
+fn sixteen_threads_step_instances_of_their_own() {
+    let run = |row: u32| {
+        let component = instantiate(106);
+        initialise(component);
+        assert_eq!(set(component, "magnet.strength", 0.5 + 0.1 * f64::from(row % 4)), OK);
+        let mut angles = Vec::new();
+        for step in 0..5 {
+            let time = 0.1 * f64::from(step);
+            assert_eq!(set(component, "magnet.position[3]", 0.02 + 0.1 * time), OK);
+            // SAFETY: no pointers but the handle.
+            assert_eq!(unsafe { fmi2DoStep(component, time, 0.1, 1) }, OK);
+            angles.push(get(component, "tip.angle").1.to_bits());
+        }
+        fmi2FreeInstance(component);
+        angles
+    };
+    let alone: Vec<_> = (0..4).map(run).collect();
+    let threads: Vec<_> = (0..16).map(|row| std::thread::spawn(move || run(row))).collect();
+    for (thread, angles) in threads.into_iter().map(|thread| thread.join().unwrap()).enumerate() {
+        assert_eq!(angles, alone[thread % 4], "thread {thread}");
+    }
+    assert_ne!(alone[0], alone[1]);
 }

@@ -35,6 +35,8 @@ mod fmi;
 
 mod abi;
 
+mod hostile;
+
 mod cli;
 
 mod layers;

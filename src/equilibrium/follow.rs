@@ -22,9 +22,6 @@ const SNAP: f64 = 0.25;
 /// How much further a fall is tried where it ends on a shape of neutral stability, neither held nor let go.
 const FURTHER: f64 = 16.0;
 
-/// Parts of one input change at most.
-const PARTS: u32 = 2000;
-
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Branch {
@@ -101,7 +98,7 @@ impl Walk<'_> {
             &unloaded
         };
         let (mut done, mut part, mut falling) = (0.0, 1.0, false);
-        for _ in 0..PARTS {
+        while self.left() > 0 {
             let next = f64::min(1.0, done + part);
             let between;
             let inputs = if next >= 1.0 {
@@ -139,6 +136,11 @@ impl Walk<'_> {
         End::Lost
     }
 
+    /// Iterations that this solve may still take.
+    fn left(&self) -> u32 {
+        self.scene.settings.iterations.saturating_sub(self.report.iterations)
+    }
+
     /// Corrects a copy of `unknowns`, and takes it over if that ends at an equilibrium.
     fn try_to_correct(&mut self, inputs: &Inputs, unknowns: &mut [f64]) -> Option<End> {
         let mut trial = std::mem::take(&mut self.scratch.trial);
@@ -163,7 +165,7 @@ impl Walk<'_> {
             radius: FALL_RADIUS * unit,
             largest: unit,
             tolerance: settings.tolerance.max(ROUNDING) * unit,
-            iterations: settings.iterations,
+            iterations: self.left(),
         };
         let mut fallen = unknowns.to_vec();
         let minimum = trust_region::minimise(&mut self.potential(inputs), &mut fallen, &region);

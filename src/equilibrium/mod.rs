@@ -22,6 +22,7 @@ mod snapshot;
 mod solver;
 mod source;
 mod spans;
+mod transfer;
 mod views;
 
 pub use correction::Report;
@@ -30,3 +31,4 @@ pub use jacobian::{Input, Jacobian, Output};
 pub use settings::{Interaction, Settings};
 pub use snapshot::Snapshot;
 pub use solver::Equilibrium;
+pub use transfer::Gap;

@@ -17,6 +17,8 @@ pub enum Interaction {
     /// All pairs of rings, and every ring with every span but the disc bonded to its face, mutual. Spans among
     /// themselves are neglected.
     Full = 3,
+    /// The cheapest of several models that is within the tolerances of the richest: [`Self::Full`] with bending stop.
+    Auto = 4,
 }
 
 impl Interaction {
@@ -27,6 +29,7 @@ impl Interaction {
         (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
         (Self::Rings, "rings", "All pairs of rings, mutual"),
         (Self::Full, "full", "All pairs of rings, and every ring with every span, mutual"),
+        (Self::Auto, "auto", "As much as the tolerances need, up to full with bending stop"),
     ];
 
     /// Whether rings act on spans.
@@ -59,8 +62,12 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
+    /// How far [`Interaction::Auto`] may put the tip from where the richest model puts it, m; default 1e-5.
+    pub tolerance_position: f64,
+    /// How far it may turn the tip against that one, rad; default 1e-3.
+    pub tolerance_angle: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
-    /// windings touch; default no, as in the paper's model.
+    /// windings touch; default no, as in the paper's model. [`Interaction::Auto`] always sees to it.
     pub bending_stop: bool,
     /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
     /// rings act on spans.
@@ -79,7 +86,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one minimisation; default 1000.
+    /// Iterations at most of one solve, after which it has failed; default 500.
     pub iterations: u32,
 }
 
@@ -87,6 +94,8 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
+            tolerance_position: 1e-5,
+            tolerance_angle: 1e-3,
             bending_stop: false,
             degree: 2,
             cylinder_elements: 8,
@@ -95,7 +104,7 @@ impl Default for Settings {
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
-            iterations: 1000,
+            iterations: 500,
         }
     }
 }
@@ -107,6 +116,8 @@ impl Settings {
     /// [`Error::Range`] naming the first knob out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let positive = |value: f64| value > 0.0;
+        check("tolerance of the tip position", self.tolerance_position, positive, "> 0 m")?;
+        check("tolerance of the tip angle", self.tolerance_angle, positive, "> 0 rad")?;
         check("degree of the strain modes", self.degree as f64, |v| v <= 8.0, "from 0 to 8")?;
         check(
             "number of cylinder elements",

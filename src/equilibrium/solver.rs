@@ -11,7 +11,7 @@ use super::follow::Branch;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
-use super::settings::Settings;
+use super::settings::{Interaction, Settings};
 use super::source::Source;
 use crate::design::Design;
 use crate::error::{Error, check};
@@ -54,7 +54,8 @@ impl Equilibrium {
     /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
     /// # Errors
-    /// [`Error::Range`] for settings or a number of points out of range.
+    /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for
+    /// [`Interaction::Auto`], which takes several models.
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
@@ -62,6 +63,11 @@ impl Equilibrium {
         shape_points: usize,
     ) -> Result<Self, Error> {
         let settings = settings.checked()?;
+        if settings.interaction == Interaction::Auto {
+            return Err(Error::Unsupported(
+                "an equilibrium of one model has no level `auto`: a manipulator has".into(),
+            ));
+        }
         check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
@@ -115,6 +121,12 @@ impl Equilibrium {
         potential.linearise(&unknowns)?;
         let definite = potential.factorise(0.0) && potential.has_verdict();
         definite.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
+    }
+
+    /// The inputs of the last solved shape.
+    #[must_use]
+    pub fn inputs(&self) -> Option<&Inputs> {
+        self.branch.inputs.as_ref()
     }
 
     /// Number of unknowns.

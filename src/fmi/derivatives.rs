@@ -112,6 +112,12 @@ impl Instance {
         let direction = direction(jacobian, given, rates).ok_or_else(nothing)?;
         let rates = jacobian.along(&direction)?;
         let of = |&unknown: &u32| rate(jacobian, rates.as_slice(), device.outputs(), table.find(unknown)?);
-        unknowns.iter().map(|unknown| of(unknown).ok_or_else(nothing)).collect()
+        let rates: Vec<f64> =
+            unknowns.iter().map(|unknown| of(unknown).ok_or_else(nothing)).collect::<Result<_, _>>()?;
+        if rates.iter().all(|rate| rate.is_finite()) {
+            Ok(rates)
+        } else {
+            Err(Error::NoDerivatives("they are too large for numbers".into()))
+        }
     }
 }

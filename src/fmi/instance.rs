@@ -161,11 +161,11 @@ impl Instance {
     /// Steps from `time` to `time + step`: finds the equilibrium for the inputs now set or, where they have time
     /// derivatives, follows it along their path.
     pub fn do_step(&mut self, time: f64, step: f64) -> Ending {
-        if !time.is_finite() || !step.is_finite() || step < 0.0 {
+        let end = time + step;
+        if !time.is_finite() || !end.is_finite() || step < 0.0 {
             return self.refuse(&format!("a step from t = {time} by {step} is none"));
         }
         let slack = TIME_SLACK * time.abs().max(self.condition.time.abs()).max(step);
-        let end = time + step;
         if let Some(stop) = self.condition.stop.filter(|stop| end > stop + slack) {
             return self.refuse(&format!("a step to t = {end} goes beyond the stop time {stop}"));
         }
@@ -326,6 +326,8 @@ impl Instance {
         }
         condition.jacobian = None;
         let device = condition.device.insert(device);
+        let settings = &condition.given.settings;
+        device.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
         let snaps = device.outputs().snaps;
         let outputs = device.follow(path, condition.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];

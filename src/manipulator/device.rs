@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::ladder::{self, Ladder};
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{self, Equilibrium, Report, Settings};
+use crate::equilibrium::{Equilibrium, Gap, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -30,14 +31,14 @@ use crate::magnetics::Assembly;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    equilibrium: Equilibrium,
+    models: Ladder,
     outputs: Outputs,
 }
 
 /// What a manipulator remembers of its past, in numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    equilibrium: equilibrium::Snapshot,
+    models: ladder::Snapshot,
     outputs: Outputs,
 }
 
@@ -54,9 +55,9 @@ impl Manipulator {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let equilibrium = Equilibrium::new(design, magnet, settings, shape_points)?;
-        let outputs = straight(&equilibrium);
-        Ok(Self { equilibrium, outputs })
+        let models = Ladder::new(design, magnet, settings, shape_points)?;
+        let outputs = straight(models.present());
+        Ok(Self { models, outputs })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -67,7 +68,7 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.equilibrium.solve(inputs)?;
+        let report = self.models.solve(inputs)?;
         if report.solved {
             self.observe(inputs, &report);
         } else {
@@ -117,7 +118,7 @@ impl Manipulator {
     /// What it remembers: from it another manipulator of the same design goes on bit for bit.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot { equilibrium: self.equilibrium.snapshot(), outputs: self.outputs.clone() }
+        Snapshot { models: self.models.snapshot(), outputs: self.outputs.clone() }
     }
 
     /// Remembers what another manipulator of the same design, magnet and settings did.
@@ -132,7 +133,7 @@ impl Manipulator {
         if lengths(&snapshot.outputs) != lengths(&self.outputs) {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
-        self.equilibrium.restore(&snapshot.equilibrium)?;
+        self.models.restore(&snapshot.models)?;
         self.outputs = snapshot.outputs.clone();
         Ok(())
     }
@@ -140,7 +141,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.equilibrium.clone().margin() {
+        if let Some(margin) = self.models.present().clone().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -171,17 +172,29 @@ impl Manipulator {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
-        self.equilibrium.jacobian()
+        self.models.present().jacobian()
+    }
+
+    /// How far `auto` may put and turn the tip from where the richest model does, m and rad; from the next solve on.
+    ///
+    /// # Errors
+    /// [`Error::Range`] unless both are positive.
+    pub fn set_tolerances(&mut self, position: f64, angle: f64) -> Result<(), Error> {
+        let settings =
+            Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
+        settings.checked()?;
+        self.models.set_tolerance(Gap { distance: position, angle });
+        Ok(())
     }
 
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        self.equilibrium.reset();
-        self.outputs = straight(&self.equilibrium);
+        self.models.reset();
+        self.outputs = straight(self.models.present());
     }
 
     fn observe(&mut self, inputs: &Inputs, report: &Report) {
-        let (equilibrium, out) = (&self.equilibrium, &mut self.outputs);
+        let (equilibrium, out) = (self.models.present(), &mut self.outputs);
         out.tip = equilibrium.tip();
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
         let magnetic = equilibrium.magnetic_wrench();
@@ -205,6 +218,8 @@ impl Manipulator {
         out.iterations = report.iterations;
         out.residual = report.residual;
         out.energy = report.energy;
+        out.interaction = equilibrium.settings().interaction;
+        out.error_estimate = self.models.error_estimate();
     }
 }
 
@@ -244,5 +259,6 @@ fn straight(equilibrium: &Equilibrium) -> Outputs {
         residual: 0.0,
         energy: 0.0,
         interaction: equilibrium.settings().interaction,
+        error_estimate: 0.0,
     }
 }

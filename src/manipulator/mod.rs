@@ -2,6 +2,7 @@
 
 mod branch;
 mod device;
+mod ladder;
 mod outputs;
 mod scene;
 

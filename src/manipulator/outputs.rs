@@ -66,4 +66,6 @@ pub struct Outputs {
     pub energy: f64,
     /// Level of local interaction that was used.
     pub interaction: Interaction,
+    /// Estimated distance of the tip from that of the richest model, m, where `auto` chose a cheaper one; else 0.
+    pub error_estimate: f64,
 }

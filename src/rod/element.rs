@@ -17,6 +17,9 @@ pub const COMPONENTS: usize = 6;
 /// The first components are rotations, the others strains.
 pub(super) const ROTATIONS: usize = 3;
 
+/// Curvature about `d3`, whose modes are all polynomials.
+const TORSION: usize = 2;
+
 /// Gauss points of a disc: its strain is some percent of the core's.
 const DISC_POINTS: usize = 2;
 
@@ -169,6 +172,15 @@ impl Element {
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.metric.len()
+    }
+
+    /// By strain component, the degrees of freedom of its polynomial modes by degree: those that elements of the same
+    /// pieces share, whatever else they have.
+    #[must_use]
+    pub fn polynomials(&self) -> [Vec<usize>; COMPONENTS] {
+        let of = |c: usize| (0..self.freedoms()).filter(move |i| self.component[*i] == c);
+        let count = of(TORSION).count();
+        core::array::from_fn(|c| of(c).take(count).collect())
     }
 
     /// What the core's windings add to the elastic energy; `None` where they do not touch.

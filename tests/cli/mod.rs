@@ -2,6 +2,7 @@
 
 mod branches;
 mod field;
+mod pack;
 mod solve;
 mod study;
 mod sweep;

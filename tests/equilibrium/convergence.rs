@@ -7,10 +7,9 @@ use mcm::magnetics::Assembly;
 use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
-use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, PAIRS, PAIRS_BY_DEFAULT};
+use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT};
 
 const RICHEST: usize = 8;
-const DEFAULT: usize = 3;
 
 fn tip(design: &Design, settings: Settings, field: f64) -> Vector3<f64> {
     let mut equilibrium = Equilibrium::new(design, None, settings, 2).expect("allowed");
@@ -38,15 +37,16 @@ fn by_degree(segments: usize, interaction: Interaction, field: f64) -> Vec<f64> 
 #[test]
 fn the_default_degree_is_enough_and_more_is_better() {
     println!("tip error over the length by degree 0 to 6, against {RICHEST}");
+    let default = Settings::default().degree;
     for (interaction, field, bound) in
         [(Interaction::None, 0.02, DEGREE_NONE), (Interaction::Rings, 0.01, DEGREE_RINGS)]
     {
         for segments in [1, 3, 9] {
             let errors = by_degree(segments, interaction, field);
             assert!(
-                errors[DEFAULT] <= bound,
+                errors[default] <= bound,
                 "{interaction:?}, {segments} segments: {:e} of the length at the default degree, allowed {bound:e}",
-                errors[DEFAULT]
+                errors[default]
             );
             // Two degrees more leave at most a tenth, down to where the shear that varies along a disc (which no
             // mode has: 2e-9 with ring pairs) or rounding is all that is left.
@@ -105,6 +105,18 @@ fn the_accuracy_of_the_pairs_is_held() {
     println!("pair accuracy 1e-3, default, {PAIRS:e}: tip error over the length {errors:?}");
     assert!(errors[1] <= PAIRS_BY_DEFAULT, "default: {errors:?}");
     assert!(errors[0] <= 1e-3 && errors[2] <= errors[1] && errors[1] <= errors[0], "{errors:?}");
+}
+
+#[test]
+fn full_by_default_is_close_to_its_own_refinement() {
+    for (segments, field) in [(1, 0.02), (3, 0.01), (9, 0.002)] {
+        let design = Design::new(Specification::paper(segments)).expect("allowed");
+        let full = Settings { interaction: Interaction::Full, ..Settings::default() };
+        let exact = tip(&design, Settings { degree: 4, pair_accuracy: PAIRS, ..full }, field);
+        let error = (tip(&design, full, field) - exact).norm() / design.length();
+        println!("full, S = {segments}, {:.0} mT: tip error over the length {error:.1e}", 1e3 * field);
+        assert!(error <= FULL_BY_DEFAULT, "{segments} segments: {error:e}");
+    }
 }
 
 /// Far from the magnet a section counts as one point: within the accuracy asked for, and only if that allows it.

@@ -1,5 +1,7 @@
 //! Tests of `manipulator`.
 
+mod auto;
+
 mod jacobian;
 
 mod scene;

@@ -105,10 +105,10 @@ class Device:
 
 @pytest.fixture(scope="session")
 def pack(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Archive]:
-    """Packs a scene's text (`None`: the default); unpacks it into a folder with blanks and a percent sign."""
+    """Packs a scene's text (`None`: the default); unpacks it into a folder with blanks, percent sign and umlaut."""
 
     def packed(scene: str | None = None, *options: str) -> Archive:
-        folder = tmp_path_factory.mktemp("100% packed here")
+        folder = tmp_path_factory.mktemp("100% packed für alle")
         arguments = list(options)
         if scene is not None:
             (folder / "scene.toml").write_text(scene)

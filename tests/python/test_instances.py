@@ -1,6 +1,16 @@
 """Instances, resets and saved states repeat themselves bit for bit."""
 
+import math
+import os
+from collections.abc import Callable
+from pathlib import Path
+
 from conftest import Archive, Device
+
+# What an instance or a step may leave behind at most, in bytes: an instance holds some 100 kB and a step's answers
+# 1 kB, of which nothing stays; what is measured is the host's own log and the allocator's rounding.
+CYCLE = 10_000
+STEP = 200
 
 
 def drive(device: Device, sign: float = 1.0) -> list[list[float]]:
@@ -62,8 +72,47 @@ def test_reading_between_steps_changes_nothing(default: Archive) -> None:
     assert run(reads=True) == run(reads=False)
 
 
-def test_many_instances_come_and_go(default: Archive) -> None:
-    for _ in range(50):
-        device = Device(default)
+def memory() -> int:
+    """Bytes of this process that are in memory."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_many_instances_come_and_go_in_constant_memory(pack: Callable[..., Archive]) -> None:
+    archive = pack("[design]\nsegments = 1")
+
+    def cycle() -> None:
+        device = Device(archive).start()
+        device.step(0.1)
         device.slave.fmi2FreeInstance(device.slave.component)
         device.slave.fmi2FreeInstance(device.slave.component)
+
+    for _ in range(30):
+        cycle()
+    before = memory()
+    for _ in range(100):
+        cycle()
+    assert memory() - before < 100 * CYCLE
+
+
+def test_many_steps_in_constant_memory(pack: Callable[..., Archive]) -> None:
+    device = Device(pack("[design]\nsegments = 1")).start()
+    for index in range(2000):
+        device.step(1e-3, {"magnet.position[1]": 0.01 * math.sin(0.01 * index)})
+        if index == 200:
+            before = memory()
+    assert memory() - before < 1800 * STEP
+    device.slave.freeInstance()
+
+
+def test_a_run_leaves_the_unpacked_archive_as_it_was(pack: Callable[..., Archive]) -> None:
+    archive = pack("[design]\nsegments = 1")
+    paths = sorted(archive.folder.rglob("*"))
+    for path in paths:
+        path.chmod(path.stat().st_mode & ~0o222)
+    before, here = [path.stat().st_mtime_ns for path in paths], Path.cwd()
+    device = Device(archive).start()
+    drive(device)
+    device.slave.freeInstance()
+    assert [path.stat().st_mtime_ns for path in paths] == before
+    assert sorted(archive.folder.rglob("*")) == paths
+    assert Path.cwd() == here

@@ -1,7 +1,8 @@
 //! `mcm pack`: an FMU for a design, without recompiling.
 
-use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
-use std::fs::{self, File};
+mod binary;
+
+use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -9,12 +10,12 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use mcm::fmi::Package;
 use mcm::fmi::package::{DEFAULT_SCENE, DEFAULT_SHAPE_POINTS};
-use mcm::fmi::xml::MODEL_IDENTIFIER;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::failure::Failure;
 use super::files::read_text;
+use binary::Binary;
 
 const LICENSE: &str = include_str!("../../../LICENSE");
 const HEADERS_LICENSE: &str = include_str!("../../../fmu/headers/LICENSE");
@@ -23,7 +24,8 @@ const ICON: &[u8] = include_bytes!("../../../modelDescription/model.png");
 /// Packs a design as an FMU.
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm pack --scene scene.toml --out mcm.fmu\n\n\
-The scene's numbers become the FMU's start values; its rings, cores and cylinders fix which variables there are.")]
+The scene's numbers become the FMU's start values; its rings, cores and cylinders fix which variables there are.\n\
+An archive may carry several platforms: --binary win64=mcm.dll --binary darwin64=libmcm.dylib")]
 pub(crate) struct Pack {
     /// Scene file (TOML); left out: the paper's nine segments beside its magnet pair
     #[arg(long)]
@@ -31,9 +33,12 @@ pub(crate) struct Pack {
     /// Number of centreline points in the outputs
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SHAPE_POINTS)]
     shape_points: usize,
-    /// The shared library to pack; left out: the one beside this program
+    /// The shared library to pack for this platform; left out: the one beside this program
     #[arg(long)]
     library: Option<PathBuf>,
+    /// Another platform's library (linux64, linux32, win64, win32 or darwin64); may be repeated
+    #[arg(long, value_name = "PLATFORM=FILE")]
+    binary: Vec<Binary>,
     /// The FMU to write
     #[arg(long, value_name = "FMU")]
     out: PathBuf,
@@ -46,17 +51,14 @@ impl Pack {
             Some(path) => Package::new(&read_text(path)?, &path.display().to_string(), self.shape_points)?,
             None => Package::new(DEFAULT_SCENE, "default scene", self.shape_points)?,
         };
-        let library = self.library()?;
-        let binary = fs::read(&library)
-            .map_err(|error| Failure::Message(format!("cannot read {}: {error}", library.display())))?;
         let mut files: Vec<(String, Vec<u8>)> = vec![
             ("modelDescription.xml".into(), package.model_description(Some(&now()?))?.into()),
             ("model.png".into(), ICON.into()),
             ("documentation/index.html".into(), package.documentation().into()),
             ("documentation/licenses/license.txt".into(), LICENSE.into()),
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
-            (format!("binaries/{}/{MODEL_IDENTIFIER}{DLL_SUFFIX}", platform()?), binary),
         ];
+        files.extend(binary::entries(self.library.as_deref(), &self.binary)?);
         for (name, text) in package.resources()? {
             files.push((format!("resources/{name}"), text.into()));
         }
@@ -64,31 +66,6 @@ impl Pack {
             .map_err(|reason| Failure::Message(format!("cannot write {}: {reason}", self.out.display())))?;
         writeln!(std::io::stdout(), "{} {}", self.out.display(), package.guid())?;
         Ok(ExitCode::SUCCESS)
-    }
-
-    fn library(&self) -> Result<PathBuf, Failure> {
-        let name = format!("{DLL_PREFIX}{MODEL_IDENTIFIER}{DLL_SUFFIX}");
-        let beside = std::env::current_exe().map(|program| program.with_file_name(&name))?;
-        let library = self.library.clone().unwrap_or(beside);
-        if library.is_file() {
-            return Ok(library);
-        }
-        Err(Failure::Message(format!(
-            "there is no library {}: build it with `cargo build --release --lib`, or name it with --library",
-            library.display()
-        )))
-    }
-}
-
-/// The standard's name of the platform that this program was built for.
-fn platform() -> Result<&'static str, Failure> {
-    match (OS, ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("windows", "x86_64") => Ok("win64"),
-        ("macos", "x86_64") => Ok("darwin64"),
-        (os, architecture) => {
-            Err(Failure::Message(format!("FMI 2.0 has no name for the platform {os} on {architecture}")))
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::{Interaction, Settings};
+use crate::equilibrium::Interaction;
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -263,8 +263,7 @@ pub(super) struct ModelTable {
 
 impl Default for ModelTable {
     fn default() -> Self {
-        let interaction = Settings::default().interaction;
-        Self { interaction, method: MethodName::default(), bending_stop: false }
+        Self { interaction: Interaction::Auto, method: MethodName::default(), bending_stop: false }
     }
 }
 
@@ -278,6 +277,6 @@ fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Err
     Interaction::named(&name).ok_or_else(|| {
         let known: Vec<&str> = Interaction::ALL.iter().map(|row| row.1).collect();
         let known = known.join(", ");
-        D::Error::custom(format!("\"{name}\" is not available in this version: choose one of {known}"))
+        D::Error::custom(format!("\"{name}\" is no level: choose one of {known}"))
     })
 }
