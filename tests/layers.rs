@@ -41,7 +41,7 @@ const TOP_LEVEL: [&str; 9] = [
     "fmu",
     "tests",
 ];
-const LEFT_BY_SCRIPTS: [&str; 3] = ["target", "mcm_demo.csv", "mcm_demo.png"];
+const LEFT_BY_SCRIPTS: [&str; 4] = ["target", "mcm_demo.csv", "mcm_demo.png", "logs"];
 
 fn allowed(room: &str) -> BTreeSet<&'static str> {
     let direct = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, direct)| direct);
