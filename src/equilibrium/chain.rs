@@ -16,10 +16,10 @@ const CORE_POINTS: usize = 24;
 const EXTRA_DEGREES: usize = 4;
 
 /// Section points of the spans beside a ring; twice as many change the tip by less than 1e-6 of the length.
-const NEAR: Fineness = Fineness { radial: 4, angular: 6 };
+pub(super) const NEAR: Fineness = Fineness { radial: 4, angular: 6 };
 
 /// Section points of the spans one segment further.
-const FAR: Fineness = Fineness { radial: 2, angular: 4 };
+pub(super) const FAR: Fineness = Fineness { radial: 2, angular: 4 };
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]

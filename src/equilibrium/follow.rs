@@ -125,7 +125,7 @@ impl Scene<'_> {
 }
 
 impl Report {
-    fn start() -> Self {
+    pub(super) fn start() -> Self {
         Self {
             solved: false,
             iterations: 0,

@@ -5,6 +5,7 @@ mod condensed;
 mod dead;
 mod follow;
 mod inputs;
+mod methods;
 mod pair;
 mod potential;
 mod reduction;
@@ -16,5 +17,6 @@ mod spans;
 
 pub use follow::Report;
 pub use inputs::Inputs;
+pub use methods::{Comparison, Discretisation, Method, Solver};
 pub use settings::{Interaction, Settings};
 pub use solver::Equilibrium;

@@ -164,14 +164,14 @@ impl Potential<'_> {
             let start = self.work.nodes[k];
             for (index, station) in element.stations.iter().enumerate() {
                 let pose = self.work.station(k, index);
-                let magnetic = self.field.on_station(station, &pose, order)?;
+                let magnetic = self.field.on_matter(&station.matter, &pose, order)?;
                 let axes = self.field.axes();
                 let arm = pose.position - self.inputs.base.position;
                 let (force, moment) = (axes * magnetic.force, axes * magnetic.moment());
                 add_wrench(&mut self.work.magnetic, &force, &moment, &arm);
                 let mut load = magnetic.in_axes(&axes.tr_mul(&start.rotation));
                 if gravity != Vector3::zeros() {
-                    load += weight(station, &pose, &gravity).in_axes(&start.rotation);
+                    load += weight(&station.matter, &pose, &gravity).in_axes(&start.rotation);
                 }
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;

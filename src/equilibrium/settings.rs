@@ -1,5 +1,6 @@
 //! All knobs of the equilibrium, in one place.
 
+use super::methods::{Discretisation, Method};
 use crate::error::{Error, check};
 
 /// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
@@ -55,6 +56,10 @@ impl Interaction {
 /// Settings of the model and its solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
+    /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
+    pub method: Method,
+    /// Resolution of the other methods.
+    pub discretisation: Discretisation,
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
@@ -84,6 +89,8 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
+            method: Method::Potential,
+            discretisation: Discretisation::default(),
             interaction: Interaction::Rings,
             bending_stop: false,
             degree: 2,
@@ -132,6 +139,7 @@ impl Settings {
             |v| (0.0..1.0).contains(&v),
             "in [0, 1)",
         )?;
+        self.discretisation.checked()?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
         Ok(self)
     }

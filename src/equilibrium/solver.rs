@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::Chain;
-use super::dead::{add_wrench, no_wrench};
+use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use super::follow::{Branch, Report, Scene, measure};
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
@@ -225,11 +225,7 @@ impl Equilibrium {
         if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
             return no_wrench();
         }
-        let whole = self.magnetic_wrench();
-        let background = self.background_wrench(inputs);
-        let force = background.force - whole.force;
-        let about_base = background.torque - whole.torque;
-        Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
+        reaction_on_magnet(&self.magnetic_wrench(), &self.background_wrench(inputs), inputs)
     }
 
     /// External field (T) at a point, m; `None` inside a magnet.
@@ -259,7 +255,7 @@ impl Equilibrium {
         for (k, element) in self.chain.elements.iter().enumerate() {
             for (index, station) in element.stations.iter().enumerate() {
                 let pose = self.work.station(k, index);
-                add(field.on_station(station, &pose, Order::Gradient), &pose.position);
+                add(field.on_matter(&station.matter, &pose, Order::Gradient), &pose.position);
             }
         }
         out

@@ -8,7 +8,7 @@ use super::chain::RingBody;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
-use crate::rod::{Load, Order, SectionPoint, Station};
+use crate::rod::{Load, Matter, Order, SectionPoint};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +52,11 @@ impl<'a> Source<'a> {
             field: Vector3::zeros(),
             gradient: Matrix3::zeros(),
         }
+    }
+
+    /// Whether there is a magnet, and not the background field alone.
+    pub(super) fn has_magnet(&self) -> bool {
+        !matches!(self.magnet, Magnet::Absent)
     }
 
     /// The axes in which the energies are given: the columns, in the world's axes.
@@ -140,21 +145,21 @@ impl<'a> Source<'a> {
         Some(load.in_axes(&self.frame.rotation.transpose()))
     }
 
-    /// Energy of a station's material in the axes of the source; `pose` is the station's in the world.
-    pub(super) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
+    /// Energy of a section's material in the axes of the source; `pose` is the section's in the world.
+    pub(super) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
         let mut load = Load::zero();
-        if station.magnetisation == 0.0 {
+        if matter.magnetisation == 0.0 {
             return Some(load);
         }
         let local = self.locate(pose);
         let axis = local.axis();
-        let moment = station.magnetisation * station.material.volume;
+        let moment = matter.magnetisation * matter.moments.volume;
         if matches!(self.magnet, Magnet::Absent) && self.gradient == Matrix3::zeros() {
             load.energy = -moment * axis.dot(&self.field);
             load.couple = self.field * (axis.transpose() * -moment);
             return Some(load);
         }
-        let points = station.material.points();
+        let points = matter.moments.points();
         for point in points {
             let arm = local.rotation * Vector3::new(point.x, point.y, 0.0);
             self.add(&mut load, moment / points.len() as f64, &axis, &local.position, &arm, order)?;

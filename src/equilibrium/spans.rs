@@ -44,9 +44,9 @@ impl Potential<'_> {
                     let node = self.work.nodes[body.node];
                     let source = Source::ring(body, &node);
                     let load = match gap(body.node, k) {
-                        0 => source.on_points(&station.sections[0], station.magnetisation, &pose, order)?,
-                        1 => source.on_points(&station.sections[1], station.magnetisation, &pose, order)?,
-                        _ => source.on_station(station, &pose, order)?,
+                        0 => source.on_points(&station.sections[0], station.matter.magnetisation, &pose, order)?,
+                        1 => source.on_points(&station.sections[1], station.matter.magnetisation, &pose, order)?,
+                        _ => source.on_matter(&station.matter, &pose, order)?,
                     };
                     let load = load.in_axes(&source.axes().transpose());
                     energy += load.energy;
@@ -97,6 +97,6 @@ impl Potential<'_> {
 }
 
 /// Segments between a ring and an element.
-fn gap(node: usize, element: usize) -> usize {
+pub(super) fn gap(node: usize, element: usize) -> usize {
     if node <= element { element - node } else { node - element - 1 }
 }

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::{Inputs, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Report, Settings};
+use crate::equilibrium::{Report, Settings, Solver};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -29,7 +29,7 @@ use crate::magnetics::Assembly;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    equilibrium: Equilibrium,
+    solver: Solver,
     outputs: Outputs,
 }
 
@@ -39,16 +39,16 @@ impl Manipulator {
     /// `shape_points` is the number of centreline points in the outputs, at least 2.
     ///
     /// # Errors
-    /// [`Error`] for settings out of range.
+    /// [`Error`] for settings out of range, or a method that cannot solve the model asked for.
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let equilibrium = Equilibrium::new(design, magnet, settings, shape_points)?;
-        let outputs = straight(&equilibrium);
-        Ok(Self { equilibrium, outputs })
+        let solver = Solver::new(design, magnet, settings, shape_points)?;
+        let outputs = straight(&solver);
+        Ok(Self { solver, outputs })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -59,7 +59,7 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.equilibrium.solve(inputs)?;
+        let report = self.solver.solve(inputs)?;
         if report.solved {
             self.observe(inputs, &report);
         } else {
@@ -79,7 +79,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.equilibrium.margin() {
+        if let Some(margin) = self.solver.margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -87,28 +87,28 @@ impl Manipulator {
 
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        self.equilibrium.reset();
-        self.outputs = straight(&self.equilibrium);
+        self.solver.reset();
+        self.outputs = straight(&self.solver);
     }
 
     fn observe(&mut self, inputs: &Inputs, report: &Report) {
-        let (equilibrium, out) = (&self.equilibrium, &mut self.outputs);
-        out.tip = equilibrium.tip();
+        let (solver, out) = (&self.solver, &mut self.outputs);
+        out.tip = solver.tip();
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        let magnetic = equilibrium.magnetic_wrench();
+        let magnetic = solver.magnetic_wrench();
         (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
-        let base = equilibrium.base_reaction();
+        let base = solver.base_reaction();
         (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);
-        let magnet = equilibrium.magnet_reaction(inputs);
+        let magnet = solver.magnet_reaction(inputs);
         (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
-        out.tip_field = equilibrium.field_at(inputs, &out.tip.position).unwrap_or_default();
-        copy_shape(equilibrium, out);
+        out.tip_field = solver.field_at(inputs, &out.tip.position).unwrap_or_default();
+        copy_shape(solver, out);
         out.stable = report.stable;
         out.stability_margin = report.margin;
         out.snaps += report.snaps;
         out.status = if report.snaps > 0 {
             Status::Snapped
-        } else if report.stable.is_some() && report.margin < equilibrium.settings().fold_margin {
+        } else if report.stable.is_some() && report.margin < solver.settings().fold_margin {
             Status::NearFold
         } else {
             Status::Solved
@@ -119,23 +119,23 @@ impl Manipulator {
     }
 }
 
-fn copy_shape(equilibrium: &Equilibrium, out: &mut Outputs) {
+fn copy_shape(solver: &Solver, out: &mut Outputs) {
     for ((slot, place), (arc_length, position)) in
-        out.shape.iter_mut().zip(&mut out.shape_arc_length).zip(equilibrium.shape())
+        out.shape.iter_mut().zip(&mut out.shape_arc_length).zip(solver.shape())
     {
         (*slot, *place) = (position, arc_length);
     }
-    out.rings.iter_mut().zip(equilibrium.rings()).for_each(|(slot, pose)| *slot = pose);
-    out.core_angles.iter_mut().zip(equilibrium.core_angles()).for_each(|(slot, angle)| *slot = angle);
+    out.rings.iter_mut().zip(solver.rings()).for_each(|(slot, pose)| *slot = pose);
+    out.core_angles.iter_mut().zip(solver.core_angles()).for_each(|(slot, angle)| *slot = angle);
 }
 
 /// Outputs of the straight, unloaded manipulator at the origin.
-fn straight(equilibrium: &Equilibrium) -> Outputs {
+fn straight(solver: &Solver) -> Outputs {
     let zero = Vector3::zeros();
-    let (shape_arc_length, shape) = equilibrium.shape().unzip();
+    let (shape_arc_length, shape) = solver.shape().unzip();
     Outputs {
         tip_angle: 0.0,
-        tip: equilibrium.tip(),
+        tip: solver.tip(),
         magnetic_force: zero,
         magnetic_torque: zero,
         base_reaction_force: zero,
@@ -145,8 +145,8 @@ fn straight(equilibrium: &Equilibrium) -> Outputs {
         tip_field: zero,
         shape_arc_length,
         shape,
-        rings: equilibrium.rings().collect(),
-        core_angles: equilibrium.core_angles().collect(),
+        rings: solver.rings().collect(),
+        core_angles: solver.core_angles().collect(),
         stable: Some(true),
         stability_margin: 1.0,
         snaps: 0,
@@ -154,6 +154,7 @@ fn straight(equilibrium: &Equilibrium) -> Outputs {
         iterations: 0,
         residual: 0.0,
         energy: 0.0,
-        interaction: equilibrium.settings().interaction,
+        interaction: solver.settings().interaction,
+        method: solver.settings().method,
     }
 }

@@ -26,7 +26,8 @@ pub struct SectionPoint {
 }
 
 /// Points of the section of `span` at arc length `s` (m), for a length `weight` (m) of the span.
-pub(super) fn section_points(span: &Span, s: f64, weight: f64, fineness: Fineness) -> Vec<SectionPoint> {
+#[must_use]
+pub fn section_points(span: &Span, s: f64, weight: f64, fineness: Fineness) -> Vec<SectionPoint> {
     let mut out = Vec::new();
     // The core's wall is thin against its distance from any ring.
     let radial = if span.spiral.is_some() { 1 } else { fineness.radial };

@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use super::basis::{Ends, Modes, Part};
 use super::cubature::{Fineness, SectionPoint, section_points};
+use super::matter::Matter;
 use super::moments::SectionMoments;
 use super::stop::{Contact, Stop};
 use crate::design::{Span, SpanKind, Stiffness};
@@ -68,14 +69,8 @@ pub struct Station {
     pub weight: f64,
     /// Section stiffness.
     pub stiffness: Stiffness,
-    /// Moments of the material that this station stands for.
-    pub material: SectionMoments,
-    /// Magnetisation of the material, A/m.
-    pub magnetisation: f64,
-    /// Mass on the centreline that this station stands for, kg.
-    pub line_mass: f64,
-    /// Density of the material, kg/m3.
-    pub density: f64,
+    /// The material that this station stands for.
+    pub matter: Matter,
     /// Number of its piece in the element.
     pub piece: usize,
     /// Whether the piece is a disc, bonded to the ring at the element's near end.
@@ -236,10 +231,7 @@ impl Element {
                 row,
                 weight,
                 stiffness: span.stiffness,
-                material,
-                magnetisation: span.magnetisation,
-                line_mass: span.line_density * weight,
-                density: span.density,
+                matter: Matter::new(span, material, weight),
                 piece: index,
                 bonded: span.kind == SpanKind::Disc,
                 sections: sections.unwrap_or_default(),

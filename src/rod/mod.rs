@@ -6,13 +6,15 @@ mod cubature;
 mod element;
 mod kinematics;
 mod load;
+mod matter;
 mod moments;
 mod stop;
 mod tangent;
 
-pub use cubature::{Fineness, SectionPoint};
+pub use cubature::{Fineness, SectionPoint, section_points};
 pub use element::{COMPONENTS, Element, Piece, Resolution, Row, Station};
 pub use kinematics::{Configuration, StationState};
 pub use load::{Load, turning};
+pub use matter::Matter;
 pub use moments::SectionMoments;
 pub use tangent::{Order, START, Tangent};

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use mcm::equilibrium::Method;
 use mcm::manipulator::{Outputs, Status};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
@@ -14,7 +15,8 @@ use super::files::read_scene;
 /// Solves one equilibrium, starting from the unloaded shape.
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
-Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\"), 1 bad input, 2 not converged, \
+Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\", any \
+method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable.")]
 pub(crate) struct Solve {
     /// Scene file (TOML)
@@ -88,7 +90,7 @@ fn as_json(outputs: &Outputs) -> Value {
         "residual": outputs.residual,
         "energy_j": outputs.energy,
         "interaction": outputs.interaction.name(),
-        "method": "potential",
+        "method": outputs.method.name(),
     })
 }
 
@@ -107,15 +109,17 @@ fn as_table(outputs: &Outputs) -> String {
     let stable = match outputs.stable {
         Some(true) => "stable",
         Some(false) => "unstable",
-        None => "stability unknown: this model has no potential",
+        None if outputs.method == Method::Potential => "stability unknown: this model has no potential",
+        None => "stability unknown: this method does not ask",
     };
     let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
     [
         format!(
-            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}\n\n",
+            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}, method {}\n\n",
             outputs.iterations,
             outputs.residual,
-            outputs.interaction.name()
+            outputs.interaction.name(),
+            outputs.method.name()
         ),
         row("tip angle", format!("{:.4}", outputs.tip_angle.to_degrees()), "deg"),
         vector("tip position", &outputs.tip.position, 1e3, "mm"),

@@ -1,9 +1,9 @@
 //! The scene file's tables and keys, as written: units in the names.
 
-use serde::de::Error as _;
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::{Interaction, Settings};
+use crate::equilibrium::{Interaction, Method, Settings};
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -223,26 +223,20 @@ pub(super) struct GravityTable {
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum MethodName {
-    #[default]
-    Potential,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelTable {
     #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
     pub(super) interaction: Interaction,
-    pub(super) method: MethodName,
+    #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
+    pub(super) method: Method,
     pub(super) bending_stop: bool,
 }
 
 impl Default for ModelTable {
     fn default() -> Self {
-        let interaction = Settings::default().interaction;
-        Self { interaction, method: MethodName::default(), bending_stop: false }
+        let Settings { interaction, method, bending_stop, .. } = Settings::default();
+        Self { interaction, method, bending_stop }
     }
 }
 
@@ -253,9 +247,21 @@ fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::E
 
 fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
     let name = String::deserialize(input)?;
-    Interaction::named(&name).ok_or_else(|| {
-        let known: Vec<&str> = Interaction::ALL.iter().map(|row| row.1).collect();
-        let known = known.join(", ");
-        D::Error::custom(format!("\"{name}\" is not available in this version: choose one of {known}"))
-    })
+    Interaction::named(&name).ok_or_else(|| unavailable(&name, Interaction::ALL.iter().map(|row| row.1)))
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn write_method<S: Serializer>(method: &Method, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(method.name())
+}
+
+fn read_method<'de, D: Deserializer<'de>>(input: D) -> Result<Method, D::Error> {
+    let name = String::deserialize(input)?;
+    Method::named(&name).ok_or_else(|| unavailable(&name, Method::ALL.iter().map(|row| row.1)))
+}
+
+fn unavailable<E: Error>(name: &str, known: impl Iterator<Item = &'static str>) -> E {
+    let known: Vec<&str> = known.collect();
+    let known = known.join(", ");
+    E::custom(format!("\"{name}\" is not available in this version: choose one of {known}"))
 }

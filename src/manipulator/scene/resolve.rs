@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::file::{
-    BackboneTable, DesignTable, HelixTable, Kind, MagnetCylinder, MagnetTable, RingTable, SceneFile,
+    BackboneTable, DesignTable, HelixTable, Kind, MagnetCylinder, MagnetTable, ModelTable, RingTable, SceneFile,
     SpiralName,
 };
 use crate::design::{
@@ -79,8 +79,8 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Settings {
-        let (interaction, bending_stop) = (self.model.interaction, self.model.bending_stop);
-        Settings { interaction, bending_stop, ..Settings::default() }
+        let ModelTable { interaction, method, bending_stop } = self.model;
+        Settings { interaction, method, bending_stop, ..Settings::default() }
     }
 }
 
