@@ -165,8 +165,10 @@ impl Comparison {
             let end = state.engine.solve(&around, &knobs);
             report.iterations += end.iterations;
             report.residual = end.residual;
-            let solved = end.converged && end.residual.is_finite();
-            let Some(shape) = state.engine.shape(&around, &knobs).filter(|_| solved) else { return false };
+            if !end.converged {
+                return false;
+            }
+            let Some(shape) = state.engine.shape(&around, &knobs) else { return false };
             state.shape = shape;
             // The rules must be those of the solved shape, or the answer would depend on the way to it.
             if !self.rules.choose(&self.line.chain, &state.shape.nodes) {

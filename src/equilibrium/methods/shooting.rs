@@ -51,9 +51,9 @@ impl Shooting {
     /// Solves from the last unknowns; they are kept if that succeeds.
     pub(super) fn solve(&mut self, around: &Surroundings<'_>, tolerance: f64, iterations: u32) -> Ending {
         let mut problem = Problem { around, exact: self.exact, steps: self.steps };
-        let mut unknowns = self.unknowns.clone();
         // Straight and without wrenches at first.
-        unknowns.resize_vertically_mut(problem.size(), 0.0);
+        self.unknowns.resize_vertically_mut(problem.size(), 0.0);
+        let mut unknowns = self.unknowns.clone();
         let end = levenberg_marquardt::solve(&mut problem, &mut unknowns, tolerance, iterations);
         if end.converged {
             self.unknowns = unknowns;
