@@ -42,6 +42,9 @@ pub enum Error {
         /// Why it was refused.
         reason: String,
     },
+    /// Derivatives were asked for where there are none: at a fold, or before anything is solved.
+    #[error("no derivatives: {0}")]
+    NoDerivatives(String),
     /// A combination of choices that does not exist.
     #[error("{0}")]
     Unsupported(String),

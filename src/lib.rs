@@ -20,6 +20,8 @@ pub mod equilibrium; // the potential, its minimum, its stability
 
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
+pub mod studies; // the paper's figures as numbers
+
 pub mod fmi; // the FMI 2.0 co-simulation FMU
 
 #[cfg(doctest)]

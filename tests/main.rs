@@ -29,6 +29,8 @@ mod equilibrium;
 
 mod manipulator;
 
+mod studies;
+
 mod fmi;
 
 mod abi;

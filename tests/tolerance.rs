@@ -29,6 +29,28 @@ pub(crate) const IDENTITY: f64 = 1e-11;
 /// Numbers of the paper, printed with four or five digits.
 pub(crate) const PRINTED: f64 = 1.5e-4;
 
+/// Numbers of the paper that are printed with four decimals, absolute.
+pub(crate) const PRINTED_FOUR_DECIMALS: f64 = 5e-5;
+
+/// The same with three decimals.
+pub(crate) const PRINTED_THREE_DECIMALS: f64 = 5e-4;
+
+/// Numbers known to two or three digits, of which the last may be one off.
+pub(crate) const PRINTED_THREE_DIGITS: f64 = 1e-2;
+
+/// Forces on a stiff device: the solver's spans see a field of third degree over their section as one of second.
+pub(crate) const HELD: f64 = 1e-5;
+
+/// Forces on two devices of one length over their moments: rings lie further out than an even magnetisation, which makes
+/// the mean square of the distance from the middle 13 mm2 larger, and the force changes over about 22 mm.
+pub(crate) const SAME_SHAPE_OF_MAGNETISATION: f64 = 0.03;
+
+/// Slopes by central differences with steps of a twentieth of the length over which the field changes.
+pub(crate) const COARSE_DIFFERENCE: f64 = 1e-2;
+
+/// Sums over some ten thousand cells of a ring, and numbers of four digits.
+pub(crate) const CELLS: f64 = 1e-3;
+
 /// A few operations in floating point.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
@@ -108,6 +130,13 @@ pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-7;
 /// Slope of the gradient by the same.
 pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 
+/// Derivatives of all outputs by differences of fourth order of solves that each end at a residual of 1e-12, relative
+/// to the largest effect that an input of usual size has on that output.
+pub(crate) const JACOBIAN: f64 = 1e-6;
+
+/// Symmetries of second derivatives, each side from solves of its own with one factorisation.
+pub(crate) const SYMMETRY: f64 = 1e-9;
+
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;
 
@@ -147,11 +176,62 @@ pub(crate) const TWO_DECIMALS_DEG: f64 = 0.01;
 /// The same shape reached on another way, rad: both are solved to 1e-11 turns of one element.
 pub(crate) const SAME_SHAPE: f64 = 1e-9;
 
+/// The packed FMU in another importer beside the Rust API: the same library on the same path, compiled apart.
+pub(crate) const IMPORTER: f64 = 1e-9;
+
 /// A change that counts as an effect of what was changed: far above any tolerance of a solve, rad.
 pub(crate) const EFFECT: f64 = 1e-6;
 
 /// Curl and divergence of a magnet's field beside it, T/m: rounding of gradients around 1 T/m.
 pub(crate) const MAXWELL: f64 = 1e-13;
+
+/// Small loads beside a beam written out by hand: they turn the tip by 1e-5, and shear that varies along a disc has no mode.
+pub(crate) const LINEAR: f64 = 1e-7;
+
+/// Sum of the effects of small loads of several kinds and the effect of their sum: of first order in the tip's turn by
+/// 1e-5 where the rings' attraction couples them.
+pub(crate) const SUPERPOSED: f64 = 1e-4;
+
+/// Angles of one segment where rings act on spans, deg: the digits that the independent model has.
+pub(crate) const SPANS_ANGLE_DEG: f64 = 5e-3;
+
+/// Ratios of angles reached on two ways, by default settings (reached: 1.2e-7 for `preceding`, 7e-11 for the others).
+pub(crate) const RATIO_ON_TWO_WAYS: f64 = 1e-6;
+
+/// Where a sweep locates a fold: in an interval of this part of its range.
+pub(crate) const LOCATED: f64 = 1e-5;
+
+/// A fold located by steps from elsewhere: Newton's method may give up some intervals before it, where the branch turns.
+pub(crate) const LOCATED_AGAIN: f64 = 5e-5;
+
+/// A fold predicted from two shapes before it, relative to the distance of the last one: the square of the margin is linear
+/// to leading order only (at a tenth of the load before the fold: 0.29, half as far 0.17).
+pub(crate) const PREDICTED: f64 = 0.35;
+
+/// Collapses under `full`, mT: the table has two decimals, and rings about to snap err by 1e-3.
+pub(crate) const COLLAPSE_MT: f64 = 0.06;
+
+/// Derivatives through the C interface by differences of fourth order: rounding of a solve, 1e-11, over a step of 1e-3,
+/// relative to the largest effect that an input of usual size has on that kind of output (reached: 4e-8).
+pub(crate) const ABI_DIFFERENCE: f64 = 3e-7;
+
+/// Other methods by default, relative to the length, a radian or the largest wrench.
+pub(crate) const METHOD_COARSE: f64 = 1e-5;
+
+/// Constant curvature.
+pub(crate) const METHOD_ARCS: f64 = 0.1;
+
+/// Collocation with a tolerance of the residual of 1e-6.
+pub(crate) const METHOD_FINE: f64 = 1e-7;
+
+/// Orders of convergence between two meshes.
+pub(crate) const METHOD_ORDER: f64 = 0.5;
+
+/// Residual to which methods are solved where errors of the mesh are compared.
+pub(crate) const METHOD_RESIDUAL: f64 = 1e-12;
+
+/// Balance of force and moment at a shape that a method calls solved.
+pub(crate) const METHOD_BALANCE: f64 = 1e-3;
 
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {

@@ -4,22 +4,13 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::Error;
 use crate::magnetics::AxialSource;
-use crate::rod::{Element, Fineness, Piece, Resolution};
+use crate::rod::{Element, Piece, Resolution, Sight};
 
 use super::settings::Settings;
-
-/// Gauss points along a core on which rings act: with fewer than some 20 the turning spiral near a bent ring
-/// is off by 1e-4 of the length.
-const CORE_POINTS: usize = 24;
+use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
-
-/// Section points of the spans beside a ring; twice as many change the tip by less than 1e-6 of the length.
-pub(super) const NEAR: Fineness = Fineness { radial: 4, angular: 6 };
-
-/// Section points of the spans one segment further.
-pub(super) const FAR: Fineness = Fineness { radial: 2, angular: 4 };
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -61,6 +52,8 @@ pub(super) struct Chain {
     pub(super) metric: Vec<f64>,
     /// Elements of each segment's core, first and last.
     pub(super) cores: Vec<(usize, usize)>,
+    /// Where rings act on elements.
+    pub(super) views: Views,
 }
 
 impl Chain {
@@ -73,11 +66,17 @@ impl Chain {
         let spans = settings.interaction.acts_on_spans();
         let resolution = Resolution {
             degree: settings.degree + if spans { EXTRA_DEGREES } else { 0 },
-            core_points: if spans { CORE_POINTS } else { 0 },
-            sections: spans.then_some([NEAR, FAR]),
+            nearest: design.rings().next().filter(|_| spans).map(|ring| Sight {
+                distance: 0.0,
+                beyond: false,
+                bonded: true,
+                radius: ring.outer_radius,
+                bend: 0.0,
+                accuracy: SPAN_SHARE * settings.pair_accuracy,
+            }),
             bending_stop: settings.bending_stop,
         };
-        let (mut elements, mut cores) = (Vec::new(), Vec::new());
+        let (mut elements, mut cores, mut chains) = (Vec::new(), Vec::new(), Vec::new());
         for segment in design.segments() {
             let first = elements.len();
             let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
@@ -89,6 +88,7 @@ impl Chain {
                     .map(|span| Piece { span, length: span.length / parts as f64 })
                     .collect();
                 elements.push(Element::new(offset, &pieces, &resolution));
+                chains.push(pieces);
                 offset = 0.0;
             }
             cores.push((first, elements.len() - 1));
@@ -102,7 +102,8 @@ impl Chain {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores })
+        let views = Views::new(&elements, &chains, &rings, settings);
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, views })
     }
 
     /// Number of unknowns.

@@ -17,6 +17,7 @@ impl Objective for Potential<'_> {
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
         self.work.factored = false;
+        self.work.linearised.copy_from_slice(x);
         let energy = self.load(x, Order::Hessian)?;
         self.backward(x, Order::Hessian).then_some(energy)
     }

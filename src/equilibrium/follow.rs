@@ -1,5 +1,7 @@
 //! Following a stable branch while the inputs change, and falling to the next one past a fold.
 
+use serde::{Deserialize, Serialize};
+
 use super::chain::Chain;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
@@ -54,12 +56,12 @@ const FURTHER: f64 = 16.0;
 const PARTS: u32 = 2000;
 
 /// The shape, and the inputs at which it is in equilibrium.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Branch {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
     /// Direction of least stiffness, the first guess for the next search.
-    softest: Vec<f64>,
+    pub(super) softest: Vec<f64>,
 }
 
 impl Branch {
@@ -120,6 +122,8 @@ impl Scene<'_> {
             End::Neutral => walk.report.stable = Some(false),
             End::Lost => {}
         }
+        // Else the factorisation is that of a shape on the way.
+        walk.work.factored &= end == End::Held;
         walk.report
     }
 }

@@ -1,12 +1,13 @@
 //! What acts on the manipulator, world frame, SI units.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
 use crate::geometry::Pose;
 
 /// Pose and strength of the external magnet, background field, base pose and loads.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     /// Pose of the external magnet assembly.
     pub magnet: Pose,

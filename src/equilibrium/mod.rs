@@ -1,22 +1,32 @@
 //! The potential of the whole chain, its minimum, its stability.
 
 mod chain;
+mod columns;
 mod condensed;
 mod dead;
+mod field_rates;
 mod follow;
 mod inputs;
+mod internal;
+mod jacobian;
 mod methods;
 mod pair;
 mod potential;
 mod reduction;
+mod rows;
 mod rules;
+mod sensitivity;
 mod settings;
+mod snapshot;
 mod solver;
 mod source;
 mod spans;
+mod views;
 
 pub use follow::Report;
 pub use inputs::Inputs;
+pub use jacobian::{Input, Jacobian, Output};
 pub use methods::{Comparison, Discretisation, Method, Solver};
 pub use settings::{Interaction, Settings};
+pub use snapshot::Snapshot;
 pub use solver::Equilibrium;

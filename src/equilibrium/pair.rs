@@ -34,7 +34,6 @@ pub(super) struct PairHessian {
 /// station, in fixed axes.
 #[derive(Debug, Clone)]
 pub(super) struct Mixed {
-    pub(super) element: usize,
     pub(super) station: usize,
     pub(super) node: usize,
     pub(super) matrix: Matrix6<f64>,

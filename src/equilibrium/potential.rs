@@ -5,6 +5,7 @@ use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 use super::chain::Chain;
 use super::dead::{add_wrench, no_wrench, weight};
 use super::inputs::Inputs;
+use super::internal::Internal;
 use super::pair::{Mixed, PairLoad, blocks, overlap};
 use super::reduction::Reduction;
 use super::rules::PairRules;
@@ -21,16 +22,20 @@ pub(super) struct Workspace {
     pub(super) nodes: Vec<Pose>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
+    pub(super) internal: Internal,
     /// External magnetic force, and torque about the base position.
     pub(super) magnetic: Wrench,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     pub(super) tangents: Vec<Tangent>,
     pub(super) reductions: Vec<Reduction>,
-    /// Mixed derivatives of rings and stations, and the columns of the rings' nodes that they add up to.
-    pub(super) mixed: Vec<Mixed>,
+    /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
+    /// a node.
+    pub(super) mixed: Vec<Vec<Mixed>>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
+    /// The unknowns at which the Hessian was last made.
+    pub(super) linearised: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
     pub(super) factor: Vec<f64>,
     /// The factorisation where the matrix is not symmetric.
@@ -54,13 +59,15 @@ impl Workspace {
             nodes: vec![Pose::identity(); count + 1],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
+            internal: Internal::new(chain),
             magnetic: no_wrench(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
             reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms(), columns)).collect(),
-            mixed: Vec::new(),
+            mixed: vec![Vec::new(); count],
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
+            linearised: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
             factor: vec![0.0; size * size],
             lu: None,
@@ -138,8 +145,7 @@ impl Potential<'_> {
         if hessian {
             self.work.node_hessian.fill(0.0);
         }
-        energy += self.load_pairs(order)?;
-        energy += self.load_spans(order)?;
+        energy += self.load_internal(unknowns, order)?;
         self.load_tip();
         for node in 1..self.work.node_loads.len() {
             let load = &self.work.node_loads[node];
@@ -197,7 +203,8 @@ impl Potential<'_> {
         Some(())
     }
 
-    fn load_pairs(&mut self, order: Order) -> Option<f64> {
+    /// Adds the energies of all pairs of rings to the loads; their sum.
+    pub(super) fn load_pairs(&mut self, order: Order) -> Option<f64> {
         if self.settings.interaction == Interaction::None {
             return Some(0.0);
         }
@@ -216,7 +223,7 @@ impl Potential<'_> {
                 let mutual = self.settings.interaction != Interaction::Preceding;
                 for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {
                     if node == second.node || mutual {
-                        self.work.node_loads[node] += load.wrench_alone();
+                        self.work.internal.nodes[node] += load.wrench_alone();
                     }
                 }
                 if order == Order::Hessian {

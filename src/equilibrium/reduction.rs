@@ -110,22 +110,21 @@ impl Reduction {
         true
     }
 
-    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, after the Hessian itself.
+    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, one row for each displacement of these,
+    /// after the Hessian itself.
     pub(super) fn condense_outer(&mut self, cross: &[f64], columns: usize) {
         let inner = self.inner;
-        for column in 0..columns {
-            let entry = |row: usize| cross[row * columns + column];
-            let ends: [f64; END] = core::array::from_fn(|c| entry(START + c));
+        for (column, entries) in cross.chunks_exact(START + END + inner).enumerate() {
+            let (nodes, amplitudes) = entries.split_at(START);
+            let (ends, rest) = amplitudes.split_at(END);
             let own = &mut self.outer[column * inner..][..inner];
-            for (i, value) in own.iter_mut().enumerate() {
-                *value = entry(START + END + i);
-                for (c, end) in ends.iter().enumerate() {
-                    *value += end * self.by_inner[c * inner + i];
-                }
+            own.copy_from_slice(rest);
+            for (end, by_inner) in ends.iter().zip(self.by_inner.chunks_exact(inner.max(1))) {
+                own.iter_mut().zip(by_inner).for_each(|(entry, x)| *entry += end * x);
             }
             cholesky::forward(&self.factor, inner, own);
-            for k in 0..6 {
-                let (mut start, mut end) = (entry(k), 0.0);
+            for (k, node) in nodes.iter().enumerate() {
+                let (mut start, mut end) = (*node, 0.0);
                 for (c, value) in ends.iter().enumerate() {
                     start += value * self.by_start[(c, k)];
                     end += value * self.by_end[(c, k)];

@@ -1,6 +1,7 @@
 //! The quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
 
 use super::chain::Chain;
+use super::views::Views;
 use crate::design::Ring;
 use crate::geometry::Pose;
 use crate::magnetics::AxialRule;
@@ -17,6 +18,10 @@ const BISECTIONS: usize = 40;
 pub(super) struct PairRules {
     tables: Vec<Table>,
     chosen: Vec<usize>,
+    /// The level of every element and ring, element by element.
+    spans: Vec<usize>,
+    /// How often they have changed.
+    number: u64,
 }
 
 impl PairRules {
@@ -24,7 +29,8 @@ impl PairRules {
     pub(super) fn new(chain: &Chain, accuracy: f64) -> Self {
         let tables: Vec<Table> = chain.rings.iter().map(|body| table(&body.ring, accuracy)).collect();
         let count = tables.len() * tables.len().saturating_sub(1) / 2;
-        Self { tables, chosen: vec![0; count] }
+        let spans = vec![0; chain.elements.len() * chain.rings.len()];
+        Self { tables, chosen: vec![0; count], spans, number: 0 }
     }
 
     /// Chooses the rules for the present node poses; whether any is another one than before.
@@ -42,7 +48,46 @@ impl PairRules {
                 }
             }
         }
+        for (slot, (ends, body)) in self
+            .spans
+            .iter_mut()
+            .zip(nodes.windows(2).flat_map(|ends| chain.rings.iter().map(move |body| (ends, body))))
+        {
+            let level = Views::level(&nodes[body.node], [&ends[0], &ends[1]]);
+            changed |= level != std::mem::replace(slot, level);
+        }
+        self.number += u64::from(changed);
         changed
+    }
+
+    /// The numbers of the chosen rules, then the levels.
+    pub(super) fn chosen(&self) -> Vec<usize> {
+        self.chosen.iter().chain(&self.spans).copied().collect()
+    }
+
+    /// Chooses by these numbers; false, and nothing happens, if there are no such rules or levels.
+    pub(super) fn restore(&mut self, chosen: &[usize]) -> bool {
+        let Some((pairs, spans)) = chosen.split_at_checked(self.chosen.len()) else { return false };
+        let most = self.tables.iter().map(Vec::len).min().unwrap_or(0);
+        let known = spans.len() == self.spans.len()
+            && pairs.iter().all(|&number| number < most)
+            && spans.iter().all(|&level| level < Views::LEVELS);
+        if known {
+            self.chosen.copy_from_slice(pairs);
+            self.spans.copy_from_slice(spans);
+            self.number += 1;
+        }
+        known
+    }
+
+    /// How often the rules have changed: the same number, the same rules.
+    pub(super) fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// The level of the samples of an element for a ring.
+    pub(super) fn span(&self, element: usize, ring: usize) -> usize {
+        self.spans[element * self.tables.len() + ring]
     }
 
     /// The rule of pair number `pair`, whose second ring is number `second`.

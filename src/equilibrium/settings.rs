@@ -1,10 +1,12 @@
 //! All knobs of the equilibrium, in one place.
 
+use serde::{Deserialize, Serialize};
+
 use super::methods::{Discretisation, Method};
 use crate::error::{Error, check};
 
 /// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interaction {
     /// External field only.
     None = 0,
@@ -56,10 +58,6 @@ impl Interaction {
 /// Settings of the model and its solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
-    pub method: Method,
-    /// Resolution of the other methods.
-    pub discretisation: Discretisation,
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
@@ -84,13 +82,15 @@ pub struct Settings {
     pub fold_margin: f64,
     /// Iterations at most of one minimisation; default 1000.
     pub iterations: u32,
+    /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
+    pub method: Method,
+    /// Resolution of the other methods.
+    pub discretisation: Discretisation,
 }
 
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            method: Method::Potential,
-            discretisation: Discretisation::default(),
             interaction: Interaction::Rings,
             bending_stop: false,
             degree: 2,
@@ -101,6 +101,8 @@ impl Default for Settings {
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
             iterations: 1000,
+            method: Method::Potential,
+            discretisation: Discretisation::default(),
         }
     }
 }
@@ -139,8 +141,8 @@ impl Settings {
             |v| (0.0..1.0).contains(&v),
             "in [0, 1)",
         )?;
-        self.discretisation.checked()?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
+        self.discretisation.checked()?;
         Ok(self)
     }
 }

@@ -21,13 +21,13 @@ use crate::rod::{Load, Order, Row};
 
 /// Where on the centreline a shape point lies.
 #[derive(Debug, Clone)]
-struct ShapePoint {
+pub(super) struct ShapePoint {
     arc_length: f64,
-    place: Place,
+    pub(super) place: Place,
 }
 
 #[derive(Debug, Clone)]
-enum Place {
+pub(super) enum Place {
     /// On the rigid part after a node, at this distance.
     Rigid(usize, f64),
     /// On an element.
@@ -39,13 +39,13 @@ enum Place {
 /// A clone is a full snapshot: it goes on bit for bit as the original would.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    chain: Arc<Chain>,
-    settings: Settings,
-    magnet: Option<Assembly>,
-    shape: Arc<Vec<ShapePoint>>,
-    branch: Branch,
-    work: Workspace,
-    rules: PairRules,
+    pub(super) chain: Arc<Chain>,
+    pub(super) settings: Settings,
+    pub(super) magnet: Option<Assembly>,
+    pub(super) shape: Arc<Vec<ShapePoint>>,
+    pub(super) branch: Branch,
+    pub(super) work: Workspace,
+    pub(super) rules: PairRules,
 }
 
 impl Equilibrium {
@@ -82,6 +82,7 @@ impl Equilibrium {
     /// Back to the straight shape at the origin; the branch is forgotten.
     pub fn reset(&mut self) {
         self.branch = Branch::new(&self.chain);
+        self.work.factored = false;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
@@ -149,13 +150,15 @@ impl Equilibrium {
         let mut potential = self.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
         let mut solution = rhs.to_vec();
-        potential.factorise(shift).then(|| {
+        let solved = potential.factorise(shift).then(|| {
             potential.solve(&mut solution);
             solution
-        })
+        });
+        self.work.factored = false; // not that of the branch
+        solved
     }
 
-    fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
+    pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
         Potential {

@@ -2,13 +2,13 @@
 //!
 //! Energies are computed in the frame of the source, where its field is cheapest; only their sums are turned.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::chain::RingBody;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
-use crate::rod::{Load, Matter, Order, SectionPoint};
+use crate::rod::{Load, Matter, Order, Sample, Sheet};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +16,14 @@ enum Magnet<'a> {
     Absent,
     Assembly(&'a Assembly, f64),
     Ring(&'a AxialSource),
+}
+
+/// A field at a point.
+struct Near {
+    field: Vector3<f64>,
+    gradient: Matrix3<f64>,
+    /// Second derivative of the component along an axis.
+    along: Option<Matrix3<f64>>,
 }
 
 /// A magnet at a pose, and a linear field around it.
@@ -67,13 +75,8 @@ impl<'a> Source<'a> {
     /// Field (T) at a point of the world; `None` inside a magnet.
     pub(super) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         let local = self.frame.rotation.tr_mul(&(point - self.frame.position));
-        let mut load = Load::zero();
-        let mut along = |axis: Vector3<f64>| {
-            load.energy = 0.0;
-            self.add(&mut load, -1.0, &axis, &local, &Vector3::zeros(), Order::Gradient).map(|()| load.energy)
-        };
-        let field = Vector3::new(along(Vector3::x())?, along(Vector3::y())?, along(Vector3::z())?);
-        Some(self.frame.rotation * field)
+        let near = self.near(&local, &Vector3::z(), Order::Gradient)?;
+        Some(self.frame.rotation * near.field)
     }
 
     /// Distance from a point of the world to the nearest magnet, m; infinite without one.
@@ -86,44 +89,36 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Adds a dipole at `arm` from `origin`, both in the source's frame; `None` inside a magnet.
-    fn add(
-        &self,
-        load: &mut Load,
-        moment: f64,
-        axis: &Vector3<f64>,
-        origin: &Vector3<f64>,
-        arm: &Vector3<f64>,
-        order: Order,
-    ) -> Option<()> {
-        let point = origin + arm;
-        let field = self.field + self.gradient * point;
-        let (factor, jet) = match (self.magnet, order) {
+    /// The field at a point of the source's frame, with the second derivative of its component along `axis` where
+    /// asked for; `None` inside a magnet.
+    #[inline]
+    fn near(&self, point: &Vector3<f64>, axis: &Vector3<f64>, order: Order) -> Option<Near> {
+        let mut out =
+            Near { field: self.field + self.gradient * point, gradient: self.gradient, along: None };
+        let (strength, jet) = match (self.magnet, order) {
             (Magnet::Absent, _) => {
-                let second = (order == Order::Hessian).then(Matrix3::zeros);
-                load.add_dipole(moment, axis, arm, &field, &self.gradient, second.as_ref());
-                return Some(());
+                out.along = (order == Order::Hessian).then(Matrix3::zeros);
+                return Some(out);
             }
-            (Magnet::Assembly(assembly, _), _) if assembly.contains(&point) => return None,
-            (Magnet::Ring(ring), _) if ring.contains(&point) => return None,
+            (Magnet::Assembly(assembly, _), _) if assembly.contains(point) => return None,
+            (Magnet::Ring(ring), _) if ring.contains(point) => return None,
             (Magnet::Assembly(assembly, strength), Order::Gradient) => {
-                let (near, gradient) = assembly.field_gradient(&point).ok()?;
-                let (field, gradient) = (field + near * strength, self.gradient + gradient * strength);
-                load.add_dipole(moment, axis, arm, &field, &gradient, None);
-                return Some(());
+                let (field, gradient) = assembly.field_gradient(point).ok()?;
+                out.field += field * strength;
+                out.gradient += gradient * strength;
+                return Some(out);
             }
             (Magnet::Ring(ring), Order::Gradient) => {
-                let (near, gradient) = ring.field_gradient(&point).ok()?;
-                load.add_dipole(moment, axis, arm, &near, &gradient, None);
-                return Some(());
+                (out.field, out.gradient) = ring.field_gradient(point).ok()?;
+                return Some(out);
             }
-            (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(&point).ok()?),
-            (Magnet::Ring(ring), Order::Hessian) => (1.0, ring.jet(&point).ok()?),
+            (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(point).ok()?),
+            (Magnet::Ring(ring), Order::Hessian) => (1.0, ring.jet(point).ok()?),
         };
-        let along = jet.hessian_along(axis) * factor;
-        let (field, gradient) = (field + jet.field * factor, self.gradient + jet.gradient * factor);
-        load.add_dipole(moment, axis, arm, &field, &gradient, Some(&along));
-        Some(())
+        out.field += jet.field * strength;
+        out.gradient += jet.gradient * strength;
+        out.along = Some(jet.hessian_along(axis) * strength);
+        Some(out)
     }
 
     /// Energy of a ring whose node is at `node`, in the axes of the world; `None` where it touches a magnet.
@@ -140,7 +135,9 @@ impl<'a> Source<'a> {
         let mut load = Load::zero();
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);
-            self.add(&mut load, body.magnetisation * volume, &axis, &local.position, &arm, order)?;
+            let near = self.near(&(local.position + arm), &axis, order)?;
+            let moment = body.magnetisation * volume;
+            load.add_dipole(moment, &axis, &arm, &near.field, &near.gradient, near.along.as_ref());
         }
         Some(load.in_axes(&self.frame.rotation.transpose()))
     }
@@ -160,29 +157,32 @@ impl<'a> Source<'a> {
             return Some(load);
         }
         let points = matter.moments.points();
-        for point in points {
-            let arm = local.rotation * Vector3::new(point.x, point.y, 0.0);
-            self.add(&mut load, moment / points.len() as f64, &axis, &local.position, &arm, order)?;
-        }
-        Some(load)
+        let share = moment / points.len() as f64;
+        self.on_section(points.iter().map(|point| (*point, share)), &local, order)
     }
 
-    /// The same, for the given points of the station's section.
-    pub(super) fn on_points(
+    /// The same, for a sample of the material.
+    pub(super) fn on_sample(&self, sample: &Sample, pose: &Pose, order: Order) -> Option<Load> {
+        let dipoles = sample.points.iter().map(|point| (point.position, sample.magnetisation * point.volume));
+        self.on_section(dipoles, &self.locate(pose), order)
+    }
+
+    /// Dipoles (A m2) at points of a section, whose pose is given in the source's frame.
+    fn on_section(
         &self,
-        points: &[SectionPoint],
-        magnetisation: f64,
-        pose: &Pose,
+        dipoles: impl Iterator<Item = (Vector2<f64>, f64)>,
+        section: &Pose,
         order: Order,
     ) -> Option<Load> {
-        let local = self.locate(pose);
-        let axis = local.axis();
-        let mut load = Load::zero();
-        for point in points {
-            let arm = local.rotation * Vector3::new(point.position.x, point.position.y, 0.0);
-            self.add(&mut load, magnetisation * point.volume, &axis, &local.position, &arm, order)?;
+        let turn = &section.rotation;
+        let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| turn.column(i).into_owned());
+        let mut sheet = Sheet::new(order == Order::Hessian);
+        for (position, moment) in dipoles {
+            let point = section.position + d1 * position.x + d2 * position.y;
+            let near = self.near(&point, &axis, order)?;
+            sheet.add(moment, &position, &near.field, &near.gradient, near.along.as_ref());
         }
-        Some(load)
+        Some(sheet.load(turn))
     }
 
     fn locate(&self, pose: &Pose) -> Pose {

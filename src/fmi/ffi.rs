@@ -5,11 +5,12 @@
 #![allow(unsafe_code, reason = "C calls in with raw pointers and takes a logger's C function")]
 #![allow(non_snake_case, reason = "names of the standard")]
 
-use std::borrow::Cow;
+mod logger;
+mod memory;
+
 use std::convert::Infallible;
-use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ffi::{c_char, c_int};
 use std::ptr;
-use std::slice;
 use std::sync::Arc;
 
 #[allow(clippy::wildcard_imports, reason = "types of the standard, named by its prefix")]
@@ -21,121 +22,8 @@ use super::log::{Category, Log};
 use super::registry;
 use super::state::{Call, Ending};
 use super::variable::Value;
-
-/// The host's logger, with what it wants to be called with.
-struct Logger {
-    call: fmi2CallbackLogger,
-    environment: fmi2ComponentEnvironment,
-    instance_name: CString,
-}
-
-// SAFETY: the pointer is only handed back to the host, during a call that the host itself made on this thread.
-unsafe impl Send for Logger {}
-
-impl Logger {
-    fn tell(&self, ending: Ending, category: Category, message: &str) {
-        let Some(call) = self.call else { return };
-        let (category, message) = (c_string(category.name()), c_string(message));
-        let name = self.instance_name.as_ptr();
-        // SAFETY: the host gave this function with this signature; all texts outlive the call.
-        unsafe {
-            call(self.environment, name, status(ending), category.as_ptr(), c"%s".as_ptr(), message.as_ptr());
-        }
-    }
-}
-
-/// Without the zero bytes that C would take for the end.
-fn c_string(text: &str) -> CString {
-    CString::new(text.replace('\0', " ")).unwrap_or_default()
-}
-
-fn status(ending: Ending) -> fmi2Status {
-    match ending {
-        Ending::Ok => fmi2Status::fmi2OK,
-        Ending::Warning => fmi2Status::fmi2Warning,
-        Ending::Discard => fmi2Status::fmi2Discard,
-        Ending::Error => fmi2Status::fmi2Error,
-    }
-}
-
-fn pointer(handle: usize) -> *mut c_void {
-    ptr::without_provenance_mut(handle)
-}
-
-/// The array of a C caller; a length of zero may come with null.
-///
-/// # Safety
-/// A pointer that is not null must be valid for `length` reads until the function that took it returns.
-unsafe fn array<'a, T>(start: *const T, length: usize) -> Option<&'a [T]> {
-    if length == 0 {
-        return Some(&[]);
-    }
-    let usable =
-        !start.is_null() && start.is_aligned() && length <= isize::MAX.unsigned_abs() / size_of::<T>();
-    // SAFETY: by the contract of this function; null, alignment and size were checked.
-    usable.then(|| unsafe { slice::from_raw_parts(start, length) })
-}
-
-/// The text of a C caller, or `None` for null.
-///
-/// # Safety
-/// A pointer that is not null must point to a zero-terminated string that lives until the caller returns.
-unsafe fn text<'a>(start: fmi2String) -> Option<Cow<'a, str>> {
-    // SAFETY: by the contract of this function.
-    (!start.is_null()).then(|| unsafe { CStr::from_ptr(start) }.to_string_lossy())
-}
-
-/// Writes `values` to the array of a C caller.
-///
-/// # Safety
-/// A pointer that is not null must be valid for as many writes as there are `values`.
-unsafe fn write<T>(instance: &Instance, values: &[T], target: *mut T) -> Ending {
-    if values.is_empty() {
-        return Ending::Ok;
-    }
-    if target.is_null() || !target.is_aligned() {
-        return instance.refuse("the array for the values is null or not aligned");
-    }
-    // SAFETY: by the contract of this function; ours and the host's memory do not overlap.
-    unsafe { ptr::copy_nonoverlapping(values.as_ptr(), target, values.len()) };
-    Ending::Ok
-}
-
-/// # Safety
-/// As [`array`] for `references` and [`write`] for `target`.
-unsafe fn get<T>(
-    instance: &mut Instance,
-    references: Option<&[fmi2ValueReference]>,
-    kind: &str,
-    read: fn(Value) -> Option<T>,
-    target: *mut T,
-) -> Ending {
-    let Some(references) = references else {
-        return instance.refuse("the array of value references is null");
-    };
-    match instance.get(references, kind, read) {
-        // SAFETY: by the contract of this function.
-        Ok((values, ending)) => match unsafe { write(instance, &values, target) } {
-            Ending::Ok => ending,
-            refused => refused,
-        },
-        Err(ending) => ending,
-    }
-}
-
-fn set<T: Copy>(
-    instance: &mut Instance,
-    references: Option<&[fmi2ValueReference]>,
-    values: Option<&[T]>,
-    value: fn(T) -> Value,
-) -> Ending {
-    match (references, values) {
-        (Some(references), Some(values)) => {
-            instance.set(references, values.iter().map(|&given| value(given)))
-        }
-        _ => instance.refuse("an array is null or not aligned"),
-    }
-}
+use logger::{Logger, c_string, status};
+use memory::{NO_ARRAY, answer, array, get, keep, pointer, set, text, write};
 
 /// The two texts that identify the interface.
 macro_rules! export_text {
@@ -292,18 +180,7 @@ export! {
         };
     fmi2GetFMUstate: fmi2GetFMUstateTYPE, GetFmuState = |instance, state: *mut fmi2FMUstate| {
         // SAFETY: see above.
-        match unsafe { array(state, 1) } {
-            Some([known]) if !known.is_null() && !instance.has_saved(known.addr()) => {
-                instance.refuse("this FMU state is not, or no longer, one of this instance")
-            }
-            Some([known]) => {
-                let handle = if known.is_null() { registry::new_handle() } else { known.addr() };
-                instance.save(handle);
-                // SAFETY: see above.
-                unsafe { write(instance, &[pointer(handle)], state) }
-            }
-            _ => instance.refuse("the pointer to the FMU state is null"),
-        }
+        unsafe { keep(instance, state, Instance::save) }
     };
     fmi2SetFMUstate: fmi2SetFMUstateTYPE, SetFmuState = |instance, state: fmi2FMUstate| instance.restore(state.addr());
     fmi2FreeFMUstate: fmi2FreeFMUstateTYPE, FreeFmuState = |instance, state: *mut fmi2FMUstate| {
@@ -317,25 +194,62 @@ export! {
             _ => Ending::Ok, // the standard: freeing null does nothing
         }
     };
-    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE, Unsupported =
-        |_instance, _state: fmi2FMUstate, _size: *mut usize| Ending::Error;
-    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE, Unsupported =
-        |_instance, _state: fmi2FMUstate, _bytes: *mut fmi2Byte, _size: usize| Ending::Error;
-    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE, Unsupported =
-        |_instance, _bytes: *const fmi2Byte, _size: usize, _state: *mut fmi2FMUstate| Ending::Error;
-    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE, Unsupported =
-        |_instance, _unknowns: References, _unknown_count: usize, _knowns: References, _known_count: usize,
-         _seed: *const fmi2Real, _sensitivity: *mut fmi2Real| Ending::Error;
-    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE, Unsupported =
-        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *const fmi2Real|
-            Ending::Error;
-    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, Unsupported =
-        |_instance, _references: References, _length: usize, _orders: *const fmi2Integer, _values: *mut fmi2Real|
-            Ending::Error;
+    fmi2SerializedFMUstateSize: fmi2SerializedFMUstateSizeTYPE, SerializeFmuState =
+        |instance, state: fmi2FMUstate, size: *mut usize| {
+            let size_of = instance.serialised(state.addr()).map(|bytes| vec![bytes.len()]);
+            // SAFETY: see above.
+            unsafe { answer(instance, size_of, size) }
+        };
+    fmi2SerializeFMUstate: fmi2SerializeFMUstateTYPE, SerializeFmuState =
+        |instance, state: fmi2FMUstate, bytes: *mut fmi2Byte, size: usize| match instance.serialised(state.addr()) {
+            Ok(own) if own.len() > size => {
+                instance.refuse(&format!("the state has {} bytes, and there is room for {size}", own.len()))
+            }
+            // SAFETY: see above.
+            own => unsafe { answer(instance, own, bytes.cast()) },
+        };
+    fmi2DeSerializeFMUstate: fmi2DeSerializeFMUstateTYPE, SerializeFmuState =
+        |instance, bytes: *const fmi2Byte, size: usize, state: *mut fmi2FMUstate| {
+            // SAFETY: see above.
+            match unsafe { array(bytes.cast::<u8>(), size) } {
+                // SAFETY: see above.
+                Some(bytes) => unsafe { keep(instance, state, |instance, handle| instance.deserialise(handle, bytes)) },
+                None => instance.refuse("the serialised state is null"),
+            }
+        };
+    fmi2GetDirectionalDerivative: fmi2GetDirectionalDerivativeTYPE, GetDirectionalDerivative =
+        |instance, unknowns: References, unknown_count: usize, knowns: References, known_count: usize,
+         seed: *const fmi2Real, sensitivity: *mut fmi2Real| {
+            // SAFETY: see above.
+            let arrays = unsafe { (array(unknowns, unknown_count), array(knowns, known_count), array(seed, known_count)) };
+            let (Some(unknowns), Some(knowns), Some(seed)) = arrays else { return instance.refuse(NO_ARRAY) };
+            let derivatives = instance.directional_derivative(unknowns, knowns, seed);
+            // SAFETY: see above.
+            unsafe { answer(instance, derivatives, sensitivity) }
+        };
+    fmi2SetRealInputDerivatives: fmi2SetRealInputDerivativesTYPE, SetRealInputDerivatives =
+        |instance, references: References, length: usize, orders: *const fmi2Integer, values: *const fmi2Real| {
+            // SAFETY: see above.
+            match unsafe { (array(references, length), array(orders, length), array(values, length)) } {
+                (Some(references), Some(orders), Some(values)) => {
+                    instance.set_input_derivatives(references, orders, values)
+                }
+                _ => instance.refuse(NO_ARRAY),
+            }
+        };
+    fmi2GetRealOutputDerivatives: fmi2GetRealOutputDerivativesTYPE, GetRealOutputDerivatives =
+        |instance, references: References, length: usize, orders: *const fmi2Integer, values: *mut fmi2Real| {
+            // SAFETY: see above.
+            let arrays = unsafe { (array(references, length), array(orders, length)) };
+            let (Some(references), Some(orders)) = arrays else { return instance.refuse(NO_ARRAY) };
+            let derivatives = instance.output_derivatives(references, orders);
+            // SAFETY: see above.
+            unsafe { answer(instance, derivatives, values) }
+        };
     fmi2DoStep: fmi2DoStepTYPE, DoStep =
         |instance, time: fmi2Real, step: fmi2Real, _no_set_state_before: fmi2Boolean| instance.do_step(time, step);
     // Steps are never pending: there is none to cancel, and nothing to tell about one.
-    fmi2CancelStep: fmi2CancelStepTYPE, Unsupported = |_instance| Ending::Error;
+    fmi2CancelStep: fmi2CancelStepTYPE, CancelStep = |_instance| Ending::Error;
     fmi2GetStatus: fmi2GetStatusTYPE, GetStatus =
         |_instance, _kind: fmi2StatusKind, _value: *mut fmi2Status| Ending::Discard;
     fmi2GetRealStatus: fmi2GetRealStatusTYPE, GetStatus =

@@ -1,7 +1,7 @@
 //! What the host gives: inputs and parameters as they were set, and what they mean together.
 
 use crate::design::{Backbone, Design, Specification};
-use crate::equilibrium::Settings;
+use crate::equilibrium::{Method, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
@@ -52,15 +52,24 @@ pub struct Given {
 /// The magnet of a scene that has none: the paper's pair where `[magnet]` puts it, switched off.
 const SWITCHED_OFF: &str = "[magnet]\nstrength = 0.0";
 
+/// Norm below which a quaternion on a path is no orientation.
+const SHORTEST_QUATERNION: f64 = 1e-3;
+
 impl Given {
     /// The start values that a scene states.
     ///
     /// A scene without an external magnet gets the usual one with strength 0, so that it can be switched on.
     ///
     /// # Errors
-    /// What [`Scene`] refuses.
+    /// What [`Scene`] refuses; [`Error::Unsupported`] for another method than the potential one, which alone has
+    /// derivatives and a state to save.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
+        let (method, own) = (scene.settings.method, Method::Potential);
+        if method != own {
+            let (given, own) = (method.name(), own.name());
+            return Err(Error::Unsupported(format!("an FMU solves by method \"{own}\", not \"{given}\"")));
+        }
         let (magnets, magnet) = if let Some(magnets) = &scene.magnets {
             (magnets.clone(), scene.inputs.magnet)
         } else {
@@ -137,6 +146,14 @@ impl From<Pose> for Placement {
 }
 
 impl Placement {
+    /// Scales the quaternion to unit norm, unless it is too short to tell a direction.
+    pub(super) fn normalise(&mut self) {
+        let norm = self.orientation.iter().map(|component| component * component).sum::<f64>().sqrt();
+        if norm > SHORTEST_QUATERNION {
+            self.orientation = self.orientation.map(|component| component / norm);
+        }
+    }
+
     fn pose(&self, orientation: &str) -> Result<Pose, Error> {
         Pose::new(self.position, self.orientation).map_err(|error| match error {
             Error::Range { value, allowed, .. } => {

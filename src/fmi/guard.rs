@@ -1,8 +1,8 @@
 //! A panic stops here: it must not cross the C boundary, nor print into the host's terminal.
 
 use std::cell::{Cell, RefCell};
-use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
-use std::sync::Once;
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook, take_hook};
+use std::sync::{Once, OnceLock};
 
 thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
@@ -10,6 +10,13 @@ thread_local! {
 }
 
 static HOOK: Once = Once::new();
+
+/// The hook that was set before. Were it captured, the new hook would need memory that is lost when the host unloads the
+/// library.
+static BEFORE: OnceLock<Hook> = OnceLock::new();
+
+/// What std calls when a thread panics.
+type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 
 /// Does `work`; a panic in it becomes its text.
 ///
@@ -26,11 +33,11 @@ static HOOK: Once = Once::new();
 /// The message and place of the panic.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     HOOK.call_once(|| {
-        let before = take_hook();
-        set_hook(Box::new(move |panic| {
+        BEFORE.get_or_init(take_hook);
+        set_hook(Box::new(|panic| {
             if GUARDED.get() {
                 TEXT.set(Some(panic.to_string()));
-            } else {
+            } else if let Some(before) = BEFORE.get() {
                 before(panic);
             }
         }));

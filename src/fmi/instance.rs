@@ -4,41 +4,25 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::given::Given;
+use super::condition::Condition;
 use super::log::Log;
 use super::package::Package;
 use super::state::{Call, Ending, State};
 use super::variable::{Role, Value, Variable};
 use super::variables::MARGIN;
 use crate::error::Error;
-use crate::manipulator::{Manipulator, Status};
+use crate::manipulator::{Inputs, Manipulator, Status};
 
 /// Times closer than this, relative to the larger of time and step, are the same: hosts add up their steps.
 const TIME_SLACK: f64 = 1e-9;
 
-/// Everything that changes in an instance's life: what a saved state keeps.
-#[derive(Debug, Clone)]
-struct Condition {
-    state: State,
-    given: Given,
-    /// The manipulator that the parameters describe, once it is needed.
-    device: Option<Manipulator>,
-    /// Whether the device's outputs are those of `given`.
-    solved: bool,
-    /// Whether it was solved for a reading host since the last step, so that the next step finds its work done.
-    ahead: bool,
-    near_fold: bool,
-    time: f64,
-    stop: Option<f64>,
-}
-
 /// An instance of the FMU.
 #[derive(Debug)]
 pub struct Instance {
-    package: Arc<Package>,
-    log: Log,
-    condition: Condition,
-    saved: BTreeMap<usize, Condition>,
+    pub(super) package: Arc<Package>,
+    pub(super) log: Log,
+    pub(super) condition: Condition,
+    pub(super) saved: BTreeMap<usize, Condition>,
     surprised: bool,
 }
 
@@ -65,21 +49,6 @@ pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
             what: format!("GUID {guid}"),
             reason: format!("it is not {}, that of {from}", package.guid()),
         })
-    }
-}
-
-impl Condition {
-    fn new(start: &Given) -> Self {
-        Self {
-            state: State::Instantiated,
-            given: start.clone(),
-            device: None,
-            solved: false,
-            ahead: false,
-            near_fold: false,
-            time: 0.0,
-            stop: None,
-        }
     }
 }
 
@@ -121,8 +90,9 @@ impl Instance {
     #[must_use]
     pub fn allows(&self, call: Call, name: &str) -> bool {
         let allowed = self.state().allows(call);
-        if call == Call::Unsupported {
-            self.log.error(&format!("{name} is not offered: see the capabilities in the model description"));
+        if call == Call::CancelStep {
+            self.log
+                .error(&format!("{name}: no step is under way, as every step is finished when it returns"));
         } else if !allowed {
             self.log.error(&format!("{name} is not allowed in state {:?}", self.state()));
         }
@@ -162,7 +132,7 @@ impl Instance {
 
     /// Checks the parameters, finds the first equilibrium, and stands at the first communication point.
     pub fn exit_initialization(&mut self) -> Ending {
-        let ending = if self.condition.solved { Ok(Ending::Ok) } else { self.solve() };
+        let ending = if self.condition.solved { Ok(Ending::Ok) } else { self.solve_here() };
         match ending {
             Ok(Ending::Error) => self.condition.state = State::Failed,
             Ok(_) => {
@@ -184,10 +154,12 @@ impl Instance {
     pub fn reset(&mut self) -> Ending {
         self.condition = Condition::new(self.package.start());
         self.surprised = false;
+        self.log.relieve();
         Ending::Ok
     }
 
-    /// Steps from `time` to `time + step`: finds the equilibrium for the inputs now set.
+    /// Steps from `time` to `time + step`: finds the equilibrium for the inputs now set or, where they have time
+    /// derivatives, follows it along their path.
     pub fn do_step(&mut self, time: f64, step: f64) -> Ending {
         if !time.is_finite() || !step.is_finite() || step < 0.0 {
             return self.refuse(&format!("a step from t = {time} by {step} is none"));
@@ -205,17 +177,46 @@ impl Instance {
         }
         // Inputs that have not changed are solved again: `Snapped` must not outlive its step.
         self.condition.solved &= self.condition.ahead;
-        let ending = self.ensure_solved();
+        let moving = self.condition.rates.move_inputs() && step > 0.0;
+        let ending = if moving { self.travel(step) } else { self.ensure_solved() };
         if ending == Ending::Error {
             return ending;
         }
+        self.condition.rates.spend();
         self.condition.ahead = false;
         self.condition.time = end;
+        self.condition.snaps = self.condition.device.as_ref().map_or(0, |device| device.outputs().snaps);
+        self.log.relieve();
         if unexpected { Ending::Warning } else { ending }
     }
 
+    /// Follows the inputs' path for `duration`; then they keep the values reached.
+    fn travel(&mut self, duration: f64) -> Ending {
+        let condition = &self.condition;
+        let path = condition.given.inputs().and_then(|start| {
+            let (mut points, end) = condition.rates.path(self.package.table(), &condition.given, duration)?;
+            if !condition.solved {
+                points.insert(0, start);
+            }
+            Ok((points, end))
+        });
+        match path.and_then(|(points, end)| Ok((self.solve(&points)?, end))) {
+            Ok((Ending::Error, _)) => Ending::Error,
+            Ok((ending, end)) => {
+                self.condition.given = end;
+                ending
+            }
+            Err(error) => self.refuse(&error.to_string()),
+        }
+    }
+
+    /// Whether outputs follow what is set.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.state(), State::Initialization | State::Stepping)
+    }
+
     /// The variables with these value references; if one is unknown, the log says so.
-    fn find(&self, references: &[u32]) -> Option<Vec<&Variable>> {
+    pub(super) fn find(&self, references: &[u32]) -> Option<Vec<&Variable>> {
         let find = |&reference: &u32| {
             let found = self.package.table().find(reference);
             if found.is_none() {
@@ -240,9 +241,8 @@ impl Instance {
     ) -> Result<(Vec<T>, Ending), Ending> {
         let variables = self.find(references).ok_or(Ending::Error)?;
         let mut ending = Ending::Ok;
-        let live = matches!(self.state(), State::Initialization | State::Stepping);
         let margin = variables.iter().any(|variable| variable.name == MARGIN);
-        if live && variables.iter().any(|variable| variable.role == Role::Output) {
+        if self.is_live() && variables.iter().any(|variable| variable.role == Role::Output) {
             ending = self.ensure_solved();
             if ending == Ending::Error {
                 return Err(ending);
@@ -296,50 +296,26 @@ impl Instance {
         Ending::Ok
     }
 
-    /// Keeps the present state under `key`.
-    pub fn save(&mut self, key: usize) {
-        self.saved.insert(key, self.condition.clone());
-    }
-
-    /// Whether a state is kept under `key`.
-    #[must_use]
-    pub fn has_saved(&self, key: usize) -> bool {
-        self.saved.contains_key(&key)
-    }
-
-    /// Goes back to the state kept under `key`.
-    pub fn restore(&mut self, key: usize) -> Ending {
-        match self.saved.get(&key) {
-            Some(condition) => {
-                self.condition = condition.clone();
-                Ending::Ok
-            }
-            None => self.refuse("this FMU state is not, or no longer, one of this instance"),
-        }
-    }
-
-    /// Forgets the state kept under `key`.
-    pub fn forget(&mut self, key: usize) -> Ending {
-        match self.saved.remove(&key) {
-            Some(_) => Ending::Ok,
-            None => self.refuse("this FMU state is not, or no longer, one of this instance"),
-        }
-    }
-
     /// Solves for the inputs now set, unless that was done.
-    fn ensure_solved(&mut self) -> Ending {
+    pub(super) fn ensure_solved(&mut self) -> Ending {
         if self.condition.solved {
             return Ending::Ok;
         }
-        match self.solve() {
+        match self.solve_here() {
             Ok(ending) => ending,
             Err(error) => self.refuse(&error.to_string()),
         }
     }
 
-    fn solve(&mut self) -> Result<Ending, Error> {
+    /// Solves for the inputs now set.
+    fn solve_here(&mut self) -> Result<Ending, Error> {
+        let inputs = self.condition.given.inputs()?;
+        self.solve(&[inputs])
+    }
+
+    /// Follows the equilibrium along a path of inputs.
+    fn solve(&mut self, path: &[Inputs]) -> Result<Ending, Error> {
         let condition = &mut self.condition;
-        let inputs = condition.given.inputs()?;
         let counts = self.package.table().counts();
         let mut device = match condition.device.take() {
             Some(device) => device,
@@ -348,14 +324,16 @@ impl Instance {
         if condition.state == State::Initialization {
             device.reset(); // the first equilibrium does not depend on what was read before
         }
+        condition.jacobian = None;
         let device = condition.device.insert(device);
-        let outputs = device.solve(&inputs)?;
+        let snaps = device.outputs().snaps;
+        let outputs = device.follow(path, condition.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];
         if lengths != [counts.rings, counts.cores, counts.shape_points] {
             return Err(Error::Unsupported(format!("the model answers with other lengths: {lengths:?}")));
         }
         let (was_near_fold, time, margin) = (condition.near_fold, condition.time, outputs.stability_margin);
-        let status = outputs.status;
+        let (status, snapped) = (outputs.status, outputs.snaps > snaps);
         if status == Status::NotSolved {
             if condition.state == State::Stepping {
                 condition.state = State::Failed;
@@ -367,12 +345,12 @@ impl Instance {
         condition.solved = true;
         condition.ahead = true;
         condition.near_fold = status == Status::NearFold;
-        match status {
-            Status::Snapped => self.log.warning(&format!("snapped to another branch after t = {time}")),
-            Status::NearFold if !was_near_fold => {
-                self.log.warning(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
-            }
-            _ => return Ok(Ending::Ok),
+        if snapped {
+            self.log.warning(&format!("snapped to another branch after t = {time}"));
+        } else if status == Status::NearFold && !was_near_fold {
+            self.log.warning(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
+        } else {
+            return Ok(Ending::Ok);
         }
         Ok(Ending::Warning)
     }

@@ -1,5 +1,7 @@
 //! What is told to the host, under which category.
 
+use std::cell::RefCell;
+
 use super::state::Ending;
 
 /// A log category of the model description.
@@ -49,48 +51,84 @@ impl Category {
 /// Takes a message to the host.
 pub type Sink = Box<dyn Fn(Ending, Category, &str) + Send>;
 
+/// How often the same message is told in a row.
+const REPETITIONS: u32 = 10;
+
 /// The way to the host's log.
 ///
-/// Warnings and errors always go there, each once; what is merely of interest when the host asks for it.
+/// The standard wants the logger called whenever a call ends with a warning or an error (section 2.1.3), so these go
+/// there unless the host has switched their category off; what is merely of interest goes there when the host asks.
 pub struct Log {
     sink: Sink,
-    events: bool,
+    on: [bool; 3],
+    last: RefCell<(String, u32)>,
 }
 
 impl Log {
     /// A log into `sink`; `events` says whether the host also wants what is merely of interest.
     #[must_use]
     pub fn new(sink: Sink, events: bool) -> Self {
-        Self { sink, events }
+        Self { sink, on: [events, true, true], last: RefCell::default() }
     }
 
     /// Tells the host about an event.
     pub fn event(&self, message: &str) {
-        if self.events {
-            (self.sink)(Ending::Ok, Category::Events, message);
-        }
+        self.tell(Ending::Ok, Category::Events, message);
     }
 
     /// Warns the host.
     pub fn warning(&self, message: &str) {
-        (self.sink)(Ending::Warning, Category::Warning, message);
+        self.tell(Ending::Warning, Category::Warning, message);
     }
 
     /// Tells the host why a call failed.
     pub fn error(&self, message: &str) {
-        (self.sink)(Ending::Error, Category::Error, message);
+        self.tell(Ending::Error, Category::Error, message);
     }
 
-    /// Switches events on or off; with names, only if their category or all are named.
+    /// All is well again: what was said before may be said anew.
+    pub fn relieve(&self) {
+        *self.last.borrow_mut() = Default::default();
+    }
+
+    /// A host that repeats a refused call for ever does not fill its log.
+    fn tell(&self, ending: Ending, category: Category, message: &str) {
+        if !self.on.get(category as usize).is_some_and(|on| *on) {
+            return;
+        }
+        let times = {
+            let mut last = self.last.borrow_mut();
+            if last.0 == message {
+                last.1 = last.1.saturating_add(1);
+            } else {
+                *last = (message.to_owned(), 1);
+            }
+            last.1
+        };
+        if times < REPETITIONS {
+            (self.sink)(ending, category, message);
+        } else if times == REPETITIONS {
+            (self.sink)(ending, category, &format!("{message} (said {times} times, and not again)"));
+        }
+    }
+
+    /// Switches categories on or off; without names events alone, as warnings and errors explain a call's ending.
     ///
     /// # Errors
-    /// The name of the first category that does not exist.
+    /// The name of the first category that does not exist; nothing has changed then.
     pub fn choose<'a>(&mut self, on: bool, categories: &[&'a str]) -> Result<(), &'a str> {
         let chosen = categories.iter().map(|name| Category::named(name).ok_or(*name));
         let chosen = chosen.collect::<Result<Vec<_>, _>>()?;
-        let named = chosen.is_empty() || chosen.iter().any(|c| matches!(c, Category::Events | Category::All));
-        if named {
-            self.events = on;
+        if on && chosen.is_empty() {
+            self.on = [true; 3];
+        } else if chosen.is_empty() {
+            self.on[Category::Events as usize] = false;
+        }
+        for category in chosen {
+            match self.on.get_mut(category as usize) {
+                Some(switch) => *switch = on,
+                None => self.on = [on; 3],
+            }
         }
         Ok(())
     }
@@ -98,6 +136,6 @@ impl Log {
 
 impl std::fmt::Debug for Log {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.debug_struct("Log").field("events", &self.events).finish_non_exhaustive()
+        formatter.debug_struct("Log").field("on", &self.on).finish_non_exhaustive()
     }
 }

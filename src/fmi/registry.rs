@@ -36,7 +36,15 @@ pub(super) fn enter(instance: Instance) -> usize {
 /// Drops the instance behind a handle; an unknown one does nothing.
 pub(super) fn leave(handle: usize) {
     // A panic while dropping is of no use to anybody: the instance is gone either way.
-    let _ = guarded(|| drop(live(|live| live.remove(&handle))));
+    let _ = guarded(|| drop(live(|live| remove(live, handle))));
+}
+
+fn remove(live: &mut Live, handle: usize) -> Option<Arc<Mutex<Instance>>> {
+    let instance = live.remove(&handle);
+    if live.is_empty() {
+        *live = Live::new(); // an emptied map keeps a node, which would be lost when the host unloads the library
+    }
+    instance
 }
 
 /// Does `work` on the instance behind a handle if its state allows `call`; a panic breaks that instance only.

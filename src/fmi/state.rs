@@ -1,5 +1,7 @@
 //! Which call is allowed when.
 
+use serde::{Deserialize, Serialize};
+
 use super::variable::Role;
 
 /// How a call ended.
@@ -16,7 +18,7 @@ pub enum Ending {
 }
 
 /// Where an instance stands in its life.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum State {
     /// Made, or reset.
     Instantiated,
@@ -47,10 +49,14 @@ pub enum Call {
     GetFmuState,
     SetFmuState,
     FreeFmuState,
+    SerializeFmuState,
+    GetDirectionalDerivative,
+    SetRealInputDerivatives,
+    GetRealOutputDerivatives,
     DoStep,
     GetStatus,
-    /// A function of a capability that the model description denies.
-    Unsupported,
+    /// What only an unfinished step allows: steps are finished when they return.
+    CancelStep,
 }
 
 use State::{Broken, Failed, Initialization, Instantiated, Stepping, Terminated};
@@ -70,9 +76,13 @@ pub const ALLOWED: &[(Call, &[State])] = &[
     (Call::GetFmuState, UNBROKEN),
     (Call::SetFmuState, UNBROKEN),
     (Call::FreeFmuState, UNBROKEN),
+    (Call::SerializeFmuState, UNBROKEN),
+    (Call::GetDirectionalDerivative, &[Initialization, Stepping, Failed, Terminated]),
+    (Call::SetRealInputDerivatives, &[Instantiated, Initialization, Stepping]),
+    (Call::GetRealOutputDerivatives, &[Stepping, Failed, Terminated]),
     (Call::DoStep, &[Stepping]),
     (Call::GetStatus, &[Stepping, Failed, Terminated]),
-    (Call::Unsupported, &[]),
+    (Call::CancelStep, &[]),
 ];
 
 impl State {

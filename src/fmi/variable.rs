@@ -1,11 +1,14 @@
 //! One row of the variable table: what a variable is, and how it is read and set.
 
+use serde::{Deserialize, Serialize};
+
 use super::given::Given;
+use super::slope::Slope;
 use super::units::Quantity;
 use crate::manipulator::Outputs;
 
 /// A typed value. An enumeration's value is an integer.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Value {
     /// Floating point.
     Real(f64),
@@ -148,6 +151,8 @@ pub struct Variable {
     pub access: Access,
     /// Upon what an output depends; without meaning for others.
     pub reach: Reach,
+    /// How it takes part in derivatives.
+    pub slope: Slope,
 }
 
 impl Variable {

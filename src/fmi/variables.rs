@@ -4,10 +4,12 @@ mod answers;
 mod parameters;
 
 use super::given::Given;
+use super::slope::Slope;
 use super::units::{ACCELERATION, FIELD, FORCE, GRADIENT, MOMENT, POSITION, QUATERNION, Quantity, RATIO};
 use super::variable::{Access, At, Kind, Reach, Role, Value, Variable};
 use crate::design::SpanKind;
 use crate::error::Error;
+use crate::manipulator::Input;
 
 /// Reads and sets one place of [`Given`].
 macro_rules! place {
@@ -109,6 +111,7 @@ pub(super) struct Draft {
     min: Option<f64>,
     max: Option<f64>,
     reach: Reach,
+    slope: Slope,
 }
 
 impl Draft {
@@ -122,6 +125,7 @@ impl Draft {
             min: None,
             max: None,
             reach: Reach::Equilibrium,
+            slope: Slope::None,
         }
     }
 
@@ -145,9 +149,13 @@ impl Draft {
         Self { reach, ..self }
     }
 
+    fn slope(self, slope: Slope) -> Self {
+        Self { slope, ..self }
+    }
+
     fn at(self, name: String, at: At) -> Variable {
-        let Self { description, kind, role, access, min, max, reach, .. } = self;
-        Variable { name, description, kind, role, min, max, at, access, reach }
+        let Self { description, kind, role, access, min, max, reach, slope, .. } = self;
+        Variable { name, description, kind, role, min, max, at, access, reach, slope }
     }
 }
 
@@ -188,7 +196,8 @@ impl Rows {
                 POSITION,
                 "Centre of the external magnet assembly",
                 place!(|g, at| g.magnet.position[at.axis]),
-            ),
+            )
+            .slope(Slope::Input(Input::MagnetPosition)),
         );
         self.array(
             4,
@@ -197,14 +206,17 @@ impl Rows {
                 QUATERNION,
                 "Orientation of the external magnet assembly, whose dipole axis is its z: unit quaternion w, x, y, z",
                 place!(|g, at| g.magnet.orientation[at.axis]),
-            ),
+            ).slope(Slope::InputQuaternion(Input::MagnetRotation)),
         );
-        self.one(Draft::real(
-            "magnet.strength",
-            RATIO,
-            "Factor on the external magnet's field; 0 switches it off",
-            place!(|g, _at| g.magnet_strength),
-        ));
+        self.one(
+            Draft::real(
+                "magnet.strength",
+                RATIO,
+                "Factor on the external magnet's field; 0 switches it off",
+                place!(|g, _at| g.magnet_strength),
+            )
+            .slope(Slope::Input(Input::MagnetStrength)),
+        );
         self.array(
             3,
             &Draft::real(
@@ -212,7 +224,8 @@ impl Rows {
                 FIELD,
                 "Uniform background field",
                 place!(|g, at| g.uniform_field[at.axis]),
-            ),
+            )
+            .slope(Slope::Input(Input::UniformField)),
         );
         self.array(
             5,
@@ -221,7 +234,8 @@ impl Rows {
                 GRADIENT,
                 "dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz of a linear field about the world origin",
                 place!(|g, at| g.field_gradient[at.axis]),
-            ),
+            )
+            .slope(Slope::Input(Input::FieldGradient)),
         );
         self.array(
             3,
@@ -230,7 +244,8 @@ impl Rows {
                 POSITION,
                 "Position of the clamped base",
                 place!(|g, at| g.base.position[at.axis]),
-            ),
+            )
+            .slope(Slope::Input(Input::BasePosition)),
         );
         self.array(
             4,
@@ -239,11 +254,13 @@ impl Rows {
                 QUATERNION,
                 "Orientation of the clamped base: unit quaternion w, x, y, z",
                 place!(|g, at| g.base.orientation[at.axis]),
-            ),
+            )
+            .slope(Slope::InputQuaternion(Input::BaseRotation)),
         );
         self.array(
             3,
-            &Draft::real("tip.load_force", FORCE, "Force on the tip", place!(|g, at| g.tip_force[at.axis])),
+            &Draft::real("tip.load_force", FORCE, "Force on the tip", place!(|g, at| g.tip_force[at.axis]))
+                .slope(Slope::Input(Input::TipForce)),
         );
         self.array(
             3,
@@ -252,12 +269,14 @@ impl Rows {
                 MOMENT,
                 "Moment on the tip",
                 place!(|g, at| g.tip_moment[at.axis]),
-            ),
+            )
+            .slope(Slope::Input(Input::TipMoment)),
         );
         for ring in 0..counts.rings {
             let name = format!("ring[{}].load_force", ring + 1);
             let load = place!(|g, at| g.ring_forces[at.item][at.axis]);
-            self.item_array(3, ring, &Draft::real(name, FORCE, "Force at the ring's centre", load));
+            let draft = Draft::real(name, FORCE, "Force at the ring's centre", load);
+            self.item_array(3, ring, &draft.slope(Slope::Input(Input::RingForce(ring))));
         }
     }
 
@@ -285,6 +304,6 @@ impl Rows {
     fn gravity(&mut self) {
         let gravity = place!(|g, at| g.gravity[at.axis]);
         let draft = Draft::real("gravity", ACCELERATION, "Acceleration of gravity", gravity);
-        self.array(3, &draft.role(Role::Tunable));
+        self.array(3, &draft.role(Role::Tunable).slope(Slope::Input(Input::Gravity)));
     }
 }

@@ -7,6 +7,7 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
 
 use super::given::Given;
 use super::log::Category;
+use super::slope::Slope;
 use super::units::{QUANTITIES, UNITS};
 use super::variable::{Enumeration, Kind, Role, Value, Variable};
 use super::variables::Table;
@@ -21,6 +22,11 @@ const DESCRIPTION: &str = "Shape, tip angle and forces of a magnetic continuum m
                            external magnet";
 const COPYRIGHT: &str = "Copyright (c) 2026 the mcm authors";
 const TOOL: &str = concat!("mcm ", env!("CARGO_PKG_VERSION"));
+
+/// The tolerance is what the default strain modes and ring rules keep to, relative to the length: solves themselves
+/// converge far tighter, whatever tolerance the host sets.
+const DEFAULT_EXPERIMENT: Attributes =
+    &[("startTime", "0"), ("stopTime", "10"), ("tolerance", "1e-5"), ("stepSize", "0.01")];
 
 type Xml = Writer<Vec<u8>>;
 type Attributes<'a> = &'a [(&'a str, &'a str)];
@@ -68,7 +74,7 @@ fn write(xml: &mut Xml, table: &Table, start: &Given, guid: &str, generated: Opt
                 empty(xml, "Category", &[("name", category.name()), ("description", category.description())])
             })
         })?;
-        empty(xml, "DefaultExperiment", &[("startTime", "0"), ("stopTime", "10"), ("stepSize", "0.01")])?;
+        empty(xml, "DefaultExperiment", DEFAULT_EXPERIMENT)?;
         within(xml, "ModelVariables", &[], |xml| {
             (table.variables().iter().enumerate())
                 .try_for_each(|(reference, variable)| scalar(xml, reference, variable, start))
@@ -85,14 +91,14 @@ fn co_simulation(xml: &mut Xml) -> io::Result<()> {
             ("modelIdentifier", MODEL_IDENTIFIER),
             ("needsExecutionTool", "false"),
             ("canHandleVariableCommunicationStepSize", "true"),
-            ("canInterpolateInputs", "false"),
-            ("maxOutputDerivativeOrder", "0"),
+            ("canInterpolateInputs", "true"),
+            ("maxOutputDerivativeOrder", "1"),
             ("canRunAsynchronuously", "false"),
             ("canBeInstantiatedOnlyOncePerProcess", "false"),
             ("canNotUseMemoryManagementFunctions", "true"),
             ("canGetAndSetFMUstate", "true"),
-            ("canSerializeFMUstate", "false"),
-            ("providesDirectionalDerivative", "false"),
+            ("canSerializeFMUstate", "true"),
+            ("providesDirectionalDerivative", "true"),
         ],
     )
 }
@@ -162,7 +168,10 @@ fn causality(variable: &Variable) -> (&'static str, &'static str, Option<&'stati
         (Role::Fixed, _) => ("parameter", "fixed", Some("exact")),
         (Role::Tunable, _) => ("parameter", "tunable", Some("exact")),
         (Role::Constant, _) => ("local", "constant", Some("exact")),
-        (Role::Output, Kind::Real(_)) => ("output", "continuous", Some("calculated")),
+        (Role::Output, Kind::Real(_)) if variable.slope != Slope::None => {
+            ("output", "continuous", Some("calculated"))
+        }
+        // A number about the solve, too, has no derivatives.
         (Role::Output, _) => ("output", "discrete", Some("calculated")),
     }
 }

@@ -1,6 +1,7 @@
 //! A rigid body's pose: where it is and how it is turned.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::rotation::{RotationVector, rotation_log};
 use crate::error::{Error, check};
@@ -14,7 +15,7 @@ use crate::error::{Error, check};
 /// assert!(Pose::new([0.0; 3], [0.0; 4]).is_err());
 /// # Ok::<(), mcm::error::Error>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
     /// Origin of the frame, m.
     pub position: Vector3<f64>,
@@ -69,6 +70,30 @@ impl Pose {
         let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(self.rotation));
         let sign = if q.w < 0.0 { -1.0 } else { 1.0 };
         [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
+    }
+
+    /// The angular velocity (rad, fixed axes) of the orientation that a quaternion describes, when the quaternion
+    /// changes at the given rate: `2 rate q* / |q|^2`. Both scalar first; the part along `q` turns nothing.
+    ///
+    /// ```
+    /// use mcm::geometry::Pose;
+    /// let spin = Pose::rotation_rate([1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.5, 0.0]);
+    /// assert_eq!(spin.as_slice(), [0.0, 1.0, 0.0]);
+    /// ```
+    #[must_use]
+    pub fn rotation_rate(orientation_wxyz: [f64; 4], rate: [f64; 4]) -> Vector3<f64> {
+        let [w, x, y, z] = orientation_wxyz;
+        let q = Quaternion::new(w, x, y, z);
+        let [w, x, y, z] = rate;
+        (Quaternion::new(w, x, y, z) * q.conjugate()).imag() * (2.0 / q.norm_squared())
+    }
+
+    /// The rate of [`Pose::quaternion`] when the frame turns at an angular velocity (rad, fixed axes).
+    #[must_use]
+    pub fn quaternion_rate(&self, angular_velocity: &Vector3<f64>) -> [f64; 4] {
+        let [w, x, y, z] = self.quaternion();
+        let rate = Quaternion::from_imag(*angular_velocity) * Quaternion::new(w, x, y, z) * 0.5;
+        [rate.w, rate.i, rate.j, rate.k]
     }
 
     /// The world coordinates of a point given in this frame.

@@ -34,8 +34,8 @@ pub struct AxialRule {
     points: Vec<(f64, f64)>,
     /// `sqrt(a^2 + h^2)`, m.
     extent: f64,
-    /// Inner radius, outer radius and half length over the extent.
-    shape: [f64; 3],
+    /// Errors of the even degrees from 2 at a distance of one extent, see [`AxialRule::error`].
+    errors: Vec<f64>,
 }
 
 impl AxialRule {
@@ -72,7 +72,8 @@ impl AxialRule {
         for (&z, &share) in half.iter().zip(&shares) {
             points.push((z * extent, volume * if z > 0.0 { 0.5 * share } else { share }));
         }
-        Self { points, extent, shape }
+        let errors = errors(&points, extent, &shape);
+        Self { points, extent, errors }
     }
 
     /// The rule with the fewest nodes whose [`AxialRule::error`] at `distance` (m) is at most `tolerance`.
@@ -121,24 +122,26 @@ impl AxialRule {
     /// extent the series diverges: the answer is infinite.
     #[must_use]
     pub fn error(&self, distance: f64) -> f64 {
-        let (extent, ratio) = (self.extent, self.extent / distance);
+        let ratio = self.extent / distance;
         if !(0.0..1.0).contains(&ratio) {
             return f64::INFINITY;
         }
-        let volume: f64 = self.points().map(|(_, weight)| weight).sum();
-        (1..self.points.len() / 2 + 1 + ESTIMATED_DEGREES)
-            .map(|i| {
-                let l = 2 * i;
-                let rule: f64 = self
-                    .points()
-                    .map(|(z, w)| w / volume * (0..l).fold(1.0, |power, _| power * z / extent))
-                    .sum();
-                let exact = moment(&self.shape, l) / moment(&self.shape, 0);
-                let growth = ((l + 1) * (l + 2) / 2) as f64;
-                growth * (exact - rule).abs() * (0..l).fold(1.0, |power, _| power * ratio)
-            })
-            .sum()
+        self.errors.iter().rev().fold(0.0, |sum, error| (sum + error) * ratio * ratio)
     }
+}
+
+/// `(l + 1)(l + 2)/2 |M_l - sum_i w_i z_i^l| / (V extent^l)` for even `l` from 2.
+fn errors(points: &[(f64, f64)], extent: f64, shape: &[f64; 3]) -> Vec<f64> {
+    let volume: f64 = points.iter().map(|(_, weight)| weight).sum();
+    (1..points.len() / 2 + 1 + ESTIMATED_DEGREES)
+        .map(|i| {
+            let l = 2 * i;
+            let power = |z: f64| (0..l).fold(1.0, |power, _| power * z / extent);
+            let rule: f64 = points.iter().map(|(z, w)| w / volume * power(*z)).sum();
+            let exact = moment(shape, l) / moment(shape, 0);
+            ((l + 1) * (l + 2) / 2) as f64 * (exact - rule).abs()
+        })
+        .collect()
 }
 
 /// The moment `M_j` of a body given by its inner radius, outer radius and half length.

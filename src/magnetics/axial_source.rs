@@ -119,8 +119,9 @@ impl AxialSource {
     /// Whether a point lies inside the material (not on its surface).
     #[must_use]
     pub fn contains(&self, point: &Vector3<f64>) -> bool {
-        let rho = point.x.hypot(point.y);
-        rho < self.outer && (rho > self.inner || self.inner == 0.0) && point.z.abs() < self.half
+        let rho2 = point.x * point.x + point.y * point.y;
+        let bore = self.inner > 0.0 && rho2 <= self.inner * self.inner;
+        point.z.abs() < self.half && rho2 < self.outer * self.outer && !bore
     }
 
     /// Distance from a point to the material, m; 0 inside and on its surface.

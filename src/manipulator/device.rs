@@ -1,10 +1,11 @@
 //! The manipulator: a design, an external magnet, and the last shape.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
-use super::{Inputs, Outputs, Status};
+use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Report, Settings, Solver};
+use crate::equilibrium::{self, Report, Settings, Solver};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -33,13 +34,20 @@ pub struct Manipulator {
     outputs: Outputs,
 }
 
+/// What a manipulator remembers of its past, in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    equilibrium: equilibrium::Snapshot,
+    outputs: Outputs,
+}
+
 impl Manipulator {
     /// A manipulator of `design` near `magnet` (`None`: no external magnet), unsolved.
     ///
     /// `shape_points` is the number of centreline points in the outputs, at least 2.
     ///
     /// # Errors
-    /// [`Error`] for settings out of range, or a method that cannot solve the model asked for.
+    /// [`Error`] for settings out of range.
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
@@ -76,13 +84,96 @@ impl Manipulator {
         &self.outputs
     }
 
+    /// Follows the equilibrium along `path`, one point after the other; what happens on the way counts as one solve.
+    ///
+    /// It has snapped if there were more jumps than `snaps` in the end. If a point is not solved, the branch and all
+    /// outputs but how it ended are those from before the path.
+    ///
+    /// # Errors
+    /// As [`Manipulator::solve`].
+    pub fn follow(&mut self, path: &[Inputs], snaps: u32) -> Result<&Outputs, Error> {
+        let before = (path.len() > 1).then(|| self.clone());
+        let mut iterations = 0;
+        for inputs in path {
+            let solved = self.solve(inputs).map(|outputs| (outputs.status, outputs.residual));
+            iterations += self.outputs.iterations;
+            if let Ok((Status::Solved | Status::NearFold | Status::Snapped, _)) = solved {
+                continue;
+            }
+            if let Some(before) = before {
+                *self = before;
+            }
+            let (status, residual) = solved?;
+            (self.outputs.status, self.outputs.residual) = (status, residual);
+            break;
+        }
+        self.outputs.iterations = iterations;
+        if self.outputs.status != Status::NotSolved && self.outputs.snaps > snaps {
+            self.outputs.status = Status::Snapped;
+        }
+        Ok(&self.outputs)
+    }
+
+    /// What it remembers: from it another manipulator of the same design goes on bit for bit.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] by another method than the potential one.
+    pub fn snapshot(&self) -> Result<Snapshot, Error> {
+        Ok(Snapshot { equilibrium: self.solver.snapshot()?, outputs: self.outputs.clone() })
+    }
+
+    /// Remembers what another manipulator of the same design, magnet and settings did.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a snapshot that is not of this design; the manipulator is then reset.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        self.reset();
+        let lengths = |out: &Outputs| {
+            [out.rings.len(), out.core_angles.len(), out.shape.len(), out.shape_arc_length.len()]
+        };
+        if lengths(&snapshot.outputs) != lengths(&self.outputs) {
+            return Err(Error::Unsupported("the snapshot is not of this design".into()));
+        }
+        self.solver.restore(&snapshot.equilibrium)?;
+        self.outputs = snapshot.outputs.clone();
+        Ok(())
+    }
+
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
-    /// it into the outputs.
+    /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.solver.margin() {
+        if let Some(margin) = self.solver.clone().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
+    }
+
+    /// Derivatives of all outputs by all inputs at the last solved shape; see [`Jacobian`].
+    ///
+    /// Nothing changes: the next solve is the one that would have been. The actuation Jacobian of a magnet that a
+    /// robot arm holds, tip twist by magnet twist:
+    ///
+    /// ```
+    /// use mcm::manipulator::Scene;
+    /// let scene = Scene::parse("[design]\nsegments = 3\n[magnet]", "example")?;
+    /// let mut manipulator = scene.manipulator(11)?;
+    /// assert!(manipulator.jacobian().is_err()); // nothing is solved yet
+    /// manipulator.solve(&scene.inputs)?;
+    /// let jacobian = manipulator.jacobian()?.tip_by_magnet();
+    /// // The magnet comes nearer by 1 mm, along y: the tip moves towards it or away, and turns about x.
+    /// let tip = jacobian.column(1) * 1e-3;
+    /// assert!(tip[1].abs() > 1e-6 && tip[3].abs() > 1e-4);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoDerivatives`] when the last solve failed, before the first, at a fold, and where a part lies
+    /// inside the external magnet; see [`equilibrium::Equilibrium::jacobian`]; always by another method than the potential one.
+    pub fn jacobian(&self) -> Result<Jacobian, Error> {
+        if self.outputs.status == Status::NotSolved {
+            return Err(Error::NoDerivatives("the last inputs are not solved".into()));
+        }
+        self.solver.jacobian()
     }
 
     /// Forgets the shape and the count of snaps.

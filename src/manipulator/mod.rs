@@ -1,10 +1,12 @@
 //! The device as its user sees it: inputs in, shape and forces out; it keeps its last shape.
 
+mod branch;
 mod device;
 mod outputs;
 mod scene;
 
-pub use crate::equilibrium::Inputs;
-pub use device::Manipulator;
+pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
+pub use branch::{Branch, Fold};
+pub use device::{Manipulator, Snapshot};
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};

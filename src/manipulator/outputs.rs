@@ -1,12 +1,13 @@
 //! What the manipulator answers, world frame, SI units.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::equilibrium::{Interaction, Method};
 use crate::geometry::Pose;
 
 /// How the last solve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// Solved, on the branch that was followed.
     Solved,
@@ -19,7 +20,7 @@ pub enum Status {
 }
 
 /// The answer of one solve.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outputs {
     /// Angle between the tip's and the base's `d3`, rad, in `[0, pi]`.
     pub tip_angle: f64,

@@ -64,7 +64,8 @@ pub fn solve<E: Equations>(equations: &mut E, x: &mut E::Point, tolerance: f64, 
         }
         loop {
             let trial = equations.moved(x, &step, damping);
-            let after = equations.evaluate(&trial).and_then(|residual| Some((residual, equations.correction()?)));
+            let after =
+                equations.evaluate(&trial).and_then(|residual| Some((residual, equations.correction()?)));
             let Some((residual, simplified)) = after.filter(|(_, next)| norm(next).is_finite()) else {
                 damping *= 0.5;
                 if damping < SMALLEST {

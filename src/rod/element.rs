@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::basis::{Ends, Modes, Part};
-use super::cubature::{Fineness, SectionPoint, section_points};
+use super::cubature::{SPIRAL_POINTS, Sight};
 use super::matter::Matter;
 use super::moments::SectionMoments;
 use super::stop::{Contact, Stop};
@@ -23,23 +23,18 @@ const DISC_POINTS: usize = 2;
 const EXTRA_POINTS: usize = 1;
 
 /// How finely an element is resolved.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
-    /// Polynomial degree of the strain modes.
+    /// Polynomial degree of the strain modes; at least two more Gauss points are taken.
     pub degree: usize,
-    /// Gauss points of a core or rod; at least two more than the degree are taken.
-    pub core_points: usize,
-    /// Section points for rings close by and further away; `None` where no ring acts on the element.
-    pub sections: Option<[Fineness; 2]>,
+    /// The nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
+    pub nearest: Option<Sight>,
     /// Whether windings that touch stiffen a core.
     pub bending_stop: bool,
 }
 
-/// Points that resolve the turns of the spiral when its moments are tabulated.
-const SPIRAL_POINTS: usize = 48;
-
 /// A span, or a part of one, inside an element.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece<'a> {
     /// The span.
     pub span: &'a Span,
@@ -71,12 +66,6 @@ pub struct Station {
     pub stiffness: Stiffness,
     /// The material that this station stands for.
     pub matter: Matter,
-    /// Number of its piece in the element.
-    pub piece: usize,
-    /// Whether the piece is a disc, bonded to the ring at the element's near end.
-    pub bonded: bool,
-    /// Section points for rings close by and further away.
-    pub sections: [Vec<SectionPoint>; 2],
 }
 
 /// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
@@ -108,8 +97,11 @@ impl Element {
     #[must_use]
     pub fn new(offset: f64, pieces: &[Piece<'_>], resolution: &Resolution) -> Self {
         let degree = resolution.degree;
-        let core_points = resolution.core_points.max(degree + 1 + EXTRA_POINTS);
         let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
+        let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
+        let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
+        let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
+        let core_points = resolved.max(degree + 1 + EXTRA_POINTS);
         let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
@@ -142,8 +134,6 @@ impl Element {
             first += points;
         }
         let length = pieces.iter().map(|piece| piece.length).sum();
-        let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
-        let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let empty = Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] };
         let mut element = Self {
             offset,
@@ -159,16 +149,9 @@ impl Element {
         };
         element.core_ends = [before, before + core_length].map(|s| element.row(s));
         for (index, piece) in pieces.iter().enumerate() {
-            element.add_stations(index, piece, resolution.sections);
+            element.add_stations(index, piece);
         }
         element
-    }
-
-    /// Whether a station belongs to the disc that is bonded to the ring at the element's start (`false`) or
-    /// end (`true`).
-    #[must_use]
-    pub fn bonded(&self, station: &Station, end: bool) -> bool {
-        station.bonded && station.piece == if end { self.pieces.len() - 1 } else { 0 }
     }
 
     /// Number of degrees of freedom.
@@ -209,7 +192,13 @@ impl Element {
         Row { arc_length: s, rate, integral, position }
     }
 
-    fn add_stations(&mut self, index: usize, piece: &Piece<'_>, sections: Option<[Fineness; 2]>) {
+    /// Gauss nodes on [-1, 1] of a piece, and its first station.
+    pub(super) fn nodes(&self, piece: usize) -> (&[f64], usize) {
+        let (_, nodes, first) = &self.pieces[piece];
+        (nodes, *first)
+    }
+
+    fn add_stations(&mut self, index: usize, piece: &Piece<'_>) {
         let start: f64 = self.pieces[..index].iter().map(|(length, _, _)| length).sum();
         let span = piece.span;
         let nodes = self.pieces[index].1.clone();
@@ -226,15 +215,11 @@ impl Element {
             let weight = 0.5 * piece.length * weight;
             let along = 0.5 * piece.length * (1.0 + x);
             let row = self.row_in(index, start, start + along);
-            let sections = sections.map(|both| both.map(|fine| section_points(span, along, weight, fine)));
             self.stations.push(Station {
                 row,
                 weight,
                 stiffness: span.stiffness,
                 matter: Matter::new(span, material, weight),
-                piece: index,
-                bonded: span.kind == SpanKind::Disc,
-                sections: sections.unwrap_or_default(),
             });
         }
     }

@@ -99,9 +99,15 @@ impl Configuration {
     /// The pose at a tabulated arc length, in the frame of the node before.
     #[must_use]
     pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
-        let (theta, _) = components(element, &row.integral, amplitudes);
         let start = Vector3::new(0.0, 0.0, element.offset);
-        Pose { position: start + self.integrate(row), rotation: RotationVector::new(theta).matrix() }
+        let rotation = Self::rotation_at(element, row, amplitudes).matrix();
+        Pose { position: start + self.integrate(row), rotation }
+    }
+
+    /// The rotation vector there.
+    #[must_use]
+    pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
+        RotationVector::new(components(element, &row.integral, amplitudes).0)
     }
 
     /// Elastic energy, J.

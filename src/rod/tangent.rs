@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::bending::{self, Bending};
-use super::element::{COMPONENTS, Element, ROTATIONS};
+use super::element::{COMPONENTS, Element, ROTATIONS, Row};
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
 use super::stop::Contact;
@@ -252,13 +252,23 @@ impl Tangent {
 
     /// Displacement and rotation of a station by every column, in the start node's axes: six rows.
     pub fn station_motion(&mut self, element: &Element, index: usize, state: &StationState) -> &[f64] {
+        self.motion(element, &element.stations[index].row, &state.position, &state.left)
+    }
+
+    /// The same for any place of the element, whose tables are `row` and whose position and left Jacobian are given.
+    pub fn motion(
+        &mut self,
+        element: &Element,
+        row: &Row,
+        position: &Vector3<f64>,
+        left: &Matrix3<f64>,
+    ) -> &[f64] {
         let (freedoms, size) = (element.freedoms(), self.size);
-        let row = &element.stations[index].row;
         self.motion.fill(0.0);
         for k in 0..3 {
             let mut unit = Vector3::zeros();
             unit[k] = 1.0;
-            let swing = unit.cross(&state.position);
+            let swing = unit.cross(position);
             self.motion[k * size + k] = 1.0;
             for axis in 0..3 {
                 self.motion[axis * size + 3 + k] = swing[axis];
@@ -273,7 +283,7 @@ impl Tangent {
             }
             let target = &mut self.motion[(3 + k) * size + START..][..freedoms];
             for (c, run) in element.runs.iter().filter(|(c, _)| *c < ROTATIONS) {
-                let factor = state.left[(k, *c)];
+                let factor = left[(k, *c)];
                 for (entry, value) in target[run.clone()].iter_mut().zip(&row.integral[run.clone()]) {
                     *entry = factor * value;
                 }

@@ -1,5 +1,5 @@
-//! Time of one solve, cold from the unloaded shape and warm after an input change of one 1 kHz step, and the error on
-//! a case with a closed form: `cargo bench --bench solve`.
+//! Time of one solve, cold from the unloaded shape and warm after an input change of one 1 kHz step, of all derivatives
+//! there, and the error on a case with a closed form: `cargo bench --bench solve`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -53,6 +53,9 @@ fn measure(criterion: &mut Criterion, name: &str, scene: &Scene, inputs: &[Input
             turn = 1 - turn;
             checked_solve(&mut manipulator, &inputs[turn])
         });
+    });
+    criterion.bench_function(&format!("jacobian {name}"), |b| {
+        b.iter(|| manipulator.jacobian().expect("no fold"));
     });
 }
 

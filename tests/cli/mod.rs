@@ -1,7 +1,9 @@
 //! The binary `mcm` from outside: exit status, messages, files.
 
+mod branches;
 mod field;
 mod solve;
+mod study;
 mod sweep;
 
 use std::path::{Path, PathBuf};

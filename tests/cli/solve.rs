@@ -1,9 +1,13 @@
 //! `mcm solve`.
 
+use mcm::equilibrium::{Equilibrium, Inputs};
+use mcm::manipulator::Scene;
+use nalgebra::Vector3;
 use serde_json::Value;
 
 use super::{assert_status, stderr, with_scene};
-use crate::tolerance::TWO_DECIMALS_DEG;
+use crate::equilibrium::critical::{is_stable, last_true};
+use crate::tolerance::{DIFFERENCE, TWO_DECIMALS_DEG, assert_close};
 
 const ONE_SEGMENT: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
 
@@ -38,9 +42,11 @@ fn json_has_the_promised_keys() {
         "energy_j",
         "interaction",
         "method",
+        "jacobian",
     ];
     let keys: Vec<&String> = answer.as_object().unwrap().keys().collect();
-    assert_eq!(keys.len(), promised.len());
+    assert_eq!(keys.len(), promised.len() + 1);
+    assert!(answer["jacobian_note"].is_null(), "null where there is nothing to say");
     for key in promised {
         assert!(!answer[key].is_null(), "{key}");
     }
@@ -100,6 +106,51 @@ fn past_the_last_fold_the_last_good_shape_is_printed_with_status_2() {
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
     let answer = json("shut", scene, 2);
     assert_eq!(answer["converged"], false);
+    assert!(answer["jacobian"].is_null());
+    assert_eq!(answer["jacobian_note"], "no derivatives: the last inputs are not solved");
     let (_, output) = with_scene("shut", scene, &["solve", "scene.toml"]);
     assert!(stderr(&output).contains("not converged"), "{}", stderr(&output));
+}
+
+#[test]
+fn jacobian_is_how_the_tip_moves_with_magnet_and_field() {
+    let at = |millimetres: f64, millitesla: f64| {
+        let scene = format!(
+            "[design]\nsegments = 3\n[magnet]\nposition_mm = [5.0, -110.0, {millimetres:?}]\n[field]\n\
+             uniform_mt = [0.0, {millitesla:?}, 0.0]"
+        );
+        json("jacobian", &scene, 0)
+    };
+    let position = |answer: &Value| -> Vec<f64> {
+        answer["tip_position_m"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+    };
+    let difference = |plus: &Value, minus: &Value, step: f64| -> Vec<f64> {
+        position(plus).iter().zip(position(minus)).map(|(a, b)| (a - b) / (2.0 * step)).collect()
+    };
+    let jacobian = &at(20.0, 1.0)["jacobian"];
+    let column = |matrix: &Value, column: usize| -> Vec<f64> {
+        (0..3).map(|row| matrix[row][column].as_f64().unwrap()).collect()
+    };
+    let by_magnet = difference(&at(20.01, 1.0), &at(19.99, 1.0), 1e-5);
+    assert_close("magnet", &column(&jacobian["tip_by_magnet"], 2), &by_magnet, DIFFERENCE);
+    let by_field = difference(&at(20.0, 1.001), &at(20.0, 0.999), 1e-6);
+    assert_close("field", &column(&jacobian["tip_by_uniform_field"], 1), &by_field, DIFFERENCE);
+    assert_eq!(jacobian["tip_by_magnet"].as_array().unwrap().len(), 6);
+    assert_eq!(jacobian["tip_by_uniform_field"][5].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn at_a_fold_there_is_a_note_instead_of_a_jacobian() {
+    // Straight in an antiparallel field, a millionth before it turns over.
+    let scene = Scene::parse(ONE_SEGMENT, "one segment").unwrap();
+    let mut equilibrium = Equilibrium::new(&scene.design().unwrap(), None, scene.settings, 2).unwrap();
+    let straight = vec![0.0; equilibrium.freedoms()];
+    let field = |size: f64| Inputs { uniform_field: Vector3::new(0.0, 0.0, -size), ..scene.inputs.clone() };
+    let critical = last_true(1e-3, 1.0, |size| is_stable(&mut equilibrium, &field(size), &straight));
+    let millitesla = -1e3 * critical * (1.0 - 1e-6);
+    let answer = json("fold", &format!("{ONE_SEGMENT}[field]\nuniform_mt = [0, 0, {millitesla:?}]"), 0);
+    assert_eq!(answer["converged"], true);
+    assert!(answer["jacobian"].is_null());
+    let note = answer["jacobian_note"].as_str().unwrap();
+    assert!(note.starts_with("no derivatives: the shape is at a fold"), "{note}");
 }

@@ -109,15 +109,20 @@ fn a_load_on_a_clamped_ring_reaches_the_clamp_only() {
 }
 
 #[test]
-fn what_is_denied_is_not_promised() {
+fn capabilities_are_those_of_the_functions() {
     let text = Package::built_in().unwrap().model_description(None).unwrap();
     for promise in [
         "fmiVersion=\"2.0\"",
         "modelIdentifier=\"mcm\"",
         "canGetAndSetFMUstate=\"true\"",
-        "canSerializeFMUstate=\"false\"",
-        "providesDirectionalDerivative=\"false\"",
-        "canInterpolateInputs=\"false\"",
+        "canSerializeFMUstate=\"true\"",
+        "providesDirectionalDerivative=\"true\"",
+        "canHandleVariableCommunicationStepSize=\"true\"",
+        "canInterpolateInputs=\"true\"",
+        "maxOutputDerivativeOrder=\"1\"",
+        "canRunAsynchronuously=\"false\"",
+        "canBeInstantiatedOnlyOncePerProcess=\"false\"",
+        "canNotUseMemoryManagementFunctions=\"true\"",
     ] {
         assert!(text.contains(promise), "{promise}");
     }

@@ -8,7 +8,7 @@ use mcm::fmi::variables::Table;
 use super::{BENT, instance, last};
 use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, assert_close};
 
-fn reference(table: &Table, name: &str) -> u32 {
+pub(super) fn reference(table: &Table, name: &str) -> u32 {
     table.reference(name).unwrap_or_else(|| panic!("{name}"))
 }
 
@@ -16,15 +16,15 @@ fn real(value: Value) -> Option<f64> {
     if let Value::Real(value) = value { Some(value) } else { None }
 }
 
-fn get(instance: &mut Instance, table: &Table, name: &str) -> f64 {
+pub(super) fn get(instance: &mut Instance, table: &Table, name: &str) -> f64 {
     instance.get(&[reference(table, name)], "Real", real).unwrap().0[0]
 }
 
-fn set(instance: &mut Instance, table: &Table, name: &str, value: f64) -> Ending {
+pub(super) fn set(instance: &mut Instance, table: &Table, name: &str, value: f64) -> Ending {
     instance.set(&[reference(table, name)], [Value::Real(value)].into_iter())
 }
 
-fn initialised(scene: &str) -> (Instance, Table, super::Told) {
+pub(super) fn initialised(scene: &str) -> (Instance, Table, super::Told) {
     let (mut instance, package, told) = instance(scene);
     assert_eq!(instance.setup_experiment(0.0, None), Ending::Ok);
     assert_eq!(instance.enter_initialization(), Ending::Ok);

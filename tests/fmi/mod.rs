@@ -1,10 +1,18 @@
 //! Tests of `fmi`.
 
+mod derivatives;
+
 mod description;
+
+mod importer;
 
 mod instance;
 
+mod log;
+
 mod package;
+
+mod serialise;
 
 mod state;
 

@@ -17,7 +17,7 @@ fn every_call_has_one_row() {
     for (call, _) in ALLOWED {
         assert_eq!(ALLOWED.iter().filter(|(other, _)| other == call).count(), 1, "{call:?}");
     }
-    assert_eq!(ALLOWED.len(), 14);
+    assert_eq!(ALLOWED.len(), 18);
 }
 
 #[test]
@@ -33,7 +33,9 @@ fn reset_is_allowed_always_and_steps_only_at_communication_points() {
         assert!(state.allows(Call::Reset), "{state:?}");
         assert_eq!(state.allows(Call::DoStep), state == State::Stepping, "{state:?}");
         assert_eq!(state.allows(Call::SetupExperiment), state == State::Instantiated, "{state:?}");
-        assert!(!state.allows(Call::Unsupported), "{state:?}");
+        assert!(!state.allows(Call::CancelStep), "no step is ever pending: {state:?}");
+        assert_eq!(state.allows(Call::SetRealInputDerivatives), state.may_set(Role::Input), "{state:?}");
+        assert_eq!(state.allows(Call::SerializeFmuState), state.allows(Call::SetFmuState), "{state:?}");
     }
 }
 

@@ -1,3 +1,7 @@
 //! Tests of `manipulator`.
 
+mod jacobian;
+
 mod scene;
+
+mod snapshot;

@@ -185,6 +185,33 @@ fn one_number_is_replaced_by_its_path() {
     }
 }
 
+#[test]
+fn field_magnet_and_base_are_turned() {
+    let scene = Scene::parse(
+        "[field]\nuniform_mt = [0, 0, 20]\nturn_deg = 30\n[magnet]\nposition_mm = [1, 2, 3]\nturn_deg = -90\n\
+         turn_axis = [0, 0, 7]\norientation_wxyz = [0.5, 0.5, 0.5, 0.5]\n[base]\nturn_deg = 90\nturn_axis = [0, 1, 0]",
+        "test",
+    )
+    .unwrap();
+    let close = |got: &nalgebra::Vector3<f64>, expected: [f64; 3]| {
+        assert!((got - nalgebra::Vector3::from(expected)).norm() < 1e-15, "{got}, expected {expected:?}");
+    };
+    // From +z towards +y unless another axis is given.
+    close(&scene.inputs.uniform_field, [0.0, 0.01, 0.02 * 0.75_f64.sqrt()]);
+    // The quaternion takes z to x, the turn about z takes x to -y; the position stays.
+    close(&scene.inputs.magnet.axis(), [0.0, -1.0, 0.0]);
+    close(&scene.inputs.magnet.position, [0.001, 0.002, 0.003]);
+    close(&scene.inputs.base.axis(), [1.0, 0.0, 0.0]);
+    assert_eq!(
+        refusal("[field]\nturn_axis = [0, 0, 0]"),
+        "length of field.turn_axis = 0 is not allowed: it must be > 0"
+    );
+    assert_eq!(
+        refusal("[base]\nturn_degrees = 3"),
+        "test, line 2: unknown key `base.turn_degrees`; did you mean `turn_deg`?"
+    );
+}
+
 proptest! {
     /// Writing a scene and reading it again changes no bit.
     #[test]

@@ -1,6 +1,7 @@
 """What is wrong is refused with a status and a message, and the instance goes on."""
 
 import math
+from collections.abc import Callable
 
 import pytest
 from conftest import Archive, Device
@@ -84,11 +85,31 @@ def test_outputs_cannot_be_set(device: Device) -> None:
     assert "tip.angle" in refused(device, "setReal", device.references(["tip.angle"]), [0.0])
 
 
-def test_what_is_not_offered(device: Device) -> None:
+def test_bytes_that_are_no_state(device: Device, pack: Callable[..., Archive]) -> None:
     device.start()
     state = device.slave.getFMUstate()
-    assert "not offered" in refused(device, "serializeFMUstate", state)
+    whole = device.slave.serializeFMUstate(state)
     device.slave.freeFMUstate(state)
+    assert "none of this FMU" in refused(device, "deSerializeFMUstate", b"no state, but as long as a header")
+    assert "bytes where" in refused(device, "deSerializeFMUstate", whole[:-1])
+    altered = whole[:200] + bytes([whole[200] ^ 1]) + whole[201:]
+    assert "checksum" in refused(device, "deSerializeFMUstate", altered)
+    other = Device(pack("[design]\nsegments = 1"))
+    assert "of the design {" in refused(other, "deSerializeFMUstate", whole)
+    other.slave.freeInstance()
+    device.step(0.1)
+
+
+def test_derivatives_that_there_are_not(device: Device) -> None:
+    device.start()
+
+    def by(unknown: str, known: str) -> str:
+        references = (device.references([unknown]), device.references([known]), [1.0])
+        return refused(device, "getDirectionalDerivative", *references)
+
+    assert "stability.margin has no derivatives" in by("stability.margin", "magnet.strength")
+    assert "solver.status has no derivatives" in by("solver.status", "magnet.strength")
+    assert "by design.helix.length" in by("tip.angle", "design.helix.length")
     device.step(0.1)
 
 

@@ -3,4 +3,4 @@
 mod benchmarks;
 mod magnetic;
 mod stations;
-mod table;
+pub(crate) mod table;

@@ -9,7 +9,7 @@ use nalgebra::{Matrix2, Vector2};
 use crate::tolerance::{BRUTE_FORCE, LAW, assert_close};
 
 /// Cubic modes without rings close by.
-const PLAIN: Resolution = Resolution { degree: 3, core_points: 0, sections: None, bending_stop: false };
+const PLAIN: Resolution = Resolution { degree: 3, nearest: None, bending_stop: false };
 
 fn spans(spiral: SpiralKind) -> Vec<Span> {
     let Specification::Segmented(paper) = Specification::paper(1) else { unreachable!() };

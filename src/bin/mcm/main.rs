@@ -1,10 +1,13 @@
 //! The command line.
 
+mod comparison;
 mod failure;
 mod field;
 mod files;
 mod pack;
+mod picture;
 mod solve;
+mod study;
 mod sweep;
 
 use std::process::ExitCode;
@@ -37,6 +40,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
+    /// Computes the paper's figures: tables, pictures, and a comparison with the paper
+    Study(study::Study),
 }
 
 fn main() -> ExitCode {
@@ -54,6 +59,7 @@ fn main() -> ExitCode {
         Command::Field(command) => command.run(),
         Command::Sweep(command) => command.run(),
         Command::Pack(command) => command.run(),
+        Command::Study(command) => command.run(),
     };
     outcome.unwrap_or_else(Failure::report)
 }

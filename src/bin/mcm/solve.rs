@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use mcm::equilibrium::Method;
-use mcm::manipulator::{Outputs, Status};
-use nalgebra::Vector3;
+use mcm::error::Error;
+use mcm::manipulator::{Jacobian, Outputs, Status};
+use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
 use super::failure::{Failure, NOT_CONVERGED, UNSTABLE};
@@ -15,6 +15,10 @@ use super::files::read_scene;
 /// Solves one equilibrium, starting from the unloaded shape.
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
+In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a magnet) and tip_by_uniform_field (6 x 3). \
+Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
+centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
+jacobian_note says why.\n\n\
 Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\", any \
 method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable.")]
@@ -35,10 +39,12 @@ impl Solve {
         let scene = read_scene(&self.scene)?.scene()?;
         let mut manipulator = scene.manipulator(self.shape_points)?;
         manipulator.solve(&scene.inputs)?;
+        let jacobian = manipulator.jacobian();
         let outputs = manipulator.measure_margin();
         let mut stdout = std::io::stdout().lock();
         if self.json {
-            serde_json::to_writer_pretty(&mut stdout, &as_json(outputs))?;
+            let answer = as_json(outputs, &jacobian, scene.magnets.is_some());
+            serde_json::to_writer_pretty(&mut stdout, &answer)?;
             writeln!(stdout)?;
         } else {
             write!(stdout, "{}", as_table(outputs))?;
@@ -67,8 +73,14 @@ fn warning(status: Status, stable: Option<bool>) -> Option<(u8, &'static str)> {
     }
 }
 
-fn as_json(outputs: &Outputs) -> Value {
+fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) -> Value {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
+    let derivatives = jacobian.as_ref().ok().map(|jacobian| {
+        json!({
+            "tip_by_magnet": magnet.then(|| rows(&jacobian.tip_by_magnet())),
+            "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
+        })
+    });
     json!({
         "alpha_rad": outputs.tip_angle,
         "tip_position_m": vector(&outputs.tip.position),
@@ -91,7 +103,14 @@ fn as_json(outputs: &Outputs) -> Value {
         "energy_j": outputs.energy,
         "interaction": outputs.interaction.name(),
         "method": outputs.method.name(),
+        "jacobian": derivatives,
+        "jacobian_note": jacobian.as_ref().err().map(ToString::to_string),
     })
+}
+
+/// A matrix as a list of its rows.
+fn rows<const COLUMNS: usize>(matrix: &SMatrix<f64, 6, COLUMNS>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
 fn as_table(outputs: &Outputs) -> String {
@@ -109,17 +128,15 @@ fn as_table(outputs: &Outputs) -> String {
     let stable = match outputs.stable {
         Some(true) => "stable",
         Some(false) => "unstable",
-        None if outputs.method == Method::Potential => "stability unknown: this model has no potential",
-        None => "stability unknown: this method does not ask",
+        None => "stability unknown: this model has no potential",
     };
     let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
     [
         format!(
-            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}, method {}\n\n",
+            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}\n\n",
             outputs.iterations,
             outputs.residual,
-            outputs.interaction.name(),
-            outputs.method.name()
+            outputs.interaction.name()
         ),
         row("tip angle", format!("{:.4}", outputs.tip_angle.to_degrees()), "deg"),
         vector("tip position", &outputs.tip.position, 1e3, "mm"),

@@ -1,24 +1,36 @@
 //! `mcm sweep`: equilibria while numbers of the scene vary.
 
+mod range;
+mod rows;
+mod summary;
+
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::str::FromStr;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use mcm::manipulator::{Outputs, Scene, SceneFile, Status};
+use mcm::manipulator::{Branch, Fold, Scene, SceneFile};
 use rayon::prelude::*;
+use serde::Serialize;
 
-use super::failure::Failure;
+use super::failure::{Failure, NOT_CONVERGED};
 use super::files::{create_table, read_scene};
+use range::{Range, grid};
+use rows::{Row, header};
 
-/// Follows one branch of equilibria along the first key, for every combination of the other keys.
+/// Follows one branch along the first key, for every combination of the other keys.
 #[derive(clap::Args)]
 #[command(
     after_help = "KEY is a path in the scene file with indices from 1. Along the first key each solve starts from \
-the shape of the one before, as the device would; the combinations of the others run in parallel, each from the \
-unloaded shape. Forces and fields are in the world frame, units are in the column names.\n\n\
-Example, a field that grows, for three core lengths:\n    \
-mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv"
+the shape of the one before, as the device would, in steps of at most a hundredth of the range; the combinations of the \
+others run in parallel, each from the unloaded shape. Where the branch folds and the shape snaps, the value is located \
+to 1e-5 of the range and told, with the angles before and after. Forces and fields are in the world frame, units are in \
+the column names.\n\n\
+Examples, a field that grows, for three core lengths; a field that turns there and back; a magnet that turns:\n    \
+mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv\n    \
+mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
+mcm sweep scene.toml --vary magnet.turn_deg=0:90:91 --out sweep.csv\n\n\
+Exit status: 0 done, 1 bad input, 2 some rows did not converge (all files are written)."
 )]
 pub(crate) struct Sweep {
     /// Scene file (TOML)
@@ -26,41 +38,40 @@ pub(crate) struct Sweep {
     /// A key and its values: COUNT values from START to STOP, both included
     #[arg(long, value_name = "KEY=START:STOP:COUNT", required = true)]
     vary: Vec<Range>,
+    /// After its last value the first key runs back to its first, on the branch that is then reached
+    #[arg(long)]
+    back: bool,
     /// Where the results go, CSV
     #[arg(long, value_name = "OUT.csv")]
     out: PathBuf,
+    /// Where the folds go, CSV: the value of each, the angles before and after
+    #[arg(long, value_name = "FOLDS.csv")]
+    folds: Option<PathBuf>,
 }
 
-/// More values of one key are a slip of the pen: their table would not fit into memory.
-const MOST_VALUES: u32 = 1_000_000;
+/// Longest step between two solves, of the first key's range: a field that turns by half a circle goes along chords of
+/// two degrees.
+const LONGEST_STEP: f64 = 0.01;
 
-/// Values of one key.
-#[derive(Clone)]
-struct Range {
-    key: String,
-    values: Vec<f64>,
+/// The way of the first key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Way {
+    Forth,
+    Back,
 }
 
-impl FromStr for Range {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = || format!("\"{text}\" is not of the form KEY=START:STOP:COUNT");
-        let (key, range) = text.split_once('=').ok_or_else(form)?;
-        let [start, stop, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form()) };
-        let number = |text: &str| match text.trim().parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("\"{text}\" is no finite number")),
-        };
-        let (start, stop) = (number(start)?, number(stop)?);
-        let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is no count"))?;
-        if !(1..=MOST_VALUES).contains(&count) {
-            return Err(format!("COUNT = {count} is not allowed: it must be from 1 to {MOST_VALUES}"));
-        }
-        let last = f64::from(count - 1);
-        let value = |i: u32| if i == 0 { start } else { start + (stop - start) * (f64::from(i) / last) };
-        Ok(Self { key: key.trim().into(), values: (0..count).map(value).collect() })
+impl std::fmt::Display for Way {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str(if *self == Self::Forth { "forth" } else { "back" })
     }
+}
+
+/// What was found for one combination of the other keys.
+struct Walk {
+    others: Vec<f64>,
+    rows: Vec<Row>,
+    folds: Vec<(Fold, Way)>,
 }
 
 impl Sweep {
@@ -70,37 +81,110 @@ impl Sweep {
         let Some((along, others)) = self.vary.split_first() else { return Ok(ExitCode::SUCCESS) };
         let grid = grid(others);
         // Every key and value is tried before the first solve.
+        let mut same_device = true;
         for combination in &grid {
+            let varied = with(&file, others, combination)?;
+            let mut first: Option<Scene> = None;
             for &value in &along.values {
-                with(&file, others, combination)?.with(&along.key, value)?.scene()?;
+                let scene = varied.with(&along.key, value)?.scene()?;
+                same_device &= is_same_device(first.get_or_insert_with(|| scene.clone()), &scene);
             }
         }
+        if self.back && !same_device {
+            return Err(Failure::Message(format!(
+                "--back has no meaning for {}: each of its values is another device, which starts unloaded",
+                along.key
+            )));
+        }
         let mut table = create_table(&self.out)?;
-        let bar = progress_bar((grid.len() * along.values.len()) as u64);
-        let branches: Vec<Vec<Row>> = grid
+        let ways = if self.back { 2 } else { 1 };
+        let bar = progress_bar((ways * grid.len() * along.values.len()) as u64);
+        let walks: Vec<Walk> = grid
             .par_iter()
-            .map(|combination| branch(&with(&file, others, combination)?, along, combination, &bar))
+            .map(|combination| {
+                let file = with(&file, others, combination)?;
+                if same_device {
+                    self.walk(&file, along, combination, &bar)
+                } else {
+                    devices(&file, along, combination, &bar)
+                }
+            })
             .collect::<Result<_, Failure>>()?;
         bar.finish_and_clear();
-        let keys = self.vary.iter().map(|range| range.key.as_str());
-        table.write_record(keys.chain(NUMBERS).chain(FLAGS))?;
-        for row in branches.iter().flatten() {
-            table.serialize(row)?;
+        let keys: Vec<&str> = self.vary.iter().map(|range| range.key.as_str()).collect();
+        table.write_record(header(keys.iter().copied()))?;
+        for row in walks.iter().flat_map(|walk| &walk.rows) {
+            table.serialize(row.cells())?;
         }
         table.flush()?;
-        Ok(ExitCode::SUCCESS)
+        if let Some(path) = &self.folds {
+            summary::write_folds(path, &keys, &walks)?;
+        }
+        self.report(&keys, &walks)
+    }
+
+    /// Follows one branch along the first key, and back.
+    fn walk(
+        &self,
+        file: &SceneFile,
+        along: &Range,
+        others: &[f64],
+        bar: &ProgressBar,
+    ) -> Result<Walk, Failure> {
+        let manipulator = file.with(&along.key, along.values[0])?.scene()?.manipulator(2)?;
+        let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
+        // A single value, or all the same: any span will do.
+        let span = if along.span() > 0.0 { along.span() } else { 1.0 };
+        let mut branch = Branch::new(manipulator, inputs, span, LONGEST_STEP * span)?;
+        let forth = along.values.iter().map(|&value| (value, Way::Forth));
+        let back = along.values.iter().rev().skip(1).map(|&value| (value, Way::Back));
+        let (mut rows, mut folds) = (Vec::new(), Vec::new());
+        for (value, way) in forth.chain(back.filter(|_| self.back)) {
+            branch.to(value)?;
+            rows.push(Row::new([&[value], others].concat(), way, branch.outputs(), branch.predicted_fold()));
+            folds.resize(branch.folds().len(), way);
+            bar.inc(1);
+        }
+        let folds = branch.folds().iter().cloned().zip(folds).collect();
+        Ok(Walk { others: others.to_vec(), rows, folds })
+    }
+
+    /// Tells what was found, for people, and gives the exit status.
+    fn report(&self, keys: &[&str], walks: &[Walk]) -> Result<ExitCode, Failure> {
+        let rows = || walks.iter().flat_map(|walk| &walk.rows);
+        let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
+        let mut stdout = std::io::stdout().lock();
+        writeln!(stdout, "{}: {} rows, folds met: {folds}", self.out.display(), rows().count())?;
+        for walk in walks {
+            write!(stdout, "{}", summary::describe(keys, walk))?;
+        }
+        stdout.flush()?;
+        let lost = rows().filter(|row| !row.converged()).count();
+        if lost == 0 {
+            return Ok(ExitCode::SUCCESS);
+        }
+        let message = "rows did not converge: they repeat the last good shape, with converged = false";
+        writeln!(std::io::stderr(), "warning: {lost} of {} {message}", rows().count())?;
+        Ok(NOT_CONVERGED.into())
     }
 }
 
-/// Every combination of the ranges' values, the last range fastest.
-fn grid(ranges: &[Range]) -> Vec<Vec<f64>> {
-    ranges.iter().fold(vec![Vec::new()], |grid, range| {
-        let extended = |start: &Vec<f64>| {
-            let start = start.clone();
-            range.values.iter().map(move |&value| [&start[..], &[value]].concat())
-        };
-        grid.iter().flat_map(extended).collect()
-    })
+/// Whether two scenes differ in their inputs alone.
+fn is_same_device(a: &Scene, b: &Scene) -> bool {
+    (&a.specification, &a.magnets, &a.settings) == (&b.specification, &b.magnets, &b.settings)
+}
+
+/// Solves each value of the first key for a device of its own.
+fn devices(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -> Result<Walk, Failure> {
+    let solve = |&value: &f64| {
+        let scene = file.with(&along.key, value)?.scene()?;
+        let mut manipulator = scene.manipulator(2)?;
+        manipulator.solve(&scene.inputs)?;
+        bar.inc(1);
+        Ok(Row::new([&[value], others].concat(), Way::Forth, manipulator.measure_margin(), None))
+    };
+    let rows = along.values.iter().map(solve).collect::<Result<_, Failure>>()?;
+    Ok(Walk { others: others.to_vec(), rows, folds: Vec::new() })
 }
 
 fn with(file: &SceneFile, ranges: &[Range], values: &[f64]) -> Result<SceneFile, Failure> {
@@ -111,31 +195,6 @@ fn with(file: &SceneFile, ranges: &[Range], values: &[f64]) -> Result<SceneFile,
     Ok(varied)
 }
 
-/// Follows one branch along the first key.
-fn branch(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -> Result<Vec<Row>, Failure> {
-    let mut last: Option<(Scene, mcm::manipulator::Manipulator)> = None;
-    let mut rows = Vec::with_capacity(along.values.len());
-    for &value in &along.values {
-        let scene = file.with(&along.key, value)?.scene()?;
-        // Another design, magnet or model is another device, which starts unloaded; other inputs are the same device.
-        let same = last.take().filter(|(before, _)| {
-            (&before.specification, &before.magnets, &before.settings)
-                == (&scene.specification, &scene.magnets, &scene.settings)
-        });
-        let mut manipulator = match same {
-            Some((_, manipulator)) => manipulator,
-            None => scene.manipulator(2)?,
-        };
-        manipulator.solve(&scene.inputs)?;
-        let outputs = manipulator.measure_margin();
-        let varied = [&[value], others].concat();
-        rows.push(row(varied, outputs));
-        last = Some((scene, manipulator));
-        bar.inc(1);
-    }
-    Ok(rows)
-}
-
 /// Hidden when standard error is no terminal.
 fn progress_bar(solves: u64) -> ProgressBar {
     let bar = ProgressBar::new(solves);
@@ -143,64 +202,4 @@ fn progress_bar(solves: u64) -> ProgressBar {
         bar.set_style(style);
     }
     bar
-}
-
-const NUMBERS: [&str; 29] = [
-    "alpha_deg",
-    "tip_x_mm",
-    "tip_y_mm",
-    "tip_z_mm",
-    "largest_core_angle_deg",
-    "magnetic_force_x_n",
-    "magnetic_force_y_n",
-    "magnetic_force_z_n",
-    "magnetic_torque_x_nm",
-    "magnetic_torque_y_nm",
-    "magnetic_torque_z_nm",
-    "base_reaction_force_x_n",
-    "base_reaction_force_y_n",
-    "base_reaction_force_z_n",
-    "base_reaction_moment_x_nm",
-    "base_reaction_moment_y_nm",
-    "base_reaction_moment_z_nm",
-    "magnet_reaction_force_x_n",
-    "magnet_reaction_force_y_n",
-    "magnet_reaction_force_z_n",
-    "magnet_reaction_torque_x_nm",
-    "magnet_reaction_torque_y_nm",
-    "magnet_reaction_torque_z_nm",
-    "tip_field_x_mt",
-    "tip_field_y_mt",
-    "tip_field_z_mt",
-    "energy_j",
-    "residual",
-    "stability_margin",
-];
-
-const FLAGS: [&str; 4] = ["stable", "snaps", "converged", "iterations"];
-
-/// Varied values, [`NUMBERS`], [`FLAGS`].
-type Row = (Vec<f64>, Vec<f64>, (Option<bool>, u32, bool, u32));
-
-fn row(varied: Vec<f64>, outputs: &Outputs) -> Row {
-    const MM_PER_M: f64 = 1e3;
-    const MT_PER_T: f64 = 1e3;
-    let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
-    let mut numbers = vec![outputs.tip_angle.to_degrees()];
-    numbers.extend(&(outputs.tip.position * MM_PER_M));
-    numbers.push(largest.to_degrees());
-    for vector in [
-        &outputs.magnetic_force,
-        &outputs.magnetic_torque,
-        &outputs.base_reaction_force,
-        &outputs.base_reaction_moment,
-        &outputs.magnet_reaction_force,
-        &outputs.magnet_reaction_torque,
-        &(outputs.tip_field * MT_PER_T),
-    ] {
-        numbers.extend(vector);
-    }
-    numbers.extend([outputs.energy, outputs.residual, outputs.stability_margin]);
-    let converged = outputs.status != Status::NotSolved;
-    (varied, numbers, (outputs.stable, outputs.snaps, converged, outputs.iterations))
 }

@@ -130,10 +130,10 @@ impl Balance<'_, '_> {
             for station in &table.stations {
                 // From the arc's start, of which the element's start is a rigid length away.
                 let along = station.row.arc_length + table.offset - arc.before;
-                let part = (station.piece == arc.core).then(|| {
-                    arc.bent(&start, &angles[element], along / arc.length)
-                });
-                let behind = usize::from(station.piece > arc.core);
+                let part = (0.0..=arc.length)
+                    .contains(&along)
+                    .then(|| arc.bent(&start, &angles[element], along / arc.length));
+                let behind = usize::from(along > arc.length);
                 let pose = match &part {
                     Some(part) => part.pose,
                     None if behind == 1 => bent[element].pose.advanced(along - arc.length),
@@ -191,56 +191,52 @@ impl Balance<'_, '_> {
         }
         out / self.around.line.moment
     }
+}
 
-    /// How the directions in which the angles move the bodies change with the angles, times the loads.
-    fn geometric(&self, out: &mut DMatrix<f64>, bodies: &[Body], bent: &[Bent]) {
-        for (j, arc) in bent.iter().enumerate() {
-            let (mut force, mut couple, mut arms) = (Vector3::zeros(), Vector3::zeros(), Matrix3::zeros());
-            // Levers of this arc's own motion: of forces, and of couples.
-            let mut levers = [[Vector3::zeros(); 2]; 2];
-            for body in bodies {
-                let pull: Vector3<f64> = body.gradient.fixed_rows::<3>(0).into_owned();
-                let moment: Vector3<f64> = body.gradient.fixed_rows::<3>(3).into_owned();
-                if body.carriers > j {
-                    force += pull;
-                    couple += moment;
-                    arms += (body.position - arc.pose.position) * pull.transpose();
-                } else if let Some(part) = body.part.as_ref().filter(|_| body.carriers == j) {
-                    for c in 0..2 {
-                        levers[0][c] += part.moved[c].cross(&pull);
-                        levers[1][c] += part.turned[c].cross(&moment);
-                        let bending = part.moved_derivative(&pull);
-                        for d in 0..2 {
-                            out[(2 * j + c, 2 * j + d)] +=
-                                bending[(c, d)] + part.turned_derivative(c, d).dot(&moment);
-                        }
+/// How the directions in which the angles move the bodies change with the angles, times the loads.
+fn geometric(out: &mut DMatrix<f64>, bodies: &[Body], bent: &[Bent]) {
+    for (j, arc) in bent.iter().enumerate() {
+        let (mut force, mut couple, mut arms) = (Vector3::zeros(), Vector3::zeros(), Matrix3::zeros());
+        // Levers of this arc's own motion: of forces, and of couples.
+        let mut levers = [[Vector3::zeros(); 2]; 2];
+        for body in bodies {
+            let pull: Vector3<f64> = body.gradient.fixed_rows::<3>(0).into_owned();
+            let moment: Vector3<f64> = body.gradient.fixed_rows::<3>(3).into_owned();
+            if body.carriers > j {
+                force += pull;
+                couple += moment;
+                arms += (body.position - arc.pose.position) * pull.transpose();
+            } else if let Some(part) = body.part.as_ref().filter(|_| body.carriers == j) {
+                for c in 0..2 {
+                    levers[0][c] += part.moved[c].cross(&pull);
+                    levers[1][c] += part.turned[c].cross(&moment);
+                    let bending = part.moved_derivative(&pull);
+                    for d in 0..2 {
+                        out[(2 * j + c, 2 * j + d)] +=
+                            bending[(c, d)] + part.turned_derivative(c, d).dot(&moment);
                     }
                 }
             }
-            let bending = arc.moved_derivative(&force);
-            // Sum of (a x arm) x force, for a rotation a.
-            let swung = |a: &Vector3<f64>| arms * a - a * arms.trace();
-            for c in 0..2 {
-                levers[0][c] += arc.moved[c].cross(&force) + swung(&arc.turned[c]);
-                levers[1][c] += arc.turned[c].cross(&couple);
+        }
+        let bending = arc.moved_derivative(&force);
+        // Sum of (a x arm) x force, for a rotation a.
+        let swung = |a: &Vector3<f64>| arms * a - a * arms.trace();
+        for c in 0..2 {
+            levers[0][c] += arc.moved[c].cross(&force) + swung(&arc.turned[c]);
+            levers[1][c] += arc.turned[c].cross(&couple);
+            for d in 0..2 {
+                let turned = arc.turned_derivative(c, d);
+                // Sum of (a x arm) . force, which is a . (sum of arm x force).
+                let lever = Vector3::new(arms.m23 - arms.m32, arms.m31 - arms.m13, arms.m12 - arms.m21);
+                out[(2 * j + c, 2 * j + d)] += bending[(c, d)]
+                    + turned.dot(&(couple + lever))
+                    + arc.turned[c].dot(&swung(&arc.turned[d]));
+            }
+            for (l, before) in bent[..j].iter().enumerate() {
                 for d in 0..2 {
-                    let turned = arc.turned_derivative(c, d);
-                    // Sum of (a x arm) . force, which is a . (sum of arm x force).
-                    let lever = Vector3::new(
-                        arms.m23 - arms.m32,
-                        arms.m31 - arms.m13,
-                        arms.m12 - arms.m21,
-                    );
-                    out[(2 * j + c, 2 * j + d)] += bending[(c, d)]
-                        + turned.dot(&(couple + lever))
-                        + arc.turned[c].dot(&swung(&arc.turned[d]));
-                }
-                for (l, before) in bent[..j].iter().enumerate() {
-                    for d in 0..2 {
-                        let by_force = before.turned[d].dot(&levers[0][c]);
-                        out[(2 * j + c, 2 * l + d)] += by_force + before.turned[d].dot(&levers[1][c]);
-                        out[(2 * l + d, 2 * j + c)] += by_force;
-                    }
+                    let by_force = before.turned[d].dot(&levers[0][c]);
+                    out[(2 * j + c, 2 * l + d)] += by_force + before.turned[d].dot(&levers[1][c]);
+                    out[(2 * l + d, 2 * j + c)] += by_force;
                 }
             }
         }
@@ -271,7 +267,7 @@ impl Equations for Balance<'_, '_> {
             let [row, by] = [row, by].map(|node| &columns[numbers[node - 1]]);
             matrix += row.tr_mul(&(block * by));
         }
-        self.geometric(&mut matrix, &bodies, &bent);
+        geometric(&mut matrix, &bodies, &bent);
         self.factors = Some((matrix / self.around.line.moment).lu());
         Some(self.residual.norm()).filter(|norm| norm.is_finite())
     }

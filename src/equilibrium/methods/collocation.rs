@@ -7,7 +7,7 @@
 //! Sources: Ascher, Christiansen and Russell, ACM Trans. Math. Softw. 7, 1981 (COLSYS: collocation, elimination);
 //! Kierzenka and Shampine, ACM Trans. Math. Softw. 27, 2001 (bvp4c: control of the residual).
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Matrix6;
 
 use super::condensation::Condensed;
 use super::engine::Shape;
@@ -99,14 +99,13 @@ impl Collocation {
         let Guess { shape, mesh } = &self.guess;
         let mut trace = Trace::default();
         for (element, intervals) in mesh.iter().enumerate() {
-            let nodes = &shape.nodes[..=element];
             let mut state = around.offset(element, &shape.state(element), Some(&mut trace));
             for interval in intervals {
                 let mut from = (interval.at(0.0), state);
                 for part in 1..=LINKS {
                     let x = part as f64 / LINKS as f64;
                     let to = (interval.at(x), state.displaced(&interval.local_at(&self.tableau, x)));
-                    let rates = [around.rates(&from.0, &from.1, nodes)?, around.rates(&to.0, &to.1, nodes)?];
+                    let rates = [around.rates(&from.0, &from.1)?, around.rates(&to.0, &to.1)?];
                     let length = interval.length / LINKS as f64;
                     trace.add(&from.0, length, [&from.1.pose, &to.1.pose], &rates);
                     from = to;
@@ -163,11 +162,9 @@ impl<'a, 'b> Collocated<'a, 'b> {
         let mut refined = false;
         for element in 0..guess.mesh.len() {
             let starts = self.starts(guess, element);
-            let nodes = &guess.shape.nodes[..=element];
             let mut divided = Vec::new();
             for (interval, start) in guess.mesh[element].iter().zip(&starts) {
-                let excess =
-                    interval.residual(self.around, self.tableau, start, nodes, &self.scale)? / tolerance;
+                let excess = interval.residual(self.around, self.tableau, start, &self.scale)? / tolerance;
                 if excess > 1.0 {
                     refined = true;
                     divided.extend(interval.divided(self.tableau, excess));
@@ -192,13 +189,11 @@ impl Equations for Collocated<'_, '_> {
         self.residuals.clear();
         for element in 0..at.mesh.len() {
             let starts = self.starts(at, element);
-            let nodes = &at.shape.nodes[..=element];
             let mut residuals = Vec::new();
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
                 let lack = |j: usize| {
                     let place = interval.stage(self.tableau, j);
-                    let asked =
-                        self.around.local_rate(&place, start, &interval.local(self.tableau, j), nodes)?;
+                    let asked = self.around.local_rate(&place, start, &interval.local(self.tableau, j))?;
                     Some((asked - interval.rates[j]).component_mul(&self.scale))
                 };
                 residuals.push((0..interval.rates.len()).map(lack).collect::<Option<Vec<_>>>()?);
@@ -217,17 +212,17 @@ impl Equations for Collocated<'_, '_> {
         self.condensed.clear();
         for element in 0..at.mesh.len() {
             let starts = self.starts(at, element);
-            let nodes = &at.shape.nodes[..=element];
             let mut condensed = Condensed::new(self.around, &self.basis, element, &at.shape.state(element));
             let mut residuals = Vec::new();
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
                 let stages = (0..interval.rates.len()).map(|j| {
                     let place = interval.stage(self.tableau, j);
-                    self.around.stage(&place, start, &interval.local(self.tableau, j), nodes)
+                    self.around.stage(&place, start, &interval.local(self.tableau, j))
                 });
                 let stages = stages.collect::<Option<Vec<_>>>()?;
                 let lack = stages.iter().zip(&interval.rates);
-                residuals.push(lack.map(|(stage, rate)| (stage.rate - rate).component_mul(&self.scale)).collect());
+                residuals
+                    .push(lack.map(|(stage, rate)| (stage.rate - rate).component_mul(&self.scale)).collect());
                 condensed.add(self.tableau, interval, &stages)?;
             }
             let end = starts[starts.len() - 1];
@@ -249,7 +244,7 @@ impl Equations for Collocated<'_, '_> {
         let mut particular = Vec::new();
         for (element, condensed) in self.condensed.iter().enumerate() {
             let own = condensed.particular(&self.residuals[element])?;
-            let end = condensed.cross(&own, &Vector12::zeros(), &[], None);
+            let end = condensed.cross(&own, &Vector12::zeros(), None);
             defects.pose[element] += end.fixed_rows::<6>(0);
             defects.wrench[element] += end.fixed_rows::<6>(6);
             particular.push(own);
@@ -262,8 +257,7 @@ impl Equations for Collocated<'_, '_> {
                 start.fixed_rows_mut::<6>(0).copy_from(&solution.poses[element - 1]);
             }
             start.fixed_rows_mut::<6>(6).copy_from(&solution.wrenches[element]);
-            let rings: &[Vector6<f64>] = &solution.poses;
-            condensed.cross(&particular[element], &start, rings, Some(&mut step));
+            condensed.cross(&particular[element], &start, Some(&mut step));
         }
         Some(step)
     }

@@ -248,7 +248,7 @@ impl Comparison {
     fn magnetic(&self, inputs: &Inputs, magnet: Option<&Assembly>) -> Wrench {
         let around = self.around(inputs, magnet);
         let nodes = &self.state.shape.nodes;
-        let spans = self.state.shape.trace.totals(&around, nodes);
+        let spans = self.state.shape.trace.totals(&around);
         let Some(Totals { mut magnetic, .. }) = spans else { return no_wrench() };
         for node in 0..nodes.len() {
             let Some(load) = around.node(node, nodes, Order::Gradient) else { return no_wrench() };
@@ -263,7 +263,7 @@ impl Comparison {
     fn energy(&self, inputs: &Inputs) -> f64 {
         let around = self.around(inputs, self.magnet.as_ref());
         let nodes = &self.state.shape.nodes;
-        let spans = self.state.shape.trace.totals(&around, nodes).map_or(0.0, |totals| totals.energy);
+        let spans = self.state.shape.trace.totals(&around).map_or(0.0, |totals| totals.energy);
         let loads = around.nodes(nodes, Order::Gradient);
         spans + loads.map_or(0.0, |(loads, _)| loads.iter().map(|load| load.energy).sum())
     }

@@ -1,6 +1,6 @@
 //! The chain as differential equations see it: rigid offset and spans of each element, one after another.
 
-use crate::design::{Design, Span, SpanKind};
+use crate::design::{Design, Span};
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::settings::{Interaction, Settings};
 use crate::error::Error;
@@ -50,11 +50,6 @@ impl Line {
     /// Number of elements.
     pub(super) fn count(&self) -> usize {
         self.spans.len()
-    }
-
-    /// Whether a span is the disc bonded to the ring at its element's start.
-    pub(super) fn bonded(&self, place: &Place) -> bool {
-        place.piece == 0 && self.spans[place.element][0].kind == SpanKind::Disc
     }
 
     /// Units of force (N) and moment (N m): those that bend an element by a radian.

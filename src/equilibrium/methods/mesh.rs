@@ -6,7 +6,7 @@ use super::line::{Line, Place};
 use super::strong_form::{State, Vector12};
 use super::surroundings::Surroundings;
 use crate::design::SpanKind;
-use crate::geometry::{Pose, RotationVector, rotation_log};
+use crate::geometry::{RotationVector, rotation_log};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
 /// Parts at most into which an interval is divided at once.
@@ -112,12 +112,11 @@ impl Interval {
         around: &Surroundings<'_>,
         tableau: &Tableau,
         start: &State,
-        nodes: &[Pose],
         scale: &Vector12,
     ) -> Option<f64> {
         let mut worst = 0.0;
         for x in [0.0, 1.0] {
-            let asked = around.local_rate(&self.at(x), start, &self.local_at(tableau, x), nodes)?;
+            let asked = around.local_rate(&self.at(x), start, &self.local_at(tableau, x))?;
             let lack = asked - sum(&self.rates, &tableau.values(x));
             worst = f64::max(worst, lack.component_mul(scale).norm());
         }

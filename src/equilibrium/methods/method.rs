@@ -1,10 +1,12 @@
 //! The methods by name, and how finely they resolve.
 
+use serde::{Deserialize, Serialize};
+
 use crate::equilibrium::settings::Interaction;
 use crate::error::{Error, check};
 
 /// How the equilibrium is found. All but the potential method are kept for comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
     /// Minimum of the potential over strain modes, see [`crate::equilibrium::Equilibrium`].
     Potential,
@@ -31,12 +33,12 @@ impl Method {
             "potential",
             &[Interaction::None, Interaction::Preceding, Interaction::Rings, Interaction::Full],
         ),
-        (Self::ShootingPaper, "shooting-fd", CAUSAL_OR_RINGS),
-        (Self::ShootingExact, "shooting", CAUSAL_OR_RINGS),
-        (Self::MultipleShooting, "multiple-shooting", CAUSAL_OR_RINGS),
-        (Self::Collocation, "collocation", CAUSAL_OR_RINGS),
-        (Self::ConstantCurvature, "constant-curvature", RINGS_ALONE),
-        (Self::Planar, "planar", RINGS_ALONE),
+        (Self::ShootingPaper, "shooting-fd", RINGS_AT_MOST),
+        (Self::ShootingExact, "shooting", RINGS_AT_MOST),
+        (Self::MultipleShooting, "multiple-shooting", RINGS_AT_MOST),
+        (Self::Collocation, "collocation", RINGS_AT_MOST),
+        (Self::ConstantCurvature, "constant-curvature", RINGS_AT_MOST),
+        (Self::Planar, "planar", RINGS_AT_MOST),
     ];
 
     /// The method with this name.
@@ -64,10 +66,9 @@ impl Method {
     }
 }
 
-/// In `full` spans act back on rings: the load on a ring depends on shapes that these methods have not yet integrated.
-const CAUSAL_OR_RINGS: &[Interaction] = &[Interaction::None, Interaction::Preceding, Interaction::Rings];
-
-const RINGS_ALONE: &[Interaction] = &[Interaction::None, Interaction::Rings];
+/// Where rings act on spans the differential equations are no longer local: what a ring feels is an integral over the
+/// shapes of others.
+const RINGS_AT_MOST: &[Interaction] = &[Interaction::None, Interaction::Rings];
 
 /// Resolution and limits of the methods beside the potential one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,7 +121,12 @@ impl Discretisation {
         count("Gauss points of an interval", self.stages, 8.0, "from 1 to 8")?;
         count("collocation intervals of a core", self.intervals, 1e3, "from 1 to 1000")?;
         check("residual of the mesh", self.mesh_tolerance, |v| v > 0.0, "> 0")?;
-        check("tolerance of the methods", self.tolerance, |v| (1e-14..0.1).contains(&v), "from 1e-14 to 0.1")?;
+        check(
+            "tolerance of the methods",
+            self.tolerance,
+            |v| (1e-14..0.1).contains(&v),
+            "from 1e-14 to 0.1",
+        )?;
         check("iterations of the methods", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
         check("smallest part of an input change", self.smallest_part, |v| v > 0.0 && v <= 1.0, "in (0, 1]")?;
         Ok(self)

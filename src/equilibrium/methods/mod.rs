@@ -20,7 +20,6 @@ mod solver;
 mod strong_form;
 mod surroundings;
 mod trace;
-mod transfer;
 
 pub use comparison::Comparison;
 pub use method::{Discretisation, Method};

@@ -1,11 +1,10 @@
 //! Multiple shooting from node to node: short integrations, in which no error grows, joined by Newton's method.
 
 use super::node_shape::{Basis, NodeShape, couplings, flat, size};
-use super::node_system::{Block, Defects, Link, NodeSystem};
+use super::node_system::{Defects, Link, NodeSystem};
 use super::strong_form::State;
 use super::surroundings::Surroundings;
 use super::trace::Trace;
-use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::Ending;
 use crate::numerics::newton::{self, Equations};
 use crate::rod::Order;
@@ -16,15 +15,9 @@ pub(super) trait Crossing<const D: usize> {
     /// The coordinates of nodes and wrenches.
     fn basis(&self) -> &Basis<D>;
     /// From the state at a node to that before the next.
-    fn cross(
-        &self,
-        element: usize,
-        state: &State,
-        nodes: &[Pose],
-        trace: Option<&mut Trace>,
-    ) -> Option<State>;
+    fn cross(&self, element: usize, state: &State, trace: Option<&mut Trace>) -> Option<State>;
     /// The same with its derivative; `next` is not set.
-    fn cross_linear(&self, element: usize, state: &State, nodes: &[Pose]) -> Option<(State, Link<D>)>;
+    fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<D>)>;
 }
 
 /// Shooting through space.
@@ -45,19 +38,13 @@ impl Crossing<6> for Spatial<'_, '_> {
         &self.basis
     }
 
-    fn cross(
-        &self,
-        element: usize,
-        state: &State,
-        nodes: &[Pose],
-        trace: Option<&mut Trace>,
-    ) -> Option<State> {
-        self.around.cross(element, state, nodes, self.steps, trace)
+    fn cross(&self, element: usize, state: &State, trace: Option<&mut Trace>) -> Option<State> {
+        self.around.cross(element, state, self.steps, trace)
     }
 
-    fn cross_linear(&self, element: usize, state: &State, nodes: &[Pose]) -> Option<(State, Link<6>)> {
-        let (end, transfer) = self.around.cross_linear(element, state, nodes, self.steps)?;
-        Some((end, transfer.link(&self.basis)))
+    fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<6>)> {
+        let (end, own) = self.around.cross_linear(element, state, self.steps)?;
+        Some((end, self.basis.link(&own)))
     }
 }
 
@@ -73,9 +60,8 @@ impl<C: Crossing<D>, const D: usize> Equations for Joined<'_, '_, C, D> {
     type Point = NodeShape;
 
     fn evaluate(&mut self, at: &NodeShape) -> Option<f64> {
-        let ends: Option<Vec<State>> = (0..at.wrenches.len())
-            .map(|k| self.crossing.cross(k, &at.state(k), &at.nodes[..=k], None))
-            .collect();
+        let ends: Option<Vec<State>> =
+            (0..at.wrenches.len()).map(|k| self.crossing.cross(k, &at.state(k), None)).collect();
         let (_, loads) = self.around.nodes(&at.nodes, Order::Gradient)?;
         self.defects = at.defects(self.crossing.basis(), &ends?, &loads);
         Some(size(&self.defects))
@@ -85,7 +71,7 @@ impl<C: Crossing<D>, const D: usize> Equations for Joined<'_, '_, C, D> {
         let basis = self.crossing.basis();
         let (mut ends, mut links) = (Vec::new(), Vec::new());
         for k in 0..at.wrenches.len() {
-            let (end, mut link) = self.crossing.cross_linear(k, &at.state(k), &at.nodes[..=k])?;
+            let (end, mut link) = self.crossing.cross_linear(k, &at.state(k))?;
             link.next = at.next(basis, k, &end);
             ends.push(end);
             links.push(link);
@@ -102,13 +88,6 @@ impl<C: Crossing<D>, const D: usize> Equations for Joined<'_, '_, C, D> {
 
     fn moved(&self, at: &NodeShape, step: &[f64], factor: f64) -> NodeShape {
         at.moved(self.crossing.basis(), step, factor)
-    }
-}
-
-impl<const D: usize> Link<D> {
-    /// A link from its blocks, in coordinates of one size.
-    pub(super) fn new(pose: [Block<D>; 2], wrench: [Block<D>; 2], rings: Vec<[Block<D>; 2]>) -> Self {
-        Self { pose, wrench, rings, next: Block::identity() }
     }
 }
 
@@ -139,7 +118,7 @@ pub(super) fn trace<C: Crossing<D>, const D: usize>(
     let mut trace = Trace::default();
     let count = shape.wrenches.len();
     for k in 0..count {
-        crossing.cross(k, &shape.state(k), &shape.nodes[..=k], Some(&mut trace))?;
+        crossing.cross(k, &shape.state(k), Some(&mut trace))?;
     }
     trace.add_rigid(around.line.chain.tip_offset, &shape.nodes[count]);
     Some(trace)

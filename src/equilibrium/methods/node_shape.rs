@@ -3,8 +3,8 @@
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
 use super::line::Line;
-use super::node_system::{Block, Coupling, Defects, Solution};
-use super::strong_form::State;
+use super::node_system::{Block, Coupling, Defects, Link, Solution};
+use super::strong_form::{Matrix12, State};
 use super::surroundings::{NodeLoad, column};
 use super::trace::Trace;
 use crate::geometry::{Pose, RotationVector, rotation_log};
@@ -38,6 +38,17 @@ impl<const D: usize> Basis<D> {
         Self { pose, wrench, pose_part, wrench_part }
     }
 
+    /// What leads from the start of an element to its end, `next` left at one, from its derivative by displacement and
+    /// wrench.
+    pub(super) fn link(&self, own: &Matrix12) -> Link<D> {
+        let own = |row: usize, column: usize| own.fixed_view::<6, 6>(row, column).into_owned();
+        Link {
+            pose: [self.pose_part * own(0, 0) * self.pose, self.pose_part * own(0, 6) * self.wrench],
+            wrench: [self.wrench_part * own(6, 0) * self.pose, self.wrench_part * own(6, 6) * self.wrench],
+            next: Block::identity(),
+        }
+    }
+
     /// Derivative of a wrench by a displacement.
     pub(super) fn stiffness(&self, matrix: &Matrix6<f64>) -> Block<D> {
         self.wrench_part * matrix * self.pose
@@ -67,7 +78,8 @@ impl NodeShape {
         };
         let mut nodes: Vec<Pose> = self.nodes.iter().map(pose).collect();
         nodes[0] = *base;
-        let wrench = |w: &Vector6<f64>| column(&(turn * w.fixed_rows::<3>(0)), &(turn * w.fixed_rows::<3>(3)));
+        let wrench =
+            |w: &Vector6<f64>| column(&(turn * w.fixed_rows::<3>(0)), &(turn * w.fixed_rows::<3>(3)));
         Self { nodes, wrenches: self.wrenches.iter().map(wrench).collect() }
     }
 
@@ -105,7 +117,9 @@ impl NodeShape {
 
     /// Moved by the part `factor` of a step in the order of [`flat`].
     pub(super) fn moved<const D: usize>(&self, basis: &Basis<D>, step: &[f64], factor: f64) -> Self {
-        let part = |number: usize| SVector::<f64, D>::from_column_slice(&step[D * number..D * (number + 1)]) * factor;
+        let part = |number: usize| {
+            SVector::<f64, D>::from_column_slice(&step[D * number..D * (number + 1)]) * factor
+        };
         let count = self.wrenches.len();
         let mut out = self.clone();
         for (k, node) in out.nodes[1..].iter_mut().enumerate() {

@@ -9,15 +9,13 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 /// A block of the equations; `D` is 6 in space, 3 in the plane.
 pub(super) type Block<const D: usize> = SMatrix<f64, D, D>;
 
-/// One element, linearised: change of its end by that of its start and of nodes whose rings act on it.
+/// One element, linearised: change of its end by that of its start.
 #[derive(Debug, Clone)]
 pub(super) struct Link<const D: usize> {
     /// End pose by start pose and by start wrench.
     pub(super) pose: [Block<D>; 2],
     /// End wrench by both.
     pub(super) wrench: [Block<D>; 2],
-    /// End pose and end wrench by the displacement of nodes 1, 2 ...
-    pub(super) rings: Vec<[Block<D>; 2]>,
     /// What turns the next node's displacement into the axes of the defect.
     pub(super) next: Block<D>,
 }
@@ -76,10 +74,6 @@ impl<const D: usize> NodeSystem<D> {
                 by_pose.push((k - 1, -(stiff * link.pose[0])));
                 blocks.push((k, k - 1, link.wrench[0]));
             }
-            for (by, ring) in link.rings.iter().enumerate() {
-                by_pose.push((by, -(stiff * ring[0])));
-                blocks.push((k, by, ring[1]));
-            }
             for (by, block) in by_pose {
                 blocks.push((k, by, link.wrench[1] * block));
                 if k > 0 {
@@ -129,9 +123,6 @@ impl<const D: usize> NodeSystem<D> {
             if k > 0 {
                 end -= link.pose[0] * right[k - 1];
             }
-            for (ring, moved) in link.rings.iter().zip(&right) {
-                end -= ring[0] * moved;
-            }
             self.stiffness[k] * end
         });
         Some(Solution { wrenches: wrenches.collect(), poses: right })
@@ -139,10 +130,7 @@ impl<const D: usize> NodeSystem<D> {
 }
 
 /// Block elimination without pivoting between blocks.
-fn tridiagonal<const D: usize>(
-    count: usize,
-    blocks: &[(usize, usize, Block<D>)],
-) -> Option<Factors<D>> {
+fn tridiagonal<const D: usize>(count: usize, blocks: &[(usize, usize, Block<D>)]) -> Option<Factors<D>> {
     let mut rows = vec![[Block::<D>::zeros(); 3]; count];
     for (row, column, block) in blocks {
         // Below, on, above the diagonal.

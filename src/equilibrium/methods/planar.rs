@@ -9,7 +9,7 @@
 //!
 //! The spiral's material is spread around the core: what its sector does out of the plane is lost.
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, SVector, Vector3, Vector6};
+use nalgebra::{Matrix6, SMatrix, SVector, Vector3, Vector6};
 
 use super::line::Place;
 use super::multiple_shooting::Crossing;
@@ -17,7 +17,7 @@ use super::node_shape::{Basis, NodeShape};
 use super::node_system::Link;
 use super::plane::Plane;
 use super::runge_kutta::{NODES, WEIGHTS};
-use super::strong_form::{Rates, State};
+use super::strong_form::{Matrix12, Rates, State};
 use super::surroundings::{Surroundings, column, derivative, gradient};
 use super::trace::Trace;
 use crate::geometry::{Pose, RotationVector};
@@ -45,7 +45,14 @@ impl<'a, 'b> InPlane<'a, 'b> {
         let offset = state.pose.position - self.plane.base.position;
         let place = self.axes.tr_mul(&column(&offset, &Vector3::zeros()));
         let wrench = self.axes.tr_mul(&state.wrench);
-        Vector6::new(place[0], place[1], self.plane.angle(&state.pose.axis()), wrench[0], wrench[1], wrench[2])
+        Vector6::new(
+            place[0],
+            place[1],
+            self.plane.angle(&state.pose.axis()),
+            wrench[0],
+            wrench[1],
+            wrench[2],
+        )
     }
 
     fn state(&self, y: &Vector6<f64>) -> State {
@@ -77,8 +84,7 @@ impl<'a, 'b> InPlane<'a, 'b> {
         by.fixed_view_mut::<2, 1>(0, 2).copy_from(&by_angle);
         by.fixed_view_mut::<2, 2>(0, 3).copy_from(&by_force);
         by[(2, 5)] = 1.0 / k.bending;
-        by.fixed_view_mut::<3, 3>(3, 0)
-            .copy_from(&(self.axes.transpose() * derivative(&load) * self.axes));
+        by.fixed_view_mut::<3, 3>(3, 0).copy_from(&(self.axes.transpose() * derivative(&load) * self.axes));
         by[(5, 2)] += by_angle[0] * n[1] - by_angle[1] * n[0];
         by[(5, 3)] = by_force[(0, 0)] * n[1] - by_force[(1, 0)] * n[0] - tangent[1];
         by[(5, 4)] = by_force[(0, 1)] * n[1] - by_force[(1, 1)] * n[0] + tangent[0];
@@ -123,13 +129,7 @@ impl Crossing<3> for InPlane<'_, '_> {
         &self.basis
     }
 
-    fn cross(
-        &self,
-        element: usize,
-        state: &State,
-        _: &[Pose],
-        mut trace: Option<&mut Trace>,
-    ) -> Option<State> {
+    fn cross(&self, element: usize, state: &State, mut trace: Option<&mut Trace>) -> Option<State> {
         let mut y = self.coordinates(&self.around.offset(element, state, trace.as_deref_mut()));
         for piece in 0..self.around.line.spans[element].len() {
             let (count, length) = self.around.steps(element, piece, self.steps);
@@ -147,7 +147,7 @@ impl Crossing<3> for InPlane<'_, '_> {
         y.iter().all(|entry| entry.is_finite()).then(|| self.state(&y))
     }
 
-    fn cross_linear(&self, element: usize, state: &State, _: &[Pose]) -> Option<(State, Link<3>)> {
+    fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<3>)> {
         let rigid = state.advance_derivative(self.around.line.chain.elements[element].offset);
         let mut y = self.coordinates(&self.around.offset(element, state, None));
         let mut own = Matrix6::zeros();
@@ -163,16 +163,12 @@ impl Crossing<3> for InPlane<'_, '_> {
                 (y, own) = (next, by_start * own);
             }
         }
-        let block = |i: usize, j: usize| -> Matrix3<f64> { own.fixed_view::<3, 3>(3 * i, 3 * j).into_owned() };
-        let by = |part: &SMatrix<f64, 3, 6>, matrix: Matrix3<f64>, whole: &SMatrix<f64, 6, 3>| -> Matrix3<f64> {
-            part * self.axes * matrix * self.axes.transpose() * whole
-        };
-        let b = &self.basis;
-        let pose = [by(&b.pose_part, block(0, 0), &b.pose), by(&b.pose_part, block(0, 1), &b.wrench)];
-        let wrench = [by(&b.wrench_part, block(1, 0), &b.pose), by(&b.wrench_part, block(1, 1), &b.wrench)];
-        y.iter()
-            .all(|entry| entry.is_finite())
-            .then(|| (self.state(&y), Link::new(pose, wrench, Vec::new())))
+        let mut whole = Matrix12::zeros();
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let block = self.axes * own.fixed_view::<3, 3>(3 * i, 3 * j) * self.axes.transpose();
+            whole.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
+        }
+        y.iter().all(|entry| entry.is_finite()).then(|| (self.state(&y), self.basis.link(&whole)))
     }
 }
 
@@ -208,9 +204,8 @@ impl Plane {
         let old = bent.try_normalize(f64::MIN_POSITIVE).unwrap_or(self.across);
         let new = if old.dot(&self.across) < 0.0 { -self.across } else { self.across };
         let (old_normal, new_normal) = (axis.cross(&old), axis.cross(&new));
-        let turned = |v: &Vector3<f64>| {
-            axis * v.dot(&axis) + new * v.dot(&old) + new_normal * v.dot(&old_normal)
-        };
+        let turned =
+            |v: &Vector3<f64>| axis * v.dot(&axis) + new * v.dot(&old) + new_normal * v.dot(&old_normal);
         let in_plane = |v: &Vector3<f64>| v - self.normal * v.dot(&self.normal);
         let mut out = moved;
         for node in &mut out.nodes[1..] {

@@ -1,14 +1,10 @@
 //! The classical Runge-Kutta method along an element, and its exact derivative.
 
-use nalgebra::{Matrix6, SMatrix};
-
 use super::line::Place;
-use super::strong_form::{Stage, State, Vector12};
+use super::strong_form::{Matrix12, State, Vector12, join, split};
 use super::surroundings::Surroundings;
 use super::trace::Trace;
-use super::transfer::{Transfer, force, join, split};
 use crate::design::SpanKind;
-use crate::geometry::Pose;
 
 /// Where the four stages lie in a step, and how much of the stage before they take.
 pub(super) const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
@@ -34,13 +30,11 @@ impl Surroundings<'_> {
         (count, span.length / count as f64)
     }
 
-    /// Carries `state` from the node at the start of `element` to the next; `nodes` are those up to the start. `None`
-    /// where the equations are not defined: inside a magnet, or beyond a full turn in one step.
+    /// Carries `state` from the node at the start of `element` to the next. `None` where the equations are not defined: inside a magnet, or beyond a full turn in one step.
     pub(super) fn cross(
         &self,
         element: usize,
         state: &State,
-        nodes: &[Pose],
         steps: usize,
         mut trace: Option<&mut Trace>,
     ) -> Option<State> {
@@ -49,12 +43,10 @@ impl Surroundings<'_> {
             let (count, length) = self.steps(element, piece, steps);
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
-                let next = self.step(&Step { place, start: state, length }, nodes)?;
+                let next = self.step(&Step { place, start: state, length })?;
                 if let Some(trace) = trace.as_deref_mut() {
-                    let ends = [self.rates(&place, &state, nodes)?, {
-                        let end = Place { s: place.s + length, ..place };
-                        self.rates(&end, &next, nodes)?
-                    }];
+                    let end = Place { s: place.s + length, ..place };
+                    let ends = [self.rates(&place, &state)?, self.rates(&end, &next)?];
                     trace.add(&place, length, [&state.pose, &next.pose], &ends);
                 }
                 state = next;
@@ -72,78 +64,48 @@ impl Surroundings<'_> {
         state.advanced(offset)
     }
 
-    fn step(&self, step: &Step, nodes: &[Pose]) -> Option<State> {
+    fn step(&self, step: &Step) -> Option<State> {
         let (mut end, mut rate) = (Vector12::zeros(), Vector12::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
             let place = Place { s: step.place.s + node * step.length, ..step.place };
-            rate = self.local_rate(&place, &step.start, &(rate * (node * step.length)), nodes)?;
+            rate = self.local_rate(&place, &step.start, &(rate * (node * step.length)))?;
             end += rate * (weight * step.length);
         }
         Some(step.start.displaced(&end))
     }
 
-    /// The same as [`Surroundings::cross`], with the derivative of the end.
+    /// The same as [`Surroundings::cross`], with the derivative of the end by displacement and wrench.
     pub(super) fn cross_linear(
         &self,
         element: usize,
         state: &State,
-        nodes: &[Pose],
         steps: usize,
-    ) -> Option<(State, Transfer)> {
-        let one_sided = self.interaction == crate::equilibrium::Interaction::Preceding;
-        let mut transfer = Transfer::identity(if one_sided { element } else { 0 });
-        transfer.own = state.advance_derivative(self.line.chain.elements[element].offset);
+    ) -> Option<(State, Matrix12)> {
+        let mut own = state.advance_derivative(self.line.chain.elements[element].offset);
         let mut state = self.offset(element, state, None);
         for piece in 0..self.line.spans[element].len() {
             let (count, length) = self.steps(element, piece, steps);
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
-                state = self.step_linear(&Step { place, start: state, length }, nodes, &mut transfer)?;
+                (state, own) = self.step_linear(&Step { place, start: state, length }, &own)?;
             }
         }
-        state.is_finite().then_some((state, transfer))
+        state.is_finite().then_some((state, own))
     }
 
-    fn step_linear(&self, step: &Step, nodes: &[Pose], transfer: &mut Transfer) -> Option<State> {
+    /// A step, and the changes in the columns of `own` carried over it.
+    fn step_linear(&self, step: &Step, own: &Matrix12) -> Option<(State, Matrix12)> {
+        let (local, turned) = split(own);
         let (mut end, mut rate) = (Vector12::zeros(), Vector12::zeros());
-        let mut stages = Vec::with_capacity(NODES.len());
+        let (mut sum, mut rates) = (local, Matrix12::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
             let place = Place { s: step.place.s + node * step.length, ..step.place };
-            let stage = self.stage(&place, &step.start, &(rate * (node * step.length)), nodes)?;
-            rate = stage.rate;
+            let here = local + rates * (node * step.length);
+            let stage = self.stage(&place, &step.start, &(rate * (node * step.length)))?;
+            (rate, rates) = (stage.rate, stage.by_local * here + stage.by_start * turned);
             end += rate * (weight * step.length);
-            stages.push(stage);
+            sum += rates * (weight * step.length);
         }
-        transfer.own = columns(&transfer.own, step.length, &end, &stages, |_, _| {});
-        for (number, ring) in transfer.rings.iter_mut().enumerate() {
-            let acts = |rates: &mut SMatrix<f64, 12, 6>, stage: &Stage| {
-                if let Some(mixed) = stage.mixed.get(number) {
-                    let mixed: &Matrix6<f64> = mixed;
-                    force(rates, mixed);
-                }
-            };
-            *ring = columns(ring, step.length, &end, &stages, acts);
-        }
-        Some(step.start.displaced(&end))
+        Some((step.start.displaced(&end), join(&end, &sum, &turned)))
     }
-}
-
-/// Carries columns of changes over a step whose end has the local coordinates `end`.
-fn columns<const C: usize>(
-    start: &SMatrix<f64, 12, C>,
-    length: f64,
-    end: &Vector12,
-    stages: &[Stage],
-    acts: impl Fn(&mut SMatrix<f64, 12, C>, &Stage),
-) -> SMatrix<f64, 12, C> {
-    let (local, turned) = split(start);
-    let mut rates = SMatrix::<f64, 12, C>::zeros();
-    let mut sum = local;
-    for ((stage, node), weight) in stages.iter().zip(NODES).zip(WEIGHTS) {
-        let here = local + rates * (node * length);
-        rates = stage.by_local * here + stage.by_start * turned;
-        acts(&mut rates, stage);
-        sum += rates * (weight * length);
-    }
-    join(end, &sum, &turned)
 }

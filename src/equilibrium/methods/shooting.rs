@@ -90,9 +90,8 @@ impl Problem<'_, '_> {
     fn wrench_columns(&self, number: usize) -> DMatrix<f64> {
         let units = self.around.line.wrench_units();
         let mut out = DMatrix::zeros(6, self.size());
-        for i in 0..6 {
-            let unit = Vector6::from_fn(|k, _| if k == i { units[i] } else { 0.0 });
-            let column = turned(&self.around.inputs.base.rotation, &unit);
+        for (i, unit) in units.iter().enumerate() {
+            let column = turned(&self.around.inputs.base.rotation, &Vector6::ith(i, *unit));
             out.column_mut(6 * number + i).copy_from(&column);
         }
         out
@@ -109,7 +108,11 @@ impl Problem<'_, '_> {
             reactions: vec![Vector6::zeros(); count + 1],
             columns: Vec::new(),
         };
-        let mut columns = nalgebra::OMatrix::<f64, nalgebra::U12, nalgebra::Dyn>::zeros(if linear { self.size() } else { 0 });
+        let mut columns = nalgebra::OMatrix::<f64, nalgebra::U12, nalgebra::Dyn>::zeros(if linear {
+            self.size()
+        } else {
+            0
+        });
         if linear {
             columns.rows_mut(6, 6).copy_from(&self.wrench_columns(0));
             shot.columns.push(columns.rows(0, 6).into_owned());
@@ -117,14 +120,11 @@ impl Problem<'_, '_> {
         for element in 0..count {
             let state = State { pose: shot.nodes[element], wrench: shot.wrenches[element] };
             let mut end = if linear {
-                let (end, transfer) = around.cross_linear(element, &state, &shot.nodes, self.steps)?;
-                columns = transfer.own * columns;
-                for (ring, moved) in transfer.rings.iter().zip(&shot.columns[1..]) {
-                    columns += ring * moved;
-                }
+                let (end, own) = around.cross_linear(element, &state, self.steps)?;
+                columns = own * columns;
                 end
             } else {
-                around.cross(element, &state, &shot.nodes, self.steps, trace.as_deref_mut())?
+                around.cross(element, &state, self.steps, trace.as_deref_mut())?
             };
             let node = element + 1;
             shot.nodes.push(end.pose);

@@ -7,7 +7,9 @@ use super::method::Method;
 use crate::design::Design;
 use crate::equilibrium::follow::Report;
 use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::jacobian::Jacobian;
 use crate::equilibrium::settings::Settings;
+use crate::equilibrium::snapshot::Snapshot;
 use crate::equilibrium::solver::Equilibrium;
 use crate::error::Error;
 use crate::geometry::Pose;
@@ -74,6 +76,44 @@ impl Solver {
             Self::Potential(solver) => solver.margin(),
             Self::Other(_) => None,
         }
+    }
+
+    /// See [`Equilibrium::jacobian`].
+    ///
+    /// # Errors
+    /// As [`Equilibrium::jacobian`]; [`Error::NoDerivatives`] from the other methods.
+    pub fn jacobian(&self) -> Result<Jacobian, Error> {
+        match self {
+            Self::Potential(solver) => solver.jacobian(),
+            Self::Other(_) => Err(Error::NoDerivatives(self.only_by_potential("has no derivatives"))),
+        }
+    }
+
+    /// See [`Equilibrium::snapshot`].
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] from the other methods.
+    pub fn snapshot(&self) -> Result<Snapshot, Error> {
+        match self {
+            Self::Potential(solver) => Ok(solver.snapshot()),
+            Self::Other(_) => Err(Error::Unsupported(self.only_by_potential("makes no snapshots"))),
+        }
+    }
+
+    /// See [`Equilibrium::restore`].
+    ///
+    /// # Errors
+    /// As [`Equilibrium::restore`]; [`Error::Unsupported`] from the other methods.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        match self {
+            Self::Potential(solver) => solver.restore(snapshot),
+            Self::Other(_) => Err(Error::Unsupported(self.only_by_potential("takes no snapshots"))),
+        }
+    }
+
+    fn only_by_potential(&self, lack: &str) -> String {
+        let (own, other) = (self.settings().method.name(), Method::Potential.name());
+        format!("method \"{own}\" {lack}: choose \"{other}\"")
     }
 
     /// See [`Equilibrium::tip`].

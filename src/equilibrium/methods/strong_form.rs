@@ -133,43 +133,28 @@ pub(super) struct Stage {
     pub(super) by_local: Matrix12,
     /// Derivative by a rotation of the interval's start.
     pub(super) by_start: SMatrix<f64, 12, 3>,
-    /// Derivative of its last six rows by the displacements of the nodes whose rings act there.
-    pub(super) mixed: Vec<nalgebra::Matrix6<f64>>,
 }
 
 impl Surroundings<'_> {
     /// The rates of a state.
-    pub(super) fn rates(&self, place: &Place, state: &State, nodes: &[Pose]) -> Option<Rates> {
-        let load = self.along(place, &state.pose, nodes, Order::Gradient, &mut Vec::new())?;
+    pub(super) fn rates(&self, place: &Place, state: &State) -> Option<Rates> {
+        let load = self.along(place, &state.pose, Order::Gradient)?;
         let span = &self.line.spans[place.element][place.piece];
         Some(rates(state, &compliances(&state.pose.rotation, &span.stiffness), &load))
     }
 
     /// The rate of the local coordinates at `local` in an interval that starts at `start`.
-    pub(super) fn local_rate(
-        &self,
-        place: &Place,
-        start: &State,
-        local: &Vector12,
-        nodes: &[Pose],
-    ) -> Option<Vector12> {
-        let rates = self.rates(place, &start.displaced(local), nodes)?;
+    pub(super) fn local_rate(&self, place: &Place, start: &State, local: &Vector12) -> Option<Vector12> {
+        let rates = self.rates(place, &start.displaced(local))?;
         let theta = RotationVector::new(local.fixed_rows::<3>(3).into_owned());
         let rate = theta.left_jacobian_inverse()? * rates.turning;
         Some(assembled(&rates.tangent, &rate, &rates.wrench))
     }
 
     /// The same with its derivatives.
-    pub(super) fn stage(
-        &self,
-        place: &Place,
-        start: &State,
-        local: &Vector12,
-        nodes: &[Pose],
-    ) -> Option<Stage> {
-        let mut mixed = Vec::new();
+    pub(super) fn stage(&self, place: &Place, start: &State, local: &Vector12) -> Option<Stage> {
         let state = start.displaced(local);
-        let load = self.along(place, &state.pose, nodes, Order::Hessian, &mut mixed)?;
+        let load = self.along(place, &state.pose, Order::Hessian)?;
         let span = &self.line.spans[place.element][place.piece];
         let compliances = compliances(&state.pose.rotation, &span.stiffness);
         let rates = rates(&state, &compliances, &load);
@@ -188,7 +173,7 @@ impl Surroundings<'_> {
         by_local.fixed_view_mut::<3, 12>(3, 0).copy_from(&rows);
         let rows = inverse * by_start.fixed_view::<3, 3>(3, 0);
         by_start.fixed_view_mut::<3, 3>(3, 0).copy_from(&rows);
-        Some(Stage { rate: assembled(&rates.tangent, &rate, &rates.wrench), by_local, by_start, mixed })
+        Some(Stage { rate: assembled(&rates.tangent, &rate, &rates.wrench), by_local, by_start })
     }
 }
 
@@ -197,5 +182,29 @@ fn assembled(tangent: &Vector3<f64>, turning: &Vector3<f64>, wrench: &Vector6<f6
     out.fixed_rows_mut::<3>(0).copy_from(tangent);
     out.fixed_rows_mut::<3>(3).copy_from(turning);
     out.fixed_rows_mut::<6>(6).copy_from(wrench);
+    out
+}
+
+/// Splits the columns of a state's change into local coordinates, in which the rotation vector starts at zero, and the
+/// rotation of the start.
+pub(super) fn split<const C: usize>(
+    columns: &SMatrix<f64, 12, C>,
+) -> (SMatrix<f64, 12, C>, SMatrix<f64, 3, C>) {
+    let mut local = *columns;
+    let turned = columns.fixed_view::<3, C>(3, 0).into_owned();
+    local.fixed_view_mut::<3, C>(3, 0).fill(0.0);
+    (local, turned)
+}
+
+/// Joins them again at the end of an interval, where the local coordinates are `end`.
+pub(super) fn join<const C: usize>(
+    end: &Vector12,
+    local: &SMatrix<f64, 12, C>,
+    turned: &SMatrix<f64, 3, C>,
+) -> SMatrix<f64, 12, C> {
+    let theta = RotationVector::new(end.fixed_rows::<3>(3).into_owned());
+    let whole = theta.left_jacobian() * local.fixed_view::<3, C>(3, 0) + theta.matrix() * turned;
+    let mut out = *local;
+    out.fixed_view_mut::<3, C>(3, 0).copy_from(&whole);
     out
 }

@@ -6,16 +6,14 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::line::{Line, Place};
-use crate::equilibrium::chain::{FAR, NEAR};
 use crate::equilibrium::dead::weight;
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::pair::{PairLoad, blocks, overlap};
 use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::Source;
-use crate::equilibrium::spans::gap;
 use crate::geometry::{Pose, hat};
-use crate::rod::{Load, Matter, Order, section_points};
+use crate::rod::{Load, Matter, Order};
 
 /// Everything that the loads on a shape depend on.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +47,7 @@ pub(super) struct Pair {
     pub(super) node: usize,
     /// Derivative of the gradient of the later node by this one's displacement.
     pub(super) by_first: Matrix6<f64>,
-    /// The reaction on the ring before, as a gradient; zero for `preceding`.
+    /// The reaction on the ring before, as a gradient.
     pub(super) reaction: Vector6<f64>,
     /// Derivative of the reaction by both nodes' displacements, the earlier first.
     pub(super) reaction_by: [Matrix6<f64>; 2],
@@ -84,46 +82,10 @@ impl Surroundings<'_> {
         self.field.has_magnet()
     }
 
-    /// Load per length at a place with the pose `pose`, in fixed axes; `nodes` are those up to the element's start.
-    ///
-    /// For every node after the base whose ring acts there, in order, `mixed` gets the derivative of the load's gradient
-    /// by that node's displacement (at [`Order::Hessian`]; zero for nodes without a ring).
-    pub(super) fn along(
-        &self,
-        place: &Place,
-        pose: &Pose,
-        nodes: &[Pose],
-        order: Order,
-        mixed: &mut Vec<Matrix6<f64>>,
-    ) -> Option<Load> {
+    /// Load per length at a place with the pose `pose`, in fixed axes.
+    pub(super) fn along(&self, place: &Place, pose: &Pose, order: Order) -> Option<Load> {
         let span = &self.line.spans[place.element][place.piece];
-        let matter = Matter::section(span, place.s);
-        let mut load = self.external(&matter, pose, order)?;
-        mixed.clear();
-        if self.interaction != Interaction::Preceding {
-            return Some(load);
-        }
-        mixed.resize(place.element, Matrix6::zeros());
-        for body in self.line.chain.rings.iter().filter(|body| body.node <= place.element) {
-            if body.node == place.element && self.line.bonded(place) {
-                continue;
-            }
-            let node = &nodes[body.node];
-            let source = Source::ring(body, node);
-            let near = |fineness| section_points(span, place.s, 1.0, fineness);
-            let on = match gap(body.node, place.element) {
-                0 => source.on_points(&near(NEAR), matter.magnetisation, pose, order)?,
-                1 => source.on_points(&near(FAR), matter.magnetisation, pose, order)?,
-                _ => source.on_matter(&matter, pose, order)?,
-            };
-            let on = on.in_axes(&source.axes().transpose());
-            if order == Order::Hessian && body.node > 0 {
-                let pair = PairLoad::reciprocal(&on, pose.position - node.position);
-                mixed[body.node - 1] = pair.hessian().first_second.transpose();
-            }
-            load += on;
-        }
-        Some(load)
+        self.external(&Matter::section(span, place.s), pose, order)
     }
 
     /// Load of the external field and of gravity on some material.
@@ -194,21 +156,15 @@ impl Surroundings<'_> {
         let mut pair = Pair {
             node: first.node,
             by_first: Matrix6::zeros(),
-            reaction: Vector6::zeros(),
+            reaction: gradient(&load.on_first),
             reaction_by: [Matrix6::zeros(); 2],
         };
-        let mutual = self.interaction != Interaction::Preceding;
-        if mutual {
-            pair.reaction = gradient(&load.on_first);
-        }
         if order == Order::Hessian {
             let second = load.hessian();
             out.own += second.second_second + turning_of(&load.on_second.moment());
             pair.by_first = second.first_second.transpose();
-            if mutual {
-                let turned = turning_of(&load.on_first.moment());
-                pair.reaction_by = [second.first_first + turned, second.first_second];
-            }
+            let turned = turning_of(&load.on_first.moment());
+            pair.reaction_by = [second.first_first + turned, second.first_second];
         }
         out.pairs.push(pair);
         Some(())
@@ -216,7 +172,8 @@ impl Surroundings<'_> {
 
     /// The loads on all nodes and their total, the reactions on earlier rings included.
     pub(super) fn nodes(&self, poses: &[Pose], order: Order) -> Option<(Vec<NodeLoad>, Vec<Vector6<f64>>)> {
-        let loads: Option<Vec<NodeLoad>> = (0..poses.len()).map(|node| self.node(node, poses, order)).collect();
+        let loads: Option<Vec<NodeLoad>> =
+            (0..poses.len()).map(|node| self.node(node, poses, order)).collect();
         let loads = loads?;
         let mut total: Vec<Vector6<f64>> = loads.iter().map(|load| load.gradient).collect();
         for pair in loads.iter().flat_map(|load| &load.pairs) {

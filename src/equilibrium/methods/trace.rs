@@ -1,6 +1,6 @@
 //! A solved shape as poses and strains along the arc, whatever the method: what the outputs are read from.
 
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 
 use super::line::{Line, Place};
 use super::strong_form::Rates;
@@ -47,8 +47,9 @@ pub(super) struct Totals {
 /// Values of the cubic from `0` to `whole` with the slopes `rates`, and its slope.
 fn cubic(whole: &Vector3<f64>, rates: [&Vector3<f64>; 2], x: f64) -> [Vector3<f64>; 2] {
     let (square, cube) = (x * x, x * x * x);
-    let value =
-        whole * (3.0 * square - 2.0 * cube) + rates[0] * (x - 2.0 * square + cube) + rates[1] * (cube - square);
+    let value = whole * (3.0 * square - 2.0 * cube)
+        + rates[0] * (x - 2.0 * square + cube)
+        + rates[1] * (cube - square);
     let slope = whole * (6.0 * (x - square))
         + rates[0] * (1.0 - 4.0 * x + 3.0 * square)
         + rates[1] * (3.0 * square - 2.0 * x);
@@ -61,10 +62,8 @@ impl Link {
         let component = |c: usize| cubic(&self.whole[c], [&self.rates[0][c], &self.rates[1][c]], x);
         let ([position, tangent], [theta, rate]) = (component(0), component(1));
         let theta = RotationVector::new(theta);
-        let pose = Pose {
-            position: self.start.position + position,
-            rotation: theta.matrix() * self.start.rotation,
-        };
+        let pose =
+            Pose { position: self.start.position + position, rotation: theta.matrix() * self.start.rotation };
         (pose, tangent, theta.left_jacobian() * rate)
     }
 }
@@ -80,7 +79,8 @@ impl Trace {
             let mut pose = nodes[element].advanced(offset);
             for (piece, span) in spans.iter().enumerate() {
                 let end = pose.advanced(span.length);
-                let rates = Rates { tangent: pose.axis(), turning: Vector3::zeros(), wrench: Vector6::zeros() };
+                let rates =
+                    Rates { tangent: pose.axis(), turning: Vector3::zeros(), wrench: Vector6::zeros() };
                 trace.add(&Place { element, piece, s: 0.0 }, span.length, [&pose, &end], &[rates; 2]);
                 pose = end;
             }
@@ -148,10 +148,9 @@ impl Trace {
     }
 
     /// Adds up what the spans feel and store.
-    pub(super) fn totals(&self, around: &Surroundings<'_>, nodes: &[Pose]) -> Option<Totals> {
+    pub(super) fn totals(&self, around: &Surroundings<'_>) -> Option<Totals> {
         let (points, weights) = gauss_legendre(LINK_POINTS);
         let mut out = Totals { magnetic: no_wrench(), energy: 0.0 };
-        let mut mixed: Vec<Matrix6<f64>> = Vec::new();
         let origin = around.inputs.base.position;
         for (link, from) in self.links.iter().filter_map(|link| Some((link, link.place?))) {
             let span = &around.line.spans[from.element][from.piece];
@@ -166,7 +165,7 @@ impl Trace {
                 let bent = Vector3::new(k.bending, k.bending, k.torsion).component_mul(&curvature);
                 let sheared = Vector3::new(k.shear, k.shear, k.axial).component_mul(&stretch);
                 let stored = 0.5 * (bent.dot(&curvature) + sheared.dot(&stretch));
-                let load = around.along(&place, &pose, nodes, Order::Gradient, &mut mixed)?;
+                let load = around.along(&place, &pose, Order::Gradient)?;
                 out.energy += weight * (stored + load.energy);
                 let matter = Matter::section(span, place.s);
                 let magnetic = around.magnetic(&matter, &pose, Order::Gradient)?;

@@ -1,12 +1,13 @@
 //! Outputs: what the last solve answered.
 
+use super::super::slope::Slope;
 use super::super::units::{
     ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
 };
 use super::super::variable::{Access, At, Kind, Reach, Role};
 use super::parameters::INTERACTION;
 use super::{Counts, Draft, MARGIN, Rows};
-use crate::manipulator::{Outputs, Status};
+use crate::manipulator::{Output, Outputs, Status};
 
 /// An Integer and no enumeration, because some hosts hide those.
 fn status_number(status: Status) -> i32 {
@@ -22,7 +23,7 @@ fn count(number: u32) -> i32 {
     i32::try_from(number).unwrap_or(i32::MAX)
 }
 
-type Vector = (&'static str, Quantity, &'static str, fn(&Outputs, At) -> f64, Reach);
+type Vector = (&'static str, Quantity, &'static str, fn(&Outputs, At) -> f64, Reach, Output);
 
 type Whole = (&'static str, &'static str, fn(&Outputs) -> i32);
 
@@ -36,7 +37,8 @@ impl Rows {
                 answer(|o, _| o.tip_angle),
             )
             .min(0.0)
-            .max(core::f64::consts::PI),
+            .max(core::f64::consts::PI)
+            .slope(Slope::Output(Output::TipAngle)),
         );
         let tip: Vector = (
             "tip.position",
@@ -44,12 +46,13 @@ impl Rows {
             "Position of the tip",
             |o, at| o.tip.position[at.axis],
             Reach::Equilibrium,
+            Output::TipPosition,
         );
         self.vector(0, tip.0, &tip);
         let orientation = answer(|o, at| o.tip.quaternion()[at.axis]);
         let description = "Orientation of the tip: unit quaternion w, x, y, z with w >= 0";
         let draft = Draft::real("tip.orientation", QUATERNION, description, orientation);
-        self.array(4, &draft.role(Role::Output));
+        self.array(4, &draft.role(Role::Output).slope(Slope::TipQuaternion));
         for row in WRENCHES {
             self.vector(0, row.0, row);
         }
@@ -62,9 +65,9 @@ impl Rows {
         self.one(draft.role(Role::Output));
     }
 
-    fn vector(&mut self, item: usize, name: &str, (_, quantity, description, get, reach): &Vector) {
+    fn vector(&mut self, item: usize, name: &str, (_, quantity, description, get, reach, output): &Vector) {
         let draft = Draft::real(name, *quantity, description, answer(*get)).role(Role::Output);
-        self.item_array(3, item, &draft.reach(*reach));
+        self.item_array(3, item, &draft.reach(*reach).slope(Slope::Output(*output)));
     }
 
     fn shape(&mut self, counts: &Counts) {
@@ -76,7 +79,8 @@ impl Rows {
                 let reach = if point == 0 { Reach::BasePoint } else { Reach::Equilibrium };
                 let position = answer(|o, at| o.shape[at.item][at.axis]);
                 let draft = Draft::real(name.clone(), POSITION, description, position).reach(reach);
-                self.variables.push(draft.role(Role::Output).at(name, At { item: point, axis }));
+                let draft = draft.role(Role::Output).slope(Slope::Output(Output::ShapePoint(point)));
+                self.variables.push(draft.at(name, At { item: point, axis }));
             }
         }
         for point in 0..counts.shape_points {
@@ -84,7 +88,7 @@ impl Rows {
             let description = "Unstrained arc length of a centreline point from the base";
             let length = answer(|o, at| o.shape_arc_length[at.item]);
             let draft = Draft::real(name, LENGTH, description, length).min(0.0).reach(Reach::Lengths);
-            self.item(draft.role(Role::Output), point);
+            self.item(draft.role(Role::Output).slope(Slope::Still), point);
         }
     }
 
@@ -99,6 +103,7 @@ impl Rows {
                 "Centre of the ring magnet",
                 |o, at| o.rings[at.item].position[at.axis],
                 reach(Reach::ClampedCentre),
+                Output::RingPosition(ring),
             );
             self.vector(ring, &format!("ring[{number}].position"), &centre);
             let axis: Vector = (
@@ -107,6 +112,7 @@ impl Rows {
                 "Axis d3 of the ring magnet",
                 |o, at| o.rings[at.item].axis()[at.axis],
                 reach(Reach::ClampedAxis),
+                Output::RingAxis(ring),
             );
             self.vector(ring, &format!("ring[{number}].axis"), &axis);
         }
@@ -115,7 +121,7 @@ impl Rows {
             let description = "Bending of the core; windings touch at design.helix.boundary_angle";
             let draft =
                 Draft::real(name, ANGLE, description, answer(|o, at| o.core_angles[at.item])).min(0.0);
-            self.item(draft.role(Role::Output), core);
+            self.item(draft.role(Role::Output).slope(Slope::Output(Output::CoreAngle(core))), core);
         }
     }
 
@@ -161,6 +167,7 @@ const WRENCHES: &[Vector] = &[
         "Total external magnetic force on the manipulator",
         |o, at| o.magnetic_force[at.axis],
         Reach::Equilibrium,
+        Output::MagneticForce,
     ),
     (
         "torque.magnetic",
@@ -168,6 +175,7 @@ const WRENCHES: &[Vector] = &[
         "Total external magnetic torque about the base position",
         |o, at| o.magnetic_torque[at.axis],
         Reach::Equilibrium,
+        Output::MagneticTorque,
     ),
     (
         "base.reaction_force",
@@ -175,6 +183,7 @@ const WRENCHES: &[Vector] = &[
         "Force that the clamp exerts on the manipulator",
         |o, at| o.base_reaction_force[at.axis],
         Reach::Clamp,
+        Output::BaseReactionForce,
     ),
     (
         "base.reaction_moment",
@@ -182,6 +191,7 @@ const WRENCHES: &[Vector] = &[
         "Moment that the clamp exerts about the base position",
         |o, at| o.base_reaction_moment[at.axis],
         Reach::Clamp,
+        Output::BaseReactionMoment,
     ),
     (
         "magnet.reaction_force",
@@ -189,6 +199,7 @@ const WRENCHES: &[Vector] = &[
         "Force on the external magnet",
         |o, at| o.magnet_reaction_force[at.axis],
         Reach::Equilibrium,
+        Output::MagnetReactionForce,
     ),
     (
         "magnet.reaction_torque",
@@ -196,6 +207,14 @@ const WRENCHES: &[Vector] = &[
         "Torque on the external magnet about its centre",
         |o, at| o.magnet_reaction_torque[at.axis],
         Reach::Equilibrium,
+        Output::MagnetReactionTorque,
     ),
-    ("field.tip", FIELD, "External field at the tip", |o, at| o.tip_field[at.axis], Reach::Equilibrium),
+    (
+        "field.tip",
+        FIELD,
+        "External field at the tip",
+        |o, at| o.tip_field[at.axis],
+        Reach::Equilibrium,
+        Output::TipField,
+    ),
 ];

@@ -147,11 +147,22 @@ fn water() -> f64 {
     1000.0
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+/// Axis of the turns unless said: right-handed about it, +z goes to +y.
+const TURN_AXIS: [f64; 3] = [-1.0, 0.0, 0.0];
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct FieldTable {
     pub(super) uniform_mt: [f64; 3],
+    pub(super) turn_deg: f64,
+    pub(super) turn_axis: [f64; 3],
     pub(super) gradient_t_per_m: [f64; 5],
+}
+
+impl Default for FieldTable {
+    fn default() -> Self {
+        Self { uniform_mt: [0.0; 3], turn_deg: 0.0, turn_axis: TURN_AXIS, gradient_t_per_m: [0.0; 5] }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -160,6 +171,8 @@ pub(super) struct MagnetTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) position_mm: Option<[f64; 3]>,
     pub(super) orientation_wxyz: [f64; 4],
+    pub(super) turn_deg: f64,
+    pub(super) turn_axis: [f64; 3],
     pub(super) strength: f64,
     pub(super) cylinders: Vec<MagnetCylinder>,
 }
@@ -177,6 +190,8 @@ impl Default for MagnetTable {
         Self {
             position_mm: None,
             orientation_wxyz: [0.0, 1.0, 0.0, 0.0],
+            turn_deg: 0.0,
+            turn_axis: TURN_AXIS,
             strength: 1.0,
             cylinders: vec![cylinder(-20.0), cylinder(20.0)],
         }
@@ -200,11 +215,18 @@ pub(super) struct MagnetCylinder {
 pub(super) struct BaseTable {
     pub(super) position_mm: [f64; 3],
     pub(super) orientation_wxyz: [f64; 4],
+    pub(super) turn_deg: f64,
+    pub(super) turn_axis: [f64; 3],
 }
 
 impl Default for BaseTable {
     fn default() -> Self {
-        Self { position_mm: [0.0; 3], orientation_wxyz: [1.0, 0.0, 0.0, 0.0] }
+        Self {
+            position_mm: [0.0; 3],
+            orientation_wxyz: [1.0, 0.0, 0.0, 0.0],
+            turn_deg: 0.0,
+            turn_axis: TURN_AXIS,
+        }
     }
 }
 

@@ -1,17 +1,19 @@
 //! From the file's units to SI, and from names to what they stand for.
 
+use nalgebra::{Matrix3, Vector3};
+
 use super::Scene;
 use super::file::{
-    BackboneTable, DesignTable, HelixTable, Kind, MagnetCylinder, MagnetTable, ModelTable, RingTable, SceneFile,
-    SpiralName,
+    BackboneTable, DesignTable, FieldTable, HelixTable, Kind, MagnetCylinder, ModelTable, RingTable,
+    SceneFile, SpiralName,
 };
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
     SpiralKind,
 };
 use crate::equilibrium::Settings;
-use crate::error::Error;
-use crate::geometry::Pose;
+use crate::error::{Error, check};
+use crate::geometry::{Pose, RotationVector};
 use crate::magnetics::AxialMagnet;
 use crate::manipulator::Inputs;
 
@@ -24,6 +26,19 @@ const MAGNET_DISTANCE: f64 = 0.12;
 
 fn beside(design: &Design) -> [f64; 3] {
     [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
+}
+
+/// The right-handed turn by `degrees` about an axis whose length does not count.
+fn turn(key: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
+    let axis = Vector3::from(axis);
+    let length = axis.norm();
+    check(&format!("length of {key}"), length, |v| v > 0.0, "> 0")?;
+    Ok(RotationVector::new(axis * (degrees.to_radians() / length)).matrix())
+}
+
+/// The pose turned about its own origin.
+fn turned(turn: &Matrix3<f64>, pose: Pose) -> Pose {
+    Pose { rotation: turn * pose.rotation, ..pose }
 }
 
 impl SceneFile {
@@ -54,14 +69,19 @@ impl SceneFile {
     fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
         let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
-        if let Some(MagnetTable { position_mm, orientation_wxyz, strength, .. }) = self.magnet {
-            let position = position_mm.map_or(beside(design), |position| position.map(|x| x / MM_PER_M));
-            inputs.magnet = Pose::new(position, orientation_wxyz)?;
-            inputs.magnet_strength = strength;
+        if let Some(magnet) = &self.magnet {
+            let position =
+                magnet.position_mm.map_or(beside(design), |position| position.map(|x| x / MM_PER_M));
+            let turn = turn("magnet.turn_axis", magnet.turn_axis, magnet.turn_deg)?;
+            inputs.magnet = turned(&turn, Pose::new(position, magnet.orientation_wxyz)?);
+            inputs.magnet_strength = magnet.strength;
         }
-        inputs.uniform_field = self.field.uniform_mt.map(|b| b / MT_PER_T).into();
-        inputs.field_gradient = self.field.gradient_t_per_m;
-        inputs.base = Pose::new(self.base.position_mm.map(|x| x / MM_PER_M), self.base.orientation_wxyz)?;
+        let FieldTable { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
+        inputs.uniform_field =
+            turn("field.turn_axis", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));
+        inputs.field_gradient = gradient_t_per_m;
+        let base = Pose::new(self.base.position_mm.map(|x| x / MM_PER_M), self.base.orientation_wxyz)?;
+        inputs.base = turned(&turn("base.turn_axis", self.base.turn_axis, self.base.turn_deg)?, base);
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
         inputs.gravity = self.gravity.acceleration_m_s2.into();
@@ -80,7 +100,7 @@ impl SceneFile {
 
     fn settings(&self) -> Settings {
         let ModelTable { interaction, method, bending_stop } = self.model;
-        Settings { interaction, method, bending_stop, ..Settings::default() }
+        Settings { interaction, bending_stop, method, ..Settings::default() }
     }
 }
 

@@ -1,0 +1,89 @@
+"""Runs the FMU alone in fmpy: the magnet passes, the manipulator bends.
+
+    .venv/bin/python fmu/examples/fmpy_plain.py mcm.fmu --out driven.csv --picture driven.png
+
+The inputs are a table over time, by default `magnet_pass.csv`: from its start pose beside the middle the magnet goes
+60 mm along the manipulator and 10 mm aside and turns by 0.5 rad. Inputs hold during a step; outputs are those at its
+end.
+"""
+
+import argparse
+import csv
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from fmpy import simulate_fmu
+from fmpy.util import read_csv
+
+INPUTS = Path(__file__).parent / "magnet_pass.csv"
+OUTPUTS = [
+    "tip.angle",
+    *(
+        f"{name}[{k}]"
+        for name in ("tip.position", "force.magnetic", "magnet.reaction_force")
+        for k in (1, 2, 3)
+    ),
+]
+
+
+def run(fmu: Path, inputs: Path) -> np.ndarray:
+    """The outputs at the times of the inputs."""
+    signals = read_csv(inputs)
+    times = signals["time"]
+    step = times[1] - times[0]
+    if not np.allclose(np.diff(times), step):
+        raise SystemExit(f"{inputs}: the times are not evenly spaced")
+    return simulate_fmu(
+        str(fmu),
+        start_time=times[0],
+        stop_time=times[-1],
+        output_interval=step,
+        input=signals,
+        output=OUTPUTS,
+    )
+
+
+def write(out: Path, table: np.ndarray) -> None:
+    """Writes the table with all digits."""
+    with out.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["time", *OUTPUTS])
+        writer.writerows([round(time, 9), *values] for time, *values in table.tolist())
+    print(f"wrote {out}")
+
+
+def draw(picture: Path, table: np.ndarray) -> None:
+    """Draws tip angle and force on the magnet over time."""
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt  # noqa: PLC0415 - after the choice of how to draw
+
+    figure, (angle, force) = plt.subplots(2, sharex=True, figsize=(7, 5), layout="constrained")
+    angle.plot(table["time"], np.degrees(table["tip.angle"]), color="black")
+    angle.set_ylabel("tip angle (deg)")
+    for k, axis in enumerate("xyz", 1):
+        force.plot(table["time"], 1e3 * table[f"magnet.reaction_force[{k}]"], label=axis)
+    force.set(ylabel="force on the magnet (mN)", xlabel="time (s)")
+    force.legend()
+    figure.savefig(picture, dpi=120)
+    print(f"wrote {picture}")
+
+
+def main() -> None:
+    """Reads the command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("fmu", type=Path, help="the FMU, as `mcm pack` writes it")
+    parser.add_argument("--inputs", type=Path, default=INPUTS, help="input variables over time (CSV)")
+    parser.add_argument("--out", type=Path, required=True, help="the table to write (CSV)")
+    parser.add_argument("--picture", type=Path, help="the picture to write (PNG)")
+    arguments = parser.parse_args()
+    table = run(arguments.fmu, arguments.inputs)
+    write(arguments.out, table)
+    if arguments.picture:
+        draw(arguments.picture, table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,205 @@
+//! Curves and maps on their axes.
+
+use mcm::studies::{Curve, Mark, Stroke, Study};
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+
+use super::{Canvas, Drawn, GRID, INK, LINE, PAPER, TEXT, colour, pen, scaled, text};
+
+type Chart<'a, 'b> = ChartContext<'a, BitMapBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Colour scale of maps, readable with colour blindness and in grey: viridis, from low to high.
+const SCALE: ViridisRGB = ViridisRGB;
+
+/// Columns against a column.
+pub(super) fn curves(
+    study: &Study,
+    area: &Canvas,
+    x: &(String, String),
+    y_label: &str,
+    curves: &[Curve],
+    marks: &[Mark],
+) -> Drawn {
+    let abscissa = column(study, &x.1)?;
+    let ordinates: Vec<&[f64]> = curves.iter().map(|c| column(study, &c.column)).collect::<Result<_, _>>()?;
+    let heights = marks.iter().flat_map(|mark| match mark {
+        Mark::Level(_, height) | Mark::Point(_, [_, height]) => [*height; 2],
+        Mark::Band(_, heights) => *heights,
+    });
+    let heights = span(ordinates.iter().flat_map(|values| values.iter().copied()).chain(heights));
+    let mut chart = chart(area, span(abscissa.iter().copied()), widened(heights), [&x.0, y_label])?;
+    draw_backdrop(&mut chart, span(abscissa.iter().copied()), marks)?;
+    for (curve, values) in curves.iter().zip(&ordinates) {
+        let points: Vec<(f64, f64)> = abscissa.iter().copied().zip(values.iter().copied()).collect();
+        for run in points.split(|point| point.1.is_nan()) {
+            draw_curve(&mut chart, run, curve)?;
+        }
+    }
+    draw_points(&mut chart, marks)
+}
+
+/// A column as colours over the grid of two others, with its scale beside it.
+pub(super) fn map(
+    study: &Study,
+    area: &Canvas,
+    [x, y]: [&(String, String); 2],
+    value: &str,
+    marks: &[Mark],
+) -> Drawn {
+    let (xs, ys, values) = (column(study, &x.1)?, column(study, &y.1)?, column(study, value)?);
+    let range = span(values.iter().copied());
+    let (left, right) = area.split_horizontally(i32::try_from(area.dim_in_pixel().0)? - scaled(85.0));
+    let (cell_x, cell_y) = (spacing(xs), spacing(ys));
+    let around = |values: &[f64], cell: f64| {
+        let [low, high] = span(values.iter().copied());
+        [low - 0.5 * cell, high + 0.5 * cell]
+    };
+    let mut chart = chart(&left, around(xs, cell_x), around(ys, cell_y), [&x.0, &y.0])?;
+    let cells = xs.iter().zip(ys).zip(values).filter(|(_, value)| !value.is_nan());
+    chart.draw_series(cells.map(|((&x, &y), &value)| {
+        let corners = [(x - 0.5 * cell_x, y - 0.5 * cell_y), (x + 0.5 * cell_x, y + 0.5 * cell_y)];
+        Rectangle::new(corners, SCALE.get_color_normalized(value, range[0], range[1]).filled())
+    }))?;
+    draw_points(&mut chart, marks)?;
+    draw_scale(&right, range)
+}
+
+fn draw_scale(area: &Canvas, [low, high]: [f64; 2]) -> Drawn {
+    const STEPS: i32 = 64;
+    let step = (high - low) / f64::from(STEPS);
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(scaled(8.0))
+        .margin_bottom(scaled(62.0))
+        .set_label_area_size(LabelAreaPosition::Right, scaled(60.0))
+        .build_cartesian_2d(0.0..1.0, low..high)?;
+    chart
+        .configure_mesh()
+        .disable_mesh()
+        .disable_x_axis()
+        .y_labels(6)
+        .label_style(text(TEXT))
+        .y_label_formatter(&|value| tick(*value))
+        .draw()?;
+    chart.draw_series((0..STEPS).map(|i| {
+        let from = low + step * f64::from(i);
+        let colour = SCALE.get_color_normalized(from + 0.5 * step, low, high);
+        Rectangle::new([(0.0, from), (1.0, from + step)], colour.filled())
+    }))?;
+    Ok(())
+}
+
+fn chart<'a, 'b>(
+    area: &'a Canvas<'b>,
+    x: [f64; 2],
+    y: [f64; 2],
+    [x_label, y_label]: [&str; 2],
+) -> Result<Chart<'a, 'b>, Box<dyn std::error::Error>>
+where
+    'b: 'a,
+{
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(scaled(8.0))
+        .margin_right(scaled(10.0))
+        .x_label_area_size(scaled(62.0))
+        .y_label_area_size(scaled(84.0))
+        .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
+    let plain = |value: &f64| tick(*value);
+    chart
+        .configure_mesh()
+        .x_desc(x_label)
+        .y_desc(y_label)
+        .x_labels(7)
+        .y_labels(7)
+        .max_light_lines(0)
+        .bold_line_style(pen(GRID, 1.0))
+        .axis_style(pen(INK, 1.0))
+        .label_style(text(TEXT))
+        .axis_desc_style(text(TEXT))
+        .set_all_tick_mark_size(scaled(6.0))
+        .x_label_formatter(&plain)
+        .y_label_formatter(&plain)
+        .draw()?;
+    Ok(chart)
+}
+
+/// A tick's number without the rounding of its sum of steps.
+fn tick(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 { "0".into() } else { rounded.to_string() }
+}
+
+fn draw_curve(chart: &mut Chart, run: &[(f64, f64)], curve: &Curve) -> Drawn {
+    let colour = colour(curve.colour);
+    let points = run.iter().copied();
+    match curve.stroke {
+        Stroke::Solid => drop(chart.draw_series(LineSeries::new(points, pen(colour, LINE)))?),
+        Stroke::Dashed => {
+            let dashes = DashedLineSeries::new(points, scaled(10.0), scaled(6.0), pen(colour, LINE));
+            chart.draw_series(dashes)?;
+        }
+        Stroke::Dots => {
+            chart.draw_series(points.map(|point| Circle::new(point, scaled(4.0), colour.filled())))?;
+        }
+    }
+    Ok(())
+}
+
+/// Levels and bands, behind the curves.
+fn draw_backdrop(chart: &mut Chart, [left, right]: [f64; 2], marks: &[Mark]) -> Drawn {
+    for mark in marks {
+        match mark {
+            Mark::Level(_, height) => {
+                let line = PathElement::new(vec![(left, *height), (right, *height)], pen(PAPER, LINE));
+                chart.draw_series([line])?;
+            }
+            Mark::Band(_, [low, high]) => {
+                let band = Rectangle::new([(left, *low), (right, *high)], PAPER.mix(0.3).filled());
+                chart.draw_series([band])?;
+            }
+            Mark::Point(..) => {}
+        }
+    }
+    Ok(())
+}
+
+fn draw_points(chart: &mut Chart, marks: &[Mark]) -> Drawn {
+    for mark in marks {
+        if let Mark::Point(_, [x, y]) = mark {
+            chart.draw_series([Circle::new((*x, *y), scaled(7.0), pen(INK, LINE))])?;
+        }
+    }
+    Ok(())
+}
+
+fn column<'a>(study: &'a Study, name: &str) -> Result<&'a [f64], String> {
+    study.column(name).ok_or_else(|| format!("there is no column {name}"))
+}
+
+/// Smallest and largest value.
+fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values
+        .filter(|value| !value.is_nan())
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// A range with some air at both ends.
+fn widened([low, high]: [f64; 2]) -> [f64; 2] {
+    let air = 0.05 * (high - low);
+    [low - air, high + air]
+}
+
+/// Smallest distance of two different values: that of a grid.
+fn spacing(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|step| *step > 1e-9 * pair_scale(&sorted))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// Size of the values, beside which a step is rounding or real.
+fn pair_scale(sorted: &[f64]) -> f64 {
+    sorted.last().zip(sorted.first()).map_or(1.0, |(last, first)| last - first)
+}

@@ -1,0 +1,133 @@
+//! The picture of a study: panels with title, legend and axes.
+
+mod axes;
+mod legend;
+
+use std::path::Path;
+
+use mcm::studies::{Panel, Study};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::register_font;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::failure::Failure;
+
+/// Size of a picture in pixels.
+const SIZE: (u32, u32) = (900, 600);
+
+/// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
+const OVERSAMPLING: u32 = 3;
+
+/// Step between shades: as many as smooth edges need, so that the files stay small. It divides white.
+const SHADE: usize = 5;
+
+/// Name under which the embedded font is known: Ubuntu Light (Ubuntu Font Licence 1.0, in `epaint_default_fonts`), so that
+/// pictures need no font of the system and look the same everywhere.
+const FONT: &str = "sans";
+
+/// Heights of letters and widths of lines in pixels of the picture.
+const TITLE: f64 = 24.0;
+const TEXT: f64 = 21.0;
+const LINE: f64 = 2.6;
+
+const INK: RGBColor = RGBColor(0x22, 0x25, 0x2a);
+const GRID: RGBColor = RGBColor(0xdc, 0xdc, 0xdc);
+/// What comes from the paper.
+const PAPER: RGBColor = RGBColor(0x80, 0x86, 0x8f);
+
+/// Colours that also people with colour blindness tell apart: M. Okabe and K. Ito, Color Universal Design (2002).
+const COLOURS: [RGBColor; 6] = [
+    RGBColor(0x00, 0x72, 0xb2),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x9e, 0x73),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xe6, 0x9f, 0x00),
+    RGBColor(0x56, 0xb4, 0xe9),
+];
+
+type Canvas<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
+
+/// Why a picture could not be drawn.
+type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+/// Draws a study into a PNG file.
+pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
+    let failure = |reason: String| Failure::Message(format!("cannot draw {}: {reason}", path.display()));
+    let large = (SIZE.0 * OVERSAMPLING, SIZE.1 * OVERSAMPLING);
+    let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
+    draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
+    let file = std::fs::File::create(path).map_err(|error| failure(error.to_string()))?;
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), SIZE.0, SIZE.1);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_compression(png::Compression::High);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(&averaged(&pixels))?;
+        writer.finish()
+    });
+    written.map_err(|error| failure(error.to_string()))
+}
+
+fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| "the embedded font is not readable")?;
+    let canvas = BitMapBackend::with_buffer(pixels, size).into_drawing_area();
+    let canvas = canvas.margin(scaled(8.0), scaled(8.0), scaled(8.0), scaled(14.0));
+    let (heading, body) = canvas.split_vertically(scaled(34.0));
+    heading.draw_text(study.title, &text(TITLE), (0, scaled(14.0)))?;
+    let across = study.panels.len().min(2);
+    let rows = study.panels.len().div_ceil(2);
+    for (panel, area) in study.panels.iter().zip(body.split_evenly((rows, across))) {
+        draw_panel(study, panel, &area.margin(0, scaled(10.0), 0, 0))?;
+    }
+    canvas.present()?;
+    Ok(())
+}
+
+fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
+    let (title, entries) = legend::entries(panel);
+    let below = legend::draw(title, &entries, area)?;
+    let (_, area) = area.split_vertically(below);
+    match panel {
+        Panel::Curves { x, y, curves, marks, .. } => axes::curves(study, &area, x, y, curves, marks),
+        Panel::Map { x, y, value, marks, .. } => axes::map(study, &area, [x, y], value, marks),
+    }
+}
+
+/// Pixels of the large picture for a length in those of the final one.
+#[allow(clippy::cast_possible_truncation, reason = "lengths are far below the largest integer")]
+fn scaled(length: f64) -> i32 {
+    (length * f64::from(OVERSAMPLING)).round() as i32
+}
+
+/// Letters of the given height; a text begins at its position, which is half way up.
+fn text(height: f64) -> TextStyle<'static> {
+    (FONT, scaled(height)).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center))
+}
+
+/// A pen of the given colour, `width` pixels wide.
+fn pen(colour: RGBColor, width: f64) -> ShapeStyle {
+    colour.stroke_width(scaled(width).unsigned_abs())
+}
+
+/// The colour of a number.
+fn colour(number: usize) -> RGBColor {
+    COLOURS[number % COLOURS.len()]
+}
+
+/// Means over squares of the large picture.
+fn averaged(large: &[u8]) -> Vec<u8> {
+    let factor = OVERSAMPLING as usize;
+    let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
+    let mut small = Vec::with_capacity(width * height * 3);
+    for index in 0..width * height * 3 {
+        let (row, column, channel) = (index / (width * 3), index / 3 % width, index % 3);
+        let block = (0..factor * factor).map(|cell| {
+            let (y, x) = (row * factor + cell / factor, column * factor + cell % factor);
+            usize::from(large[(y * width * factor + x) * 3 + channel])
+        });
+        let mean = block.sum::<usize>() / (factor * factor);
+        small.push(u8::try_from((mean + SHADE / 2) / SHADE * SHADE).unwrap_or(u8::MAX));
+    }
+    small
+}

@@ -1,0 +1,133 @@
+//! `mcm study`: the paper's figures as tables and pictures.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::ValueEnum;
+use indicatif::{ProgressBar, ProgressStyle};
+use mcm::error::Error;
+use mcm::studies;
+use rayon::prelude::*;
+
+use super::failure::Failure;
+use super::files::create_table;
+use super::{comparison, picture};
+
+/// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
+#[derive(clap::Args)]
+#[command(after_help = "`all` computes every figure and writes the comparison to comparison.md, too.\n\n\
+Example: mcm study fig5 --out figures")]
+pub(crate) struct Study {
+    /// Which figure
+    #[arg(value_enum)]
+    name: Name,
+    /// Folder for tables and pictures; made if it is not there
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// What can be asked for.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
+enum Name {
+    /// Fig. 3E: field of one ring magnet
+    FieldRing,
+    /// Fig. 4: choice of helix length and boundary angle
+    Fig4,
+    /// Fig. 5: relative magnetic moment over the number of segments
+    Fig5,
+    /// Fig. 7A: one segment in a perpendicular field, gain from the base ring
+    Fig7a,
+    /// Fig. 7B: three segments and a solid cylinder within 20 mT
+    Fig7b,
+    /// Fig. 7C: forces of the magnet pair on devices held straight
+    Fig7c,
+    /// Fig. 7D: field of the magnet pair
+    Fig7d,
+    /// Fig. 8: torque on the last of several rings
+    Fig8,
+    /// A magnet passes nine segments with its field against them, and comes back
+    Hysteresis,
+    /// Every figure
+    All,
+}
+
+impl Name {
+    /// The study of this name; `None` for all.
+    fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
+        match self {
+            Self::FieldRing => Some(studies::field_ring),
+            Self::Fig4 => Some(studies::fig4),
+            Self::Fig5 => Some(studies::fig5),
+            Self::Fig7a => Some(studies::fig7a),
+            Self::Fig7b => Some(studies::fig7b),
+            Self::Fig7c => Some(studies::fig7c),
+            Self::Fig7d => Some(studies::fig7d),
+            Self::Fig8 => Some(studies::fig8),
+            Self::Hysteresis => Some(studies::hysteresis),
+            Self::All => None,
+        }
+    }
+
+    /// The name as it is typed.
+    fn typed(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().into())
+    }
+}
+
+impl Study {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        std::fs::create_dir_all(&self.out)
+            .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
+        let wanted = |name: &Name| self.name == Name::All || *name == self.name;
+        let chosen: Vec<_> = Name::value_variants()
+            .iter()
+            .filter(|name| wanted(name))
+            .filter_map(|name| Some((name.typed(), name.study()?)))
+            .collect();
+        let bar = progress_bar(chosen.len() as u64);
+        let computed = chosen
+            .into_par_iter()
+            .map(|(name, study)| {
+                bar.set_message(name.clone());
+                let study = study()?;
+                write_table(&study, &self.out.join(&name).with_extension("csv"))?;
+                picture::write(&study, &self.out.join(&name).with_extension("png"))?;
+                bar.inc(1);
+                Ok((name, study))
+            })
+            .collect::<Result<Vec<_>, Failure>>()?;
+        bar.finish_and_clear();
+        let table = comparison::table(computed.iter().map(|(name, study)| (name.as_str(), study)));
+        if self.name == Name::All {
+            std::fs::write(self.out.join("comparison.md"), &table)?;
+        }
+        std::io::stdout().write_all(table.as_bytes())?;
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Writes a study's columns; an empty cell is a value that does not exist.
+fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
+    let mut table = create_table(path)?;
+    table.write_record(study.columns.iter().map(|column| &column.name))?;
+    let rows = study.columns.first().map_or(0, |column| column.values.len());
+    for row in 0..rows {
+        let cells = study.columns.iter().map(|column| Some(column.values[row]).filter(|v| !v.is_nan()));
+        table.serialize(cells.collect::<Vec<_>>())?;
+    }
+    table.flush()?;
+    Ok(())
+}
+
+/// Hidden when standard error is no terminal.
+fn progress_bar(studies: u64) -> ProgressBar {
+    let bar = ProgressBar::new(studies);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} studies, {msg}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+    bar
+}

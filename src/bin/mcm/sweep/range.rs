@@ -1,0 +1,54 @@
+//! Values of one key, as `--vary` states them.
+
+use std::str::FromStr;
+
+/// More values of one key are a slip of the pen: their table would not fit into memory.
+const MOST_VALUES: u32 = 1_000_000;
+
+/// Values of one key.
+#[derive(Clone)]
+pub(super) struct Range {
+    pub(super) key: String,
+    pub(super) values: Vec<f64>,
+}
+
+impl FromStr for Range {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let form = || format!("\"{text}\" is not of the form KEY=START:STOP:COUNT");
+        let (key, range) = text.split_once('=').ok_or_else(form)?;
+        let [start, stop, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form()) };
+        let number = |text: &str| match text.trim().parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => Err(format!("\"{text}\" is no finite number")),
+        };
+        let (start, stop) = (number(start)?, number(stop)?);
+        let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is no count"))?;
+        if !(1..=MOST_VALUES).contains(&count) {
+            return Err(format!("COUNT = {count} is not allowed: it must be from 1 to {MOST_VALUES}"));
+        }
+        let last = f64::from(count - 1);
+        let value = |i: u32| if i == 0 { start } else { start + (stop - start) * (f64::from(i) / last) };
+        Ok(Self { key: key.trim().into(), values: (0..count).map(value).collect() })
+    }
+}
+
+impl Range {
+    /// From the first to the last value.
+    pub(super) fn span(&self) -> f64 {
+        let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
+        (last - first).abs()
+    }
+}
+
+/// Every combination of the ranges' values, the last range fastest.
+pub(super) fn grid(ranges: &[Range]) -> Vec<Vec<f64>> {
+    ranges.iter().fold(vec![Vec::new()], |grid, range| {
+        let extended = |start: &Vec<f64>| {
+            let start = start.clone();
+            range.values.iter().map(move |&value| [&start[..], &[value]].concat())
+        };
+        grid.iter().flat_map(extended).collect()
+    })
+}

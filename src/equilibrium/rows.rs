@@ -1,0 +1,206 @@
+//! The rows of a Jacobian: how every output answers when the shape and the inputs change.
+//!
+//! Wrenches are derivatives of the energy by rigid motions of the field, of the magnet or of all that surrounds the
+//! chain. Their derivatives by the shape are therefore columns of the inputs: second derivatives are symmetric.
+
+use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vector3};
+
+use super::columns::turned;
+use super::field_rates::{FIELD_INPUTS, field_rates};
+use super::inputs::Inputs;
+use super::jacobian::{Counts, Input};
+use super::sensitivity::{Motion, Response, carry, inside};
+use super::solver::{Equilibrium, Place};
+use crate::error::Error;
+use crate::geometry::{Pose, hat};
+use crate::magnetics::{LinearField, Wrench};
+use crate::rod::{Configuration, Row};
+
+/// Sine of an angle below which its corner counts as reached.
+const CORNER: f64 = 1e-9;
+
+/// What a quantity does when the whole scene moves as one body.
+#[derive(Debug, Clone, Copy)]
+enum Carried {
+    Not,
+    Vector(Vector3<f64>),
+    Position(Vector3<f64>),
+    Rotation,
+}
+
+/// The rows, one quantity after the other.
+pub(super) struct Rows<'a> {
+    matrix: DMatrix<f64>,
+    next: usize,
+    inputs: &'a Inputs,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(inputs: &'a Inputs, counts: &Counts) -> Self {
+        Self { matrix: DMatrix::zeros(counts.outputs(), counts.inputs()), next: 0, inputs }
+    }
+
+    pub(super) fn into_matrix(self) -> DMatrix<f64> {
+        self.matrix
+    }
+
+    /// Adds a quantity, whose rates are seen from the base in the base's columns.
+    fn push<R: Dim, S: RawStorage<f64, R, Dyn>>(&mut self, rates: &Matrix<f64, R, Dyn, S>, kind: Carried) {
+        let mut rows = self.matrix.rows_mut(self.next, rates.nrows());
+        rows.iter_mut().zip(rates.iter()).for_each(|(entry, rate)| *entry = *rate);
+        self.next += rates.nrows();
+        let (shift, spin) = (Input::BasePosition.columns().start, Input::BaseRotation.columns().start);
+        let mut add = |column: usize, block: Matrix3<f64>| {
+            let mut part = rows.columns_mut(column, 3);
+            part += block;
+        };
+        match kind {
+            Carried::Not => {}
+            Carried::Vector(vector) => add(spin, -hat(&vector)),
+            Carried::Rotation => add(spin, Matrix3::identity()),
+            Carried::Position(point) => {
+                add(shift, Matrix3::identity());
+                add(spin, -hat(&(point - self.inputs.base.position)));
+            }
+        }
+    }
+
+    fn push_wrench(&mut self, rates: &DMatrix<f64>, wrench: &Wrench) {
+        self.push(&rates.rows(0, 3), Carried::Vector(wrench.force));
+        self.push(&rates.rows(3, 3), Carried::Vector(wrench.torque));
+    }
+}
+
+impl Equilibrium {
+    /// Angle, position and rotation of the tip.
+    pub(super) fn add_tip(&self, rows: &mut Rows<'_>, response: &Response) {
+        let tip = self.tip();
+        let rates = self.tip_rates(response);
+        let open = bending(&rows.inputs.base.axis(), &tip.axis());
+        rows.push(&(open.transpose() * rates.rows(3, 3)), Carried::Not);
+        rows.push(&rates.rows(0, 3), Carried::Position(tip.position));
+        rows.push(&rates.rows(3, 3), Carried::Rotation);
+    }
+
+    /// The wrenches of the field on the chain, of the clamp, and of the chain on the magnet.
+    pub(super) fn add_wrenches(&self, rows: &mut Rows<'_>, response: &Response) {
+        let Response { by_base, columns, unknowns, .. } = response;
+        let inputs = rows.inputs;
+        let mut with_field = by_base.clone();
+        with_field.rows_mut(FIELD_INPUTS, by_base.nrows() - FIELD_INPUTS).fill(0.0);
+        let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
+        let mut on_field = first(&columns.clamp, FIELD_INPUTS);
+        carry(&mut on_field, by_base);
+        rows.push_wrench(&(by_shape - on_field), &self.magnetic_wrench());
+        rows.push_wrench(&response.clamp, &self.base_reaction());
+
+        let reaction = self.magnet_reaction(inputs);
+        let by_shape = columns.gradient.columns(0, 6).tr_mul(unknowns);
+        let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
+        // From the base to the magnet's centre, which may move.
+        let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);
+        let mut torque = on_magnet.rows_mut(3, 3);
+        torque -= moved;
+        let mut by_position = torque.columns_mut(0, 3);
+        by_position += hat(&reaction.force);
+        carry(&mut on_magnet, by_base);
+        rows.push_wrench(&(on_magnet - by_shape), &reaction);
+    }
+
+    /// The external field at the tip.
+    pub(super) fn add_tip_field(&self, rows: &mut Rows<'_>, response: &Response) -> Result<(), Error> {
+        let (inputs, tip) = (rows.inputs, self.tip().position);
+        let here = self.field_at(inputs, &tip).ok_or_else(inside)?;
+        let rates = field_rates(response.magnet.as_ref(), inputs, &tip).ok_or_else(inside)?;
+        let mut field = DMatrix::zeros(3, response.counts.inputs());
+        let mut gradient = LinearField::new(inputs.uniform_field, inputs.field_gradient).gradient();
+        for (column, (rate, _)) in rates.iter().enumerate() {
+            field.set_column(column, rate);
+            if column < 3 {
+                // The magnet's field moves with it: minus its gradient.
+                gradient.set_column(column, &(gradient.column(column) - rate));
+            }
+        }
+        carry(&mut field, &response.by_base);
+        rows.push(&(field + gradient * self.tip_rates(response).rows(0, 3)), Carried::Vector(here));
+        Ok(())
+    }
+
+    /// The centreline.
+    pub(super) fn add_shape(&mut self, rows: &mut Rows<'_>, response: &Response) {
+        for point in self.shape.clone().iter() {
+            let (pose, rates) = match &point.place {
+                Place::Rigid(node, distance) => {
+                    let pose = self.work.nodes[*node];
+                    let rates = moved(&response.motion.nodes[*node], &(pose.axis() * *distance));
+                    (pose.advanced(*distance), rates)
+                }
+                Place::Elastic(element, row) => self.place(*element, row, &response.motion),
+            };
+            rows.push(&rates.rows(0, 3), Carried::Position(pose.position));
+        }
+    }
+
+    /// Position, rotation and axis of each ring.
+    pub(super) fn add_rings(&self, rows: &mut Rows<'_>, response: &Response) {
+        for (body, pose) in self.chain.rings.iter().zip(self.rings()) {
+            let arm = pose.position - self.work.nodes[body.node].position;
+            let rates = moved(&response.motion.nodes[body.node], &arm);
+            let axis = pose.axis();
+            rows.push(&rates.rows(0, 3), Carried::Position(pose.position));
+            rows.push(&rates.rows(3, 3), Carried::Rotation);
+            rows.push(&(-hat(&axis) * rates.rows(3, 3)), Carried::Vector(axis));
+        }
+    }
+
+    /// The bending of each core.
+    pub(super) fn add_cores(&mut self, rows: &mut Rows<'_>, response: &Response) {
+        let chain = self.chain.clone();
+        for (start, stop) in &chain.cores {
+            let [first, _] = &chain.elements[*start].core_ends;
+            let [_, last] = &chain.elements[*stop].core_ends;
+            let (from, from_rates) = self.place(*start, first, &response.motion);
+            let (to, to_rates) = self.place(*stop, last, &response.motion);
+            let open = bending(&from.axis(), &to.axis());
+            rows.push(&(open.transpose() * (to_rates - from_rates).rows(3, 3)), Carried::Not);
+        }
+    }
+
+    fn tip_rates(&self, response: &Response) -> DMatrix<f64> {
+        let last = self.chain.elements.len();
+        moved(&response.motion.nodes[last], &(self.tip().position - self.work.nodes[last].position))
+    }
+
+    /// Pose of a place on an element, and its displacement and rotation by each input.
+    fn place(&mut self, k: usize, row: &Row, motion: &Motion) -> (Pose, DMatrix<f64>) {
+        let element = &self.chain.elements[k];
+        let amplitudes = self.chain.part(k, &self.branch.unknowns);
+        let local = self.work.configurations[k].pose_at(element, row, amplitudes);
+        let left = Configuration::rotation_at(element, row, amplitudes).left_jacobian();
+        let tangent = &mut self.work.tangents[k];
+        let size = tangent.size;
+        let columns = DMatrixView::from_slice(tangent.motion(element, row, &local.position, &left), size, 6);
+        let node = self.work.nodes[k];
+        (node.compose(&local), turned(&node.rotation, &columns.tr_mul(&motion.elements[k])))
+    }
+}
+
+/// The first columns alone, the others zero.
+fn first(rates: &DMatrix<f64>, columns: usize) -> DMatrix<f64> {
+    let mut out = rates.clone();
+    out.columns_mut(columns, rates.ncols() - columns).fill(0.0);
+    out
+}
+
+/// Displacement and rotation of a point at `arm` from one that moves so.
+fn moved(twists: &DMatrix<f64>, arm: &Vector3<f64>) -> DMatrix<f64> {
+    let mut out = twists.clone();
+    let mut position = out.rows_mut(0, 3);
+    position -= hat(arm) * twists.rows(3, 3);
+    out
+}
+
+/// The axis about which a rotation of `to` opens the angle from `from`; zero where the angle has a corner.
+fn bending(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
+    from.cross(to).try_normalize(CORNER).unwrap_or_default()
+}

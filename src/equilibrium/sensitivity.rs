@@ -1,0 +1,204 @@
+//! Exact derivatives of all outputs, from the factorisation of the Hessian at the equilibrium.
+//!
+//! Every input has a column `@2U/@q@u` of mixed derivatives; one solve each gives the rates of the unknowns, which
+//! the chain carries along to its nodes. Moving the base is moving everything else the other way, seen from a frame
+//! that moves with the base: its columns are combinations of the others.
+
+use nalgebra::{DMatrix, DMatrixView};
+
+use super::columns::{Columns, carried, turned};
+use super::inputs::Inputs;
+use super::jacobian::{Counts, Input, Jacobian};
+use super::potential::Potential;
+use super::rows::Rows;
+use super::settings::Interaction;
+use super::solver::Equilibrium;
+use crate::error::Error;
+use crate::geometry::hat;
+use crate::magnetics::Assembly;
+use crate::numerics::trust_region::{Objective, norm, spread};
+use crate::rod::START;
+
+/// Stiffness of the softest direction, relative to the elastic one, from which on a shape counts as at a fold: the
+/// residual of a solve leaves the stiffness itself uncertain by its square root, 3e-6.
+const SINGULAR: f64 = 1e-5;
+
+/// Inverse iterations that look for it: near a fold, each gains orders of magnitude.
+const ITERATIONS: usize = 4;
+
+/// How the shape answers to the inputs, one column each; in the base's columns seen from the base.
+#[derive(Debug)]
+pub(super) struct Response {
+    pub(super) counts: Counts,
+    /// The external magnet, unless it is switched off where it cannot be switched on.
+    pub(super) magnet: Option<Assembly>,
+    /// How the inputs change when the world moves about the base: see [`carried`].
+    pub(super) by_base: DMatrix<f64>,
+    /// Mixed derivatives.
+    pub(super) columns: Columns,
+    /// Rates of the unknowns.
+    pub(super) unknowns: DMatrix<f64>,
+    pub(super) motion: Motion,
+    /// Rates of the clamp's wrench.
+    pub(super) clamp: DMatrix<f64>,
+}
+
+/// Displacements (m) and rotations (rad) of the nodes, and of the columns of each element's tangent.
+#[derive(Debug)]
+pub(super) struct Motion {
+    pub(super) nodes: Vec<DMatrix<f64>>,
+    pub(super) elements: Vec<DMatrix<f64>>,
+}
+
+/// What is said of a point where no field is known.
+pub(super) fn inside() -> Error {
+    Error::NoDerivatives("a part lies inside or on an edge of the external magnet".into())
+}
+
+impl Equilibrium {
+    /// Derivatives of all outputs by all inputs at the last solved shape.
+    ///
+    /// The equilibrium itself stays as it is, and goes on as if nothing had been asked.
+    ///
+    /// # Errors
+    /// [`Error::NoDerivatives`] before the first solved shape; at a fold, where the shape moves infinitely far with
+    /// its inputs (the stiffness of some direction is below 1e-5 of the elastic one); and where a part or the tip
+    /// lies inside or on an edge of the external magnet. One that is switched off there cannot be switched on: its
+    /// columns are zero.
+    pub fn jacobian(&self) -> Result<Jacobian, Error> {
+        let nothing = || Error::NoDerivatives("nothing is solved yet".into());
+        let inputs = self.branch.inputs.clone().ok_or_else(nothing)?;
+        // Evaluations of the copy leave no trace.
+        let mut copy = self.clone();
+        let response = copy.response(&inputs)?;
+        let mut rows = Rows::new(&inputs, &response.counts);
+        copy.add_tip(&mut rows, &response);
+        copy.add_wrenches(&mut rows, &response);
+        copy.add_tip_field(&mut rows, &response)?;
+        copy.add_shape(&mut rows, &response);
+        copy.add_rings(&mut rows, &response);
+        copy.add_cores(&mut rows, &response);
+        Ok(Jacobian { matrix: rows.into_matrix(), counts: response.counts })
+    }
+
+    fn response(&mut self, inputs: &Inputs) -> Result<Response, Error> {
+        let counts = Counts {
+            rings: self.chain.rings.len(),
+            shape_points: self.shape.len(),
+            cores: self.chain.cores.len(),
+        };
+        let (shape, mut magnet) = (self.branch.unknowns.clone(), self.magnet.clone());
+        let mut potential = self.potential(inputs, &shape);
+        let stiffness = match potential.linearise(&shape) {
+            Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
+            _ => 0.0,
+        };
+        if stiffness.is_nan() || stiffness < SINGULAR {
+            let reason = format!(
+                "the shape is at a fold: its softest direction has {stiffness:.1e} of the elastic stiffness"
+            );
+            return Err(Error::NoDerivatives(reason));
+        }
+        let mut columns = potential.columns(magnet.as_ref(), &counts);
+        if columns.is_none() && inputs.magnet_strength == 0.0 {
+            // Switched off inside the manipulator, a magnet can only stay so.
+            magnet = None;
+            columns = potential.columns(None, &counts);
+        }
+        let mut columns = columns.ok_or_else(inside)?;
+        let by_base = carried(inputs, &counts);
+        carry(&mut columns.gradient, &by_base);
+        carry(&mut columns.clamp, &by_base);
+        let mut unknowns = -&columns.gradient;
+        for column in unknowns.as_mut_slice().chunks_exact_mut(shape.len()) {
+            potential.solve(column);
+        }
+        let motion = potential.motion(&unknowns);
+        let mut response =
+            Response { counts, magnet, by_base, columns, unknowns, motion, clamp: DMatrix::zeros(0, 0) };
+        response.clamp = potential.clamp_rates(&response);
+        Ok(response)
+    }
+}
+
+impl Potential<'_> {
+    /// Stiffness of the softest direction relative to the elastic one, from above, close where it is small: by
+    /// inverse iteration, with or without a potential.
+    fn softest_stiffness(&mut self) -> f64 {
+        let metric = &self.chain.metric;
+        let mut direction = vec![0.0; metric.len()];
+        spread(metric, &mut direction, 1.0);
+        let mut growth = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            let size = norm(metric, &direction);
+            direction.iter_mut().zip(metric).for_each(|(x, k)| *x *= k / size);
+            self.solve(&mut direction);
+            growth = norm(metric, &direction);
+        }
+        1.0 / growth
+    }
+
+    /// Carries the rates of the unknowns along the chain, from the base that stands still.
+    fn motion(&mut self, unknown_rates: &DMatrix<f64>) -> Motion {
+        let mut nodes = vec![DMatrix::zeros(6, unknown_rates.ncols())];
+        let mut elements = Vec::new();
+        for k in 0..self.chain.elements.len() {
+            let axes = self.work.nodes[k].rotation;
+            let end = self.end_motion(k);
+            let mut whole = DMatrix::zeros(end.nrows(), unknown_rates.ncols());
+            whole.rows_mut(0, START).copy_from(&turned(&axes.transpose(), &nodes[k]));
+            let own = unknown_rates.rows(self.chain.first[k], end.nrows() - START);
+            whole.rows_mut(START, own.nrows()).copy_from(&own);
+            nodes.push(turned(&axes, &end.tr_mul(&whole)));
+            elements.push(whole);
+        }
+        Motion { nodes, elements }
+    }
+
+    /// Rates of the clamp's wrench.
+    fn clamp_rates(&mut self, response: &Response) -> DMatrix<f64> {
+        let columns = &response.columns;
+        if self.settings.interaction == Interaction::Preceding {
+            return self.clamp_without_reciprocity(&response.motion) + &columns.clamp;
+        }
+        // Nothing inside pulls at the clamp: its wrench is the energy's derivative by what surrounds the chain. A
+        // dead moment has none, and stays as it is wherever the tip turns.
+        let mut around = response.by_base.clone();
+        around.rows_mut(Input::TipMoment.columns().start, 3).fill(0.0);
+        &columns.clamp - (&columns.gradient * around).tr_mul(&response.unknowns)
+    }
+
+    /// The part of it that comes from the shape, added up from the tip where actions lack their reactions.
+    fn clamp_without_reciprocity(&mut self, motion: &Motion) -> DMatrix<f64> {
+        let last = self.chain.elements.len();
+        let mut others = DMatrix::zeros(6 * last, motion.nodes[0].ncols());
+        for (k, node) in motion.nodes.iter().skip(1).enumerate() {
+            others.rows_mut(6 * k, 6).copy_from(node);
+        }
+        // Stored row by row, the matrices are seen transposed.
+        let transposed = DMatrixView::from_slice(&self.work.node_hessian, 6 * last, 6 * last);
+        let mut on_nodes = transposed.tr_mul(&others);
+        let mut on_tip = on_nodes.rows_mut(6 * last - 3, 3);
+        on_tip -= hat(&self.inputs.tip_moment) * motion.nodes[last].rows(3, 3) * 0.5;
+        let mut wrench = DMatrix::zeros(6, others.ncols());
+        for k in (0..last).rev() {
+            wrench += on_nodes.rows(6 * k, 6);
+            let axes = self.work.nodes[k].rotation;
+            let end = self.end_motion(k);
+            let size = end.nrows();
+            let hessian = DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size);
+            let cross = DMatrixView::from_slice(&self.work.cross[k], size, 6 * last);
+            let local = hessian.columns(0, START).tr_mul(&motion.elements[k])
+                + cross.rows(0, START) * &others
+                + end.rows(0, START) * turned(&axes.transpose(), &wrench);
+            wrench = turned(&axes, &local);
+        }
+        wrench
+    }
+}
+
+/// Fills the base's columns, seen from the base: what surrounds the chain moves the other way.
+pub(super) fn carry(rates: &mut DMatrix<f64>, by_base: &DMatrix<f64>) {
+    let columns = -&*rates * by_base;
+    rates.columns_mut(Input::BasePosition.columns().start, 6).copy_from(&columns);
+}

@@ -1,0 +1,88 @@
+//! How finely each ring sees the material of each element: by their distance and by the bend between them.
+
+use super::chain::RingBody;
+use super::settings::{Interaction, Settings};
+use crate::geometry::Pose;
+use crate::rod::{Element, Piece, Sample, Sight};
+
+/// Bends up to which each of the samples of a view is made, rad; the last serves beyond too.
+const BENDS: [f64; 5] = [0.08, 0.16, 0.32, 0.64, 1.28];
+
+/// Part of the accuracy of the pairs that is asked for between a ring and a span: the errors of a ring's spans add up.
+pub(super) const SPAN_SHARE: f64 = 0.3;
+
+/// The samples of an element for one ring, by bend.
+#[derive(Debug, Clone)]
+struct View {
+    /// An element of this make.
+    element: usize,
+    sight: Sight,
+    samples: [Vec<Sample>; BENDS.len()],
+}
+
+/// The samples of all elements for all rings; equal ones are kept once.
+#[derive(Debug, Clone)]
+pub(super) struct Views {
+    views: Vec<View>,
+    /// By element and ring; `None` where the ring does not act.
+    places: Vec<Vec<Option<usize>>>,
+}
+
+impl Views {
+    /// Of elements made of `pieces`.
+    pub(super) fn new(
+        elements: &[Element],
+        pieces: &[Vec<Piece<'_>>],
+        rings: &[RingBody],
+        settings: &Settings,
+    ) -> Self {
+        let mut views: Vec<View> = Vec::new();
+        let mut place = |element: usize, body: &RingBody| {
+            let sight = sight(elements, element, body, settings)?;
+            let same = |view: &View| view.sight == sight && pieces[view.element] == pieces[element];
+            Some(views.iter().position(same).unwrap_or_else(|| {
+                let at = |bend| elements[element].samples(&pieces[element], &Sight { bend, ..sight });
+                views.push(View { element, sight, samples: BENDS.map(at) });
+                views.len() - 1
+            }))
+        };
+        let places = (0..elements.len()).map(|k| rings.iter().map(|body| place(k, body)).collect()).collect();
+        Self { views, places }
+    }
+
+    /// The samples of an element for a ring, at a level of [`Self::level`].
+    pub(super) fn samples(&self, element: usize, ring: usize, level: usize) -> &[Sample] {
+        self.places[element][ring].map_or(&[], |place| &self.views[place].samples[level])
+    }
+
+    /// How many levels there are.
+    pub(super) const LEVELS: usize = BENDS.len();
+
+    /// The level for the bend between a ring and an element, whose ends are at two nodes.
+    pub(super) fn level(ring: &Pose, ends: [&Pose; 2]) -> usize {
+        let bend = ends.map(|end| ring.axis().angle(&end.axis())).into_iter().fold(0.0, f64::max);
+        BENDS.iter().position(|most| bend <= *most).unwrap_or(BENDS.len() - 1)
+    }
+}
+
+/// Where a ring is seen from element `k` of the straight chain, if it acts there.
+fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<Sight> {
+    let beyond = body.node > k;
+    let acts = match settings.interaction {
+        Interaction::None | Interaction::Rings => false,
+        Interaction::Preceding => !beyond,
+        Interaction::Full => true,
+    };
+    let between = if beyond { &elements[k + 1..body.node] } else { &elements[body.node..k] };
+    let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
+    // What stands before an element's start is counted with it: the ring itself, or the one that it faces.
+    let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
+    acts.then(|| Sight {
+        distance,
+        beyond,
+        bonded: body.node == k || body.node == k + 1,
+        radius: body.ring.outer_radius,
+        bend: 0.0,
+        accuracy: SPAN_SHARE * settings.pair_accuracy,
+    })
+}

@@ -1,0 +1,196 @@
+//! Following a branch along a path of inputs, and locating the folds where it is left.
+
+use super::{Inputs, Manipulator, Outputs, Status};
+use crate::error::{Error, check};
+
+/// Width of the interval in which a fold is located, of the path's span.
+const FOLD_WIDTH: f64 = 1e-5;
+
+/// The margin below which the fold ahead is predicted: its square is linear only close to the fold.
+const PREDICTION_MARGIN: f64 = 0.5;
+
+/// Where a branch was left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fold {
+    /// The value on the path, the middle of an interval of 1e-5 of the path's span.
+    pub value: f64,
+    /// Whether it was met while the value grew.
+    pub upwards: bool,
+    /// The last shape on the branch, with its stability margin measured.
+    pub before: Outputs,
+    /// The shape that was found next, and its value; `None`: the branch ends, and no stable shape was found.
+    pub after: Option<(f64, Outputs)>,
+}
+
+/// A manipulator whose inputs are functions of one number.
+///
+/// ```
+/// use mcm::manipulator::{Branch, Inputs, Scene};
+/// // The rings' and the helix' attraction pulls one segment shut at 35.86 mT.
+/// let scene = Scene::parse("[design]\nsegments = 1\n[model]\ninteraction = \"full\"", "doc")?;
+/// let field = |b: f64| Ok(Inputs { uniform_field: [0.0, b, 0.0].into(), ..Inputs::unloaded(2) });
+/// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04, 0.001)?;
+/// branch.to(0.0)?;
+/// branch.to(0.04)?;
+/// assert_eq!(branch.folds().len(), 1);
+/// assert!((branch.folds()[0].value - 35.86e-3).abs() < 1e-4);
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Branch<F> {
+    manipulator: Manipulator,
+    inputs: F,
+    span: f64,
+    longest_step: f64,
+    /// Value at which the manipulator's shape is in equilibrium.
+    here: Option<f64>,
+    /// The branch ended on the last way.
+    lost: bool,
+    folds: Vec<Fold>,
+    /// Value and margin of the last two solved targets of [`Branch::to`] on this branch.
+    margins: [Option<(f64, f64)>; 2],
+}
+
+impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
+    /// The branch of `manipulator`, unsolved; `inputs` gives what acts at each value.
+    ///
+    /// The values to be visited span `span`. No step between two solves is longer than `longest_step`: between them the
+    /// inputs change linearly, a turned field along the chord.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for a span or a step that is not positive.
+    pub fn new(manipulator: Manipulator, inputs: F, span: f64, longest_step: f64) -> Result<Self, Error> {
+        check("span of the path", span, |v| v > 0.0, "> 0")?;
+        check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
+        let (folds, margins) = (Vec::new(), [None; 2]);
+        Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
+    }
+
+    /// Follows the branch to `target` (the first time: from the unloaded shape), and locates the folds on the way.
+    ///
+    /// Where the branch ends, the outputs stay those of its last shape with [`Status::NotSolved`]. Farther on the
+    /// same way each call tries once to find a shape; the way back goes on from the last one.
+    ///
+    /// # Errors
+    /// Those of the inputs and of [`Manipulator::solve`].
+    pub fn to(&mut self, target: f64) -> Result<&Outputs, Error> {
+        let Some(mut here) = self.here else {
+            if self.manipulator.solve(&(self.inputs)(target)?)?.status != Status::NotSolved {
+                self.here = Some(target);
+                self.remember(target);
+            }
+            return Ok(self.manipulator.outputs());
+        };
+        let upwards = target > here;
+        if self.lost && self.folds.last().is_some_and(|fold| fold.upwards == upwards) {
+            self.search(target)?;
+            return Ok(self.manipulator.outputs());
+        }
+        self.lost = false;
+        let longest = self.longest_step;
+        while !self.lost && here.total_cmp(&target).is_ne() {
+            let step = (target - here).clamp(-longest, longest);
+            let next = if (target - here).abs() <= longest { target } else { here + step };
+            let trial = self.trial(next)?;
+            if on_branch(&trial) {
+                (self.manipulator, here) = (trial, next);
+            } else {
+                here = self.pass_fold(here, next, &trial)?;
+            }
+        }
+        self.here = Some(here);
+        if !self.lost {
+            self.remember(target);
+        }
+        Ok(self.manipulator.outputs())
+    }
+
+    /// The outputs at the last target.
+    #[must_use]
+    pub fn outputs(&self) -> &Outputs {
+        self.manipulator.outputs()
+    }
+
+    /// The folds that were met, in their order.
+    #[must_use]
+    pub fn folds(&self) -> &[Fold] {
+        &self.folds
+    }
+
+    /// The value at which the branch folds, if it goes on as between the last two targets: towards a fold the square of
+    /// the stability margin goes to zero linearly. `None` where the margin grows or is above 0.5.
+    #[must_use]
+    pub fn predicted_fold(&self) -> Option<f64> {
+        let [Some((before, first)), Some((here, last))] = self.margins else { return None };
+        let ahead = last < first && last < PREDICTION_MARGIN && first > 0.0;
+        ahead.then(|| here + (here - before) * last * last / (first * first - last * last))
+    }
+
+    fn trial(&self, value: f64) -> Result<Manipulator, Error> {
+        let mut trial = self.manipulator.clone();
+        trial.solve(&(self.inputs)(value)?)?;
+        Ok(trial)
+    }
+
+    /// Bisects between `here`, on the branch, and `next`, where `fallen` no longer is; goes to the shape beyond and
+    /// returns its value, or that of the last shape on the branch if none was found.
+    fn pass_fold(&mut self, here: f64, next: f64, fallen: &Manipulator) -> Result<f64, Error> {
+        let (mut on, mut off) = (here, next);
+        let mut after = found(off, fallen);
+        while (off - on).abs() > FOLD_WIDTH * self.span {
+            let middle = 0.5 * (on + off);
+            let trial = self.trial(middle)?;
+            if on_branch(&trial) {
+                (self.manipulator, on) = (trial, middle);
+            } else {
+                // Too close to the fold a fall may fail that ends well from farther on: that one is kept.
+                after = found(middle, &trial).or(after);
+                off = middle;
+            }
+        }
+        let before = self.manipulator.measure_margin().clone();
+        let nearest = self.trial(off)?;
+        if on_branch(&nearest) {
+            self.manipulator = nearest;
+            return Ok(off); // reached from closer by: no fold
+        }
+        self.margins = [None; 2];
+        let after = found(off, &nearest).or(after);
+        self.lost = after.is_none();
+        let (reached, manipulator) = after.clone().unwrap_or((on, nearest));
+        self.manipulator = manipulator;
+        let after = after.map(|(value, manipulator)| (value, manipulator.outputs().clone()));
+        self.folds.push(Fold { value: 0.5 * (on + off), upwards: next > here, before, after });
+        Ok(reached)
+    }
+
+    /// Tries to find a shape at `target`, beyond the end of the branch.
+    fn search(&mut self, target: f64) -> Result<(), Error> {
+        let trial = self.trial(target)?;
+        if trial.outputs().status != Status::NotSolved {
+            self.lost = false;
+            self.here = Some(target);
+            if let Some(fold) = self.folds.last_mut() {
+                fold.after = Some((target, trial.outputs().clone()));
+            }
+        }
+        self.manipulator = trial;
+        if !self.lost {
+            self.remember(target);
+        }
+        Ok(())
+    }
+
+    fn remember(&mut self, value: f64) {
+        let margin = self.manipulator.measure_margin().stability_margin;
+        self.margins = [self.margins[1], Some((value, margin))];
+    }
+}
+
+fn on_branch(trial: &Manipulator) -> bool {
+    matches!(trial.outputs().status, Status::Solved | Status::NearFold)
+}
+
+fn found(value: f64, trial: &Manipulator) -> Option<(f64, Manipulator)> {
+    (trial.outputs().status != Status::NotSolved).then(|| (value, trial.clone()))
+}

@@ -1,0 +1,74 @@
+//! Dipoles that are parallel to one another in one section: their energy from a few sums of the field.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::load::Load;
+use crate::geometry::hat;
+
+/// Sums of the field over the dipoles of a section, weighted with their moments and with the coordinates `x`, `y` along
+/// `d1`, `d2`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sheet {
+    field: Vector3<f64>,
+    /// Gradient, weighted with 1, x, y.
+    gradient: [Matrix3<f64>; 3],
+    /// Second derivative of the field's component along the dipoles, weighted with 1, x, y, xx, xy, yy.
+    along: Option<[Matrix3<f64>; 6]>,
+}
+
+impl Sheet {
+    /// No dipoles; `stiff` where second derivatives are summed too.
+    #[must_use]
+    pub fn new(stiff: bool) -> Self {
+        Self {
+            field: Vector3::zeros(),
+            gradient: [Matrix3::zeros(); 3],
+            along: stiff.then_some([Matrix3::zeros(); 6]),
+        }
+    }
+
+    /// Adds a dipole (A m2) at `position` (m) where the field (T) has this gradient and, for the second derivatives,
+    /// `along = sum_i axis_i d2B_i/dx_j dx_k`.
+    pub fn add(
+        &mut self,
+        moment: f64,
+        position: &Vector2<f64>,
+        field: &Vector3<f64>,
+        gradient: &Matrix3<f64>,
+        along: Option<&Matrix3<f64>>,
+    ) {
+        let (x, y) = (position.x, position.y);
+        self.field += field * moment;
+        for (sum, weight) in self.gradient.iter_mut().zip([moment, moment * x, moment * y]) {
+            *sum += gradient * weight;
+        }
+        let (Some(sums), Some(along)) = (&mut self.along, along) else { return };
+        for (sum, weight) in sums.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
+            *sum += along * (moment * weight);
+        }
+    }
+
+    /// The energy as a load on the section's frame, whose directors are the columns of `directors`; that of
+    /// [`Load::add_dipole`] for each dipole at its arm `x d1 + y d2`.
+    #[must_use]
+    pub fn load(&self, directors: &Matrix3<f64>) -> Load {
+        let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| directors.column(i).into_owned());
+        let [force, by_x, by_y] = self.gradient.map(|gradient| gradient * axis);
+        let mut load = Load {
+            energy: -axis.dot(&self.field),
+            force: -force,
+            couple: -(by_x * d1.transpose() + by_y * d2.transpose() + self.field * axis.transpose()),
+            ..Load::zero()
+        };
+        let Some([one, x, y, xx, xy, yy]) = &self.along else { return load };
+        let (turn, first, second) = (hat(&axis), hat(&d1), hat(&d2));
+        let cross = turn * (self.gradient[1] * first + self.gradient[2] * second);
+        let mixed = first * xy * second;
+        load.position_position = -one;
+        load.position_rotation = self.gradient[0] * turn + x * first + y * second;
+        load.rotation_rotation =
+            cross + cross.transpose() + first * xx * first + mixed + mixed.transpose() + second * yy * second;
+        load.stiff = true;
+        load
+    }
+}

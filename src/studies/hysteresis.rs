@@ -1,0 +1,95 @@
+//! A magnet that passes by with its field against the manipulator: one shape on the way forth, another on the way back.
+
+use nalgebra::Vector3;
+
+use super::experiment::{SEGMENTS, magnet_pair};
+use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use crate::design::{Design, Specification};
+use crate::equilibrium::{Interaction, Settings};
+use crate::error::Error;
+use crate::geometry::Pose;
+use crate::manipulator::{Branch, Inputs, Manipulator};
+
+/// Distance of the magnet's axis from the manipulator's, m.
+const DISTANCE: f64 = 0.12;
+
+/// Places of the magnet along the manipulator's axis: first and last (mm), and steps.
+const FIRST: f64 = -40.0;
+const LAST: f64 = 0.0;
+const STEPS: u32 = 40;
+
+/// Nine segments with bending stop, the paper's pair of magnets passing along them at 120 mm from axis to axis and coming
+/// back, magnetised along +z: beside it its field opposes the manipulator, which turns over. `rings`.
+///
+/// # Errors
+/// None for the paper's design; those of the solves are passed on.
+pub fn hysteresis() -> Result<Study, Error> {
+    let design = Design::new(Specification::paper(SEGMENTS))?;
+    let settings = Settings { interaction: Interaction::Rings, bending_stop: true, ..Settings::default() };
+    let manipulator = Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)?;
+    let rings = design.rings().count();
+    let inputs = |place: f64| {
+        let magnet = Pose { position: Vector3::new(0.0, -DISTANCE, 1e-3 * place), ..Pose::identity() };
+        Ok(Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(rings) })
+    };
+    let step = (LAST - FIRST) / f64::from(STEPS);
+    let places: Vec<f64> = (0..=STEPS).map(|i| FIRST + step * f64::from(i)).collect();
+    let mut branch = Branch::new(manipulator, inputs, LAST - FIRST, step)?;
+    let mut walk = |places: &mut dyn Iterator<Item = &f64>| {
+        let at = |&place: &f64| {
+            let outputs = branch.to(place)?;
+            Ok((outputs.tip_angle.to_degrees(), 1e3 * outputs.tip.position.y))
+        };
+        places.map(at).collect::<Result<(Vec<f64>, Vec<f64>), Error>>()
+    };
+    let forth = walk(&mut places.iter())?;
+    let mut back = walk(&mut places.iter().rev())?;
+    back.0.reverse();
+    back.1.reverse();
+    let mut marks = [Vec::new(), Vec::new()];
+    let mut comparison = Vec::new();
+    for fold in branch.folds() {
+        let way = if fold.upwards { "forth" } else { "back" };
+        let before = fold.before.tip_angle.to_degrees();
+        let after = fold.after.as_ref().map_or(f64::NAN, |(_, shape)| shape.tip_angle.to_degrees());
+        for (marks, height) in marks.iter_mut().zip([before, 1e3 * fold.before.tip.position.y]) {
+            marks.push(Mark::Point(format!("snap, {way}"), [fold.value, height]));
+        }
+        comparison.push(Comparison {
+            quantity: format!("place of the magnet at which nine segments snap over, {way} (mm)"),
+            decimals: 2,
+            paper: Value::Absent,
+            printed: Value::Absent,
+            exact: Value::Number(fold.value),
+            remark: format!(
+                "tip angle {before:.1} deg before, {after:.1} deg after; no such experiment is in the paper"
+            ),
+        });
+    }
+    Ok(Study {
+        title: "Hysteresis: a magnet passes nine segments with its field against them, and comes back",
+        columns: vec![
+            Column::new("magnet_z_mm", places),
+            Column::new("alpha_forth_deg", forth.0),
+            Column::new("alpha_back_deg", back.0),
+            Column::new("tip_y_forth_mm", forth.1),
+            Column::new("tip_y_back_mm", back.1),
+        ],
+        panels: ["tip angle (deg)", "tip's distance from the axis, away from the magnet (mm)"]
+            .into_iter()
+            .zip([["alpha_forth_deg", "alpha_back_deg"], ["tip_y_forth_mm", "tip_y_back_mm"]])
+            .zip(marks)
+            .map(|((y, [forth, back]), marks)| Panel::Curves {
+                title: "120 mm from axis to axis; rings, bending stop".into(),
+                x: ("place of the magnet along the axis (mm)".into(), "magnet_z_mm".into()),
+                y: y.into(),
+                curves: vec![
+                    Curve::new("forth", forth, 0, Stroke::Solid),
+                    Curve::new("back", back, 1, Stroke::Dashed),
+                ],
+                marks,
+            })
+            .collect(),
+        comparison,
+    })
+}

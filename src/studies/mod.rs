@@ -1,0 +1,27 @@
+//! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
+//!
+//! Every study is a function without arguments that returns a [`Study`]: nothing is printed or written here.
+
+mod bending;
+mod experiment;
+mod field_ring;
+mod fig4;
+mod fig5;
+mod fig7a;
+mod fig7b;
+mod fig7c;
+mod fig7d;
+mod fig8;
+mod hysteresis;
+mod study;
+
+pub use field_ring::field_ring;
+pub use fig4::fig4;
+pub use fig5::fig5;
+pub use fig7a::{Gain, fig7a, gain_from_base_ring};
+pub use fig7b::fig7b;
+pub use fig7c::fig7c;
+pub use fig7d::fig7d;
+pub use fig8::fig8;
+pub use hysteresis::hysteresis;
+pub use study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};

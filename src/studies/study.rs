@@ -1,0 +1,167 @@
+//! What a study is: columns of numbers, how they are drawn, what they say beside the paper.
+
+/// One figure of the paper, computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// What it shows, in a line.
+    pub title: &'static str,
+    /// The numbers, all columns of equal length.
+    pub columns: Vec<Column>,
+    /// How they are drawn.
+    pub panels: Vec<Panel>,
+    /// What they say beside the paper.
+    pub comparison: Vec<Comparison>,
+}
+
+/// One column of numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Name that ends with the unit, as in `length_mm`; a pure number has none.
+    pub name: String,
+    /// One value for each row; NaN where there is none.
+    pub values: Vec<f64>,
+}
+
+/// One set of axes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Panel {
+    /// Columns against a column.
+    Curves {
+        /// What is drawn.
+        title: String,
+        /// Label with unit, and column of the abscissa.
+        x: (String, String),
+        /// Label with unit of the ordinate.
+        y: String,
+        /// What is drawn.
+        curves: Vec<Curve>,
+        /// What else is drawn.
+        marks: Vec<Mark>,
+    },
+    /// A column as colours over the grid of two others.
+    Map {
+        /// What is drawn.
+        title: String,
+        /// Label with unit, and column of the abscissa.
+        x: (String, String),
+        /// Label with unit, and column of the ordinate.
+        y: (String, String),
+        /// Column of the colour; a cell without a value stays empty.
+        value: String,
+        /// What else is drawn.
+        marks: Vec<Mark>,
+    },
+}
+
+/// A column drawn against the panel's abscissa.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// What the legend calls it.
+    pub label: String,
+    /// Column of the ordinate; gaps where it has no value.
+    pub column: String,
+    /// Number of the colour, from 0; curves that belong together share one.
+    pub colour: usize,
+    /// How it is drawn.
+    pub stroke: Stroke,
+}
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stroke {
+    /// A line.
+    Solid,
+    /// A dashed line.
+    Dashed,
+    /// A dot for each value.
+    Dots,
+}
+
+/// What is drawn beside the columns, mostly a number of the paper.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Mark {
+    /// A horizontal line at a height.
+    Level(String, f64),
+    /// A horizontal band between two heights.
+    Band(String, [f64; 2]),
+    /// A point.
+    Point(String, [f64; 2]),
+}
+
+/// A row of the table that sets paper and model side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// What is compared, with its unit.
+    pub quantity: String,
+    /// Decimals that are worth showing.
+    pub decimals: usize,
+    /// What the paper states.
+    pub paper: Value,
+    /// What the paper's model gives, its formulas taken as printed.
+    pub printed: Value,
+    /// What the exact model gives.
+    pub exact: Value,
+    /// What this means, in a sentence.
+    pub remark: String,
+}
+
+/// What stands in a cell of the comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// Nothing: it is not stated or does not exist.
+    Absent,
+    /// A number.
+    Number(f64),
+    /// Smallest and largest.
+    Range(f64, f64),
+    /// A finding that is no number.
+    Words(String),
+}
+
+impl Study {
+    /// The values of a column.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        self.columns.iter().find(|column| column.name == name).map(|column| column.values.as_slice())
+    }
+}
+
+impl Column {
+    /// A column of the given name.
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Vec<f64>) -> Self {
+        Self { name: name.into(), values }
+    }
+}
+
+impl Curve {
+    /// A curve of the given label, column, colour and stroke.
+    #[must_use]
+    pub fn new(label: impl Into<String>, column: impl Into<String>, colour: usize, stroke: Stroke) -> Self {
+        Self { label: label.into(), column: column.into(), colour, stroke }
+    }
+}
+
+impl Comparison {
+    /// Relative difference of the exact model from the paper; none unless both are numbers.
+    ///
+    /// ```
+    /// use mcm::studies::{Comparison, Value};
+    /// let row = Comparison {
+    ///     quantity: "force (N)".into(),
+    ///     decimals: 2,
+    ///     paper: Value::Number(1.0),
+    ///     printed: Value::Absent,
+    ///     exact: Value::Number(1.5),
+    ///     remark: String::new(),
+    /// };
+    /// assert_eq!(row.difference(), Some(0.5));
+    /// ```
+    #[must_use]
+    pub fn difference(&self) -> Option<f64> {
+        match (&self.paper, &self.exact) {
+            (Value::Number(paper), Value::Number(exact)) => Some(exact / paper - 1.0),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! `mcm study`: tables, pictures, the comparison in the README.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use super::{assert_status, folder, mcm, stderr, table};
+
+/// Largest size of a picture that the README shows, bytes.
+const LARGEST_PICTURE: u64 = 100_000;
+
+const STUDIES: [&str; 9] =
+    ["field_ring", "fig4", "fig5", "fig7a", "fig7b", "fig7c", "fig7d", "fig8", "hysteresis"];
+
+/// Beginnings of pure numbers' headers, and the ends of all others: their unit.
+const PURE: [&str; 5] = ["mu_rel", "segments", "height_over_pitch", "score_", "gain_"];
+const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
+
+fn assert_picture(path: &Path) {
+    let name = path.display();
+    assert!(path.metadata().unwrap().len() < LARGEST_PICTURE, "{name} is too large");
+    let mut picture = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
+    let mut pixels = vec![0; picture.output_buffer_size().unwrap()];
+    let frame = picture.next_frame(&mut pixels).unwrap();
+    assert_eq!((frame.width, frame.height), (900, 600), "{name}");
+    let background = pixels.chunks(3).filter(|pixel| *pixel == [255; 3]).count();
+    let share = background as f64 / f64::from(900 * 600);
+    assert!((0.2..0.99).contains(&share), "{name}: {share} of the picture is white");
+}
+
+fn assert_table(path: &Path) {
+    let rows = table(path);
+    assert!(rows.len() > 3, "{} has {} rows", path.display(), rows.len());
+    for row in &rows {
+        for (header, cell) in row {
+            let named = UNITS.iter().any(|unit| header.ends_with(unit))
+                || PURE.iter().any(|pure| header.starts_with(pure));
+            assert!(named, "{}: {header} names no unit", path.display());
+            assert!(cell.is_empty() || cell.parse::<f64>().unwrap().is_finite(), "{header} = {cell}");
+        }
+    }
+}
+
+#[test]
+fn every_study_leaves_table_and_picture_and_the_readme_has_their_comparison() {
+    let here = folder("study");
+    let readme = include_str!("../../README.md");
+    let output = mcm(&here, &["study", "all", "--out", "figures"]);
+    assert_status(&output, 0);
+    for name in STUDIES {
+        assert_table(&here.join("figures").join(name).with_extension("csv"));
+        assert_picture(&here.join("figures").join(name).with_extension("png"));
+        let shown = format!("tests/charts/{name}.png");
+        assert!(readme.contains(&shown), "the README does not show {shown}");
+        assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(&shown).is_file());
+    }
+    let comparison = std::fs::read_to_string(here.join("figures/comparison.md")).unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), comparison);
+    assert!(
+        readme.contains(&comparison),
+        "the README's comparison is not what `mcm study all` writes:\n{comparison}"
+    );
+}
+
+#[test]
+fn one_study_leaves_its_files_alone() {
+    let here = folder("study_one");
+    assert_status(&mcm(&here, &["study", "fig5", "--out", "a/b"]), 0);
+    let mut left: Vec<String> = std::fs::read_dir(here.join("a/b"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    left.sort();
+    assert_eq!(left, ["fig5.csv", "fig5.png"]);
+}
+
+#[test]
+fn unknown_study_lists_the_known_ones() {
+    let output = mcm(&folder("study_unknown"), &["study", "fig6", "--out", "figures"]);
+    assert_status(&output, 1);
+    let message = stderr(&output);
+    assert!(message.contains("'fig6'") && STUDIES.iter().all(|name| message.contains(name)), "{message}");
+}

@@ -1,0 +1,251 @@
+//! The other methods beside the potential one: the same equilibria, to the accuracy that each states, or none.
+
+use mcm::design::Design;
+use mcm::equilibrium::{Discretisation, Inputs, Interaction, Method, Settings, Solver};
+use mcm::magnetics::Wrench;
+use mcm::manipulator::{Manipulator, Scene, Status};
+use nalgebra::{Rotation3, Vector3};
+
+use crate::tolerance::{
+    METHOD_ARCS, METHOD_BALANCE, METHOD_COARSE, METHOD_FINE, METHOD_ORDER, METHOD_RESIDUAL, PAIRS,
+    assert_close,
+};
+
+/// Fields and loads in which shapes are compared, all in the plane of y and z.
+const SCENES: [(&str, &str); 3] = [
+    ("uniform", "[field]\nuniform_mt = [0, 20, 0]"),
+    ("pair", "[magnet]"),
+    (
+        "loads",
+        "[field]\nuniform_mt = [0, 5, 0]\ngradient_t_per_m = [0.1, 0, 0, 0.2, 0.1]\n[gravity]\nacceleration_m_s2 = [0, -9.81, 0]\n\
+         [load]\ntip_force_n = [0, 0.005, -0.01]",
+    ),
+];
+
+/// Every method but the potential one.
+fn others() -> impl Iterator<Item = (Method, &'static str)> {
+    Method::ALL.iter().map(|row| (row.0, row.1)).filter(|row| row.0 != Method::Potential)
+}
+
+fn scene(table: &str, segments: usize, interaction: Interaction) -> Scene {
+    // The planar reduction spreads the spiral around the core.
+    let design = format!("[design]\nsegments = {segments}\nspiral = \"axisymmetric\"");
+    let text = format!("{table}\n{design}\n[model]\ninteraction = \"{}\"", interaction.name());
+    let mut scene = Scene::parse(&text, "a scene").expect("a valid scene");
+    scene.settings.pair_accuracy = PAIRS;
+    scene
+}
+
+fn solver(scene: &Scene, settings: Settings) -> Solver {
+    let magnet = scene.assembly().expect("a magnet");
+    Solver::new(&scene.design().expect("a design"), magnet.as_ref(), settings, 21).expect("supported")
+}
+
+fn solved(scene: &Scene, settings: Settings) -> (Solver, f64) {
+    let mut solver = solver(scene, settings);
+    let report = solver.solve(&scene.inputs).expect("valid inputs");
+    assert!(report.solved, "{settings:?}: {report:?}");
+    (solver, report.energy)
+}
+
+/// Errors beside a reference: positions over the length, and wrenches.
+struct Errors {
+    positions: f64,
+    wrenches: f64,
+    energy: f64,
+}
+
+fn errors(inputs: &Inputs, length: f64, got: &(Solver, f64), reference: &(Solver, f64)) -> Errors {
+    let of = |pairs: &mut dyn Iterator<Item = (Vector3<f64>, Vector3<f64>)>| {
+        pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    };
+    let (a, b) = (&got.0, &reference.0);
+    let shape = of(&mut a.shape().map(|p| p.1).zip(b.shape().map(|p| p.1)));
+    let rings = of(&mut a.rings().map(|p| p.position).zip(b.rings().map(|p| p.position)));
+    let angles = a.core_angles().zip(b.core_angles()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let turn = (a.tip().rotation - b.tip().rotation).norm();
+    let tip = (a.tip().position - b.tip().position).norm();
+    let wrenches = |solver: &Solver| {
+        [solver.magnetic_wrench(), solver.base_reaction(), solver.magnet_reaction(inputs)]
+            .map(|w| [w.force, w.torque / length])
+    };
+    let (own, other) = (wrenches(a), wrenches(b));
+    let size = other.iter().flatten().map(Vector3::norm).fold(0.0, f64::max);
+    let wrong = of(&mut own.into_iter().flatten().zip(other.into_iter().flatten()));
+    Errors {
+        positions: [shape / length, rings / length, tip / length, angles, turn]
+            .into_iter()
+            .fold(0.0, f64::max),
+        wrenches: wrong / size,
+        energy: (got.1 - reference.1).abs() / reference.1.abs(),
+    }
+}
+
+#[test]
+fn every_method_agrees_with_the_potential_one() {
+    println!("largest error of positions over the length and angles, of wrenches, of the energy");
+    for (name, table) in SCENES {
+        for segments in [1, 3] {
+            for interaction in [Interaction::None, Interaction::Rings] {
+                let scene = scene(table, segments, interaction);
+                let length = scene.design().expect("a design").length();
+                let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+                for (method, label) in others() {
+                    let got = solved(&scene, Settings { method, ..scene.settings });
+                    let error = errors(&scene.inputs, length, &got, &reference);
+                    let Errors { positions, wrenches, energy } = error;
+                    let case = format!("{label}, {name}, S = {segments}, {}", interaction.name());
+                    println!("{case}: {positions:.1e} {wrenches:.1e} {energy:.1e}");
+                    let bound = if method == Method::ConstantCurvature { METHOD_ARCS } else { METHOD_COARSE };
+                    assert!(
+                        positions <= bound && wrenches <= bound && energy <= bound,
+                        "{case}: above {bound:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn each_converges_with_its_order() {
+    for interaction in [Interaction::None, Interaction::Rings] {
+        let scene = scene(SCENES[1].1, 3, interaction);
+        let length = scene.design().expect("a design").length();
+        let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+        for (method, label) in others().filter(|row| row.0 != Method::ConstantCurvature) {
+            let at = |fineness: usize| {
+                let discretisation = Discretisation {
+                    steps: 4 * fineness,
+                    stages: 1,
+                    intervals: 4 * fineness,
+                    mesh_tolerance: 1e9, // as it is
+                    tolerance: METHOD_RESIDUAL,
+                    ..Discretisation::default()
+                };
+                let got = solved(&scene, Settings { method, discretisation, ..scene.settings });
+                let tip = got.0.tip().position - reference.0.tip().position;
+                tip.norm() / length
+            };
+            let errors = [1, 2, 4].map(at);
+            println!("{label}, {}: {errors:.2?}", interaction.name());
+            let order = if method == Method::Collocation { 2 } else { 4 };
+            for pair in errors.windows(2) {
+                let reached = (pair[0] / pair[1]).log2();
+                assert!(
+                    (reached - f64::from(order)).abs() <= METHOD_ORDER,
+                    "{label}: order {reached}, not {order}"
+                );
+            }
+        }
+        // A tolerance instead of a mesh, and three Gauss points: order six.
+        let discretisation =
+            Discretisation { mesh_tolerance: 1e-6, tolerance: METHOD_RESIDUAL, ..Discretisation::default() };
+        let got = solved(&scene, Settings { method: Method::Collocation, discretisation, ..scene.settings });
+        let error = errors(&scene.inputs, length, &got, &reference);
+        assert!(error.positions <= METHOD_FINE && error.wrenches <= METHOD_FINE, "{:e}", error.positions);
+    }
+}
+
+/// Force and torque about the base of all that acts from outside.
+fn outside(solver: &Solver, inputs: &Inputs) -> [Vector3<f64>; 2] {
+    let add = |wrenches: [Wrench; 2]| {
+        let [a, b] = wrenches;
+        [a.force + b.force, a.torque + b.torque]
+    };
+    let [force, torque] = add([solver.magnetic_wrench(), solver.base_reaction()]);
+    let arm = solver.tip().position - inputs.base.position;
+    [force + inputs.tip_force, torque + arm.cross(&inputs.tip_force) + inputs.tip_moment]
+}
+
+#[test]
+fn a_method_solves_or_says_that_it_has_not() {
+    let mut refused = 0;
+    let mut held = 0;
+    for (field, angle) in [(20.0, 90.0), (60.0, 150.0), (200.0, 90.0), (200.0, 170.0), (500.0, 175.0)] {
+        for segments in [1, 3, 9] {
+            for interaction in [Interaction::None, Interaction::Rings] {
+                let scene = scene("", segments, interaction);
+                let turn = Rotation3::from_axis_angle(&-Vector3::x_axis(), f64::to_radians(angle));
+                let uniform_field = turn * Vector3::z() * (1e-3 * field);
+                let inputs = Inputs { uniform_field, ..scene.inputs.clone() };
+                for (method, label) in others() {
+                    let discretisation =
+                        Discretisation { iterations: 30, smallest_part: 1.0, ..Discretisation::default() };
+                    let mut solver = solver(&scene, Settings { method, discretisation, ..scene.settings });
+                    let straight = solver.tip();
+                    let report = solver.solve(&inputs).expect("valid inputs");
+                    let case =
+                        format!("{label}, {field} mT at {angle} deg, S = {segments}, {}", interaction.name());
+                    assert!(report.stable.is_none(), "{case}: no verdict");
+                    if report.solved {
+                        held += 1;
+                        let [force, torque] = outside(&solver, &inputs);
+                        let size = solver.base_reaction().torque.norm().max(1e-6);
+                        let length = scene.design().expect("a design").length();
+                        let lack = (force.norm() * length).max(torque.norm()) / size;
+                        assert!(lack <= METHOD_BALANCE, "{case}: solved, yet out of balance by {lack:e}");
+                    } else {
+                        refused += 1;
+                        assert_eq!(solver.tip(), straight, "{case}: the last solution is kept");
+                    }
+                }
+            }
+        }
+    }
+    println!("{held} solved, {refused} said that they are not");
+    assert!(held > 0 && refused > 0, "the scenes are too easy or too hard: {held} solved, {refused} not");
+}
+
+#[test]
+fn warm_is_as_cold() {
+    for (method, label) in others() {
+        let scene = scene(SCENES[1].1, 3, Interaction::Rings);
+        let settings = Settings { method, ..scene.settings };
+        let (mut warm, _) = solved(&scene, settings);
+        let mut moved = scene.clone();
+        moved.inputs.magnet.position.z += 5e-3;
+        assert!(warm.solve(&moved.inputs).expect("valid").solved);
+        let (cold, _) = solved(&moved, settings);
+        let length = scene.design().expect("a design").length();
+        let tips = [warm.tip().position, cold.tip().position].map(|p| p / length);
+        assert_close(label, tips[0].as_slice(), tips[1].as_slice(), METHOD_COARSE);
+        warm.reset();
+        assert_eq!(warm.tip().position, Vector3::new(0.0, 0.0, length), "{label}: straight again");
+    }
+}
+
+#[test]
+fn what_a_method_cannot_is_refused() {
+    let settings = |method, interaction| Settings { method, interaction, ..Settings::default() };
+    let new = |settings| Solver::new(&design(), None, settings, 2);
+    for (method, label) in others() {
+        for interaction in [Interaction::Preceding, Interaction::Full] {
+            let error = new(settings(method, interaction)).expect_err(label).to_string();
+            assert!(error.contains(label) && error.contains(interaction.name()), "{error}");
+        }
+        let stop = Settings { bending_stop: true, ..settings(method, Interaction::None) };
+        assert!(new(stop).expect_err(label).to_string().contains("bending stop"));
+
+        let mut manipulator =
+            Manipulator::new(&design(), None, settings(method, Interaction::None), 2).expect("supported");
+        let mut inputs = Inputs::unloaded(2);
+        inputs.uniform_field.y = 0.02;
+        let outputs = manipulator.solve(&inputs).expect("valid inputs");
+        assert_eq!((outputs.status, outputs.method, outputs.stable), (Status::Solved, method, None));
+        for error in [manipulator.jacobian().map(drop), manipulator.snapshot().map(drop)] {
+            assert!(error.expect_err(label).to_string().contains(label));
+        }
+    }
+    let mut planar = new(settings(Method::Planar, Interaction::None)).expect("supported");
+    let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.01, 0.0), ..Inputs::unloaded(2) };
+    assert!(planar.solve(&inputs).expect("a plane").solved);
+    inputs.tip_force.x = 0.01;
+    assert!(planar.solve(&inputs).expect_err("no plane").to_string().contains("tip force"));
+    let coarse = Discretisation { steps: 0, ..Discretisation::default() };
+    assert!(new(Settings { discretisation: coarse, ..Settings::default() }).is_err());
+}
+
+fn design() -> Design {
+    Design::new(mcm::design::Specification::paper(1)).expect("the paper's design")
+}

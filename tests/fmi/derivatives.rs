@@ -1,0 +1,190 @@
+//! Inputs that move during a step, and derivatives of outputs.
+
+use mcm::fmi::Instance;
+use mcm::fmi::state::Ending;
+use mcm::fmi::variables::Table;
+
+use super::instance::{get, initialised, reference, set};
+use super::{BENT, last};
+use crate::tolerance::{DIFFERENCE, EFFECT, ROUNDING, SAME_SHAPE, assert_close};
+
+fn set_rate(instance: &mut Instance, table: &Table, name: &str, rate: f64) -> Ending {
+    instance.set_input_derivatives(&[reference(table, name)], &[1], &[rate])
+}
+
+fn output_rate(instance: &mut Instance, table: &Table, name: &str) -> f64 {
+    instance.output_derivatives(&[reference(table, name)], &[1]).unwrap()[0]
+}
+
+#[test]
+fn inputs_move_during_the_step_and_stay_where_they_arrive() {
+    let (mut moved, table, told) = initialised(BENT);
+    let (mut set_there, ..) = initialised(BENT);
+    assert_eq!(set_rate(&mut moved, &table, "field.uniform[2]", 0.05), Ending::Ok);
+    assert_eq!(moved.do_step(0.0, 0.1), Ending::Ok, "{}", last(&told));
+    assert_close("field", &[get(&mut moved, &table, "field.uniform[2]")], &[0.015], ROUNDING);
+    assert_eq!(set(&mut set_there, &table, "field.uniform[2]", 0.015), Ending::Ok);
+    let there = get(&mut set_there, &table, "tip.angle");
+    assert_close("tip", &[get(&mut moved, &table, "tip.angle")], &[there], SAME_SHAPE);
+    // The derivatives belonged to that step: the next one holds the inputs.
+    assert_eq!(moved.do_step(0.1, 0.1), Ending::Ok);
+    assert_close("held", &[get(&mut moved, &table, "field.uniform[2]")], &[0.015], ROUNDING);
+    // Set with respect to the beginning of the step, together with the input itself.
+    assert_eq!(set_rate(&mut moved, &table, "field.uniform[2]", -0.05), Ending::Ok);
+    assert_eq!(set(&mut moved, &table, "field.uniform[2]", 0.01), Ending::Ok);
+    assert_eq!(moved.do_step(0.2, 0.1), Ending::Ok);
+    assert_close("both", &[get(&mut moved, &table, "field.uniform[2]")], &[0.005], ROUNDING);
+}
+
+#[test]
+fn derivatives_may_be_set_before_initialisation_and_a_reset_forgets_them() {
+    let (mut instance, package, _) = super::instance(BENT);
+    let table = package.table();
+    for reset in [false, true] {
+        assert_eq!(set_rate(&mut instance, table, "field.uniform[2]", 0.1), Ending::Ok);
+        if reset {
+            instance.reset();
+        }
+        instance.enter_initialization();
+        assert_eq!(instance.exit_initialization(), Ending::Ok);
+        assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+        let expected = if reset { 0.01 } else { 0.02 };
+        assert_close(reset, &[get(&mut instance, table, "field.uniform[2]")], &[expected], ROUNDING);
+        instance.reset();
+    }
+}
+
+/// A clamp that turns under a load by three quarters of a circle in one step must not take the short way round.
+#[test]
+fn orientations_follow_their_path_and_stay_normalised() {
+    let (mut instance, table, told) = initialised(BENT);
+    let names = [1, 2, 3, 4].map(|component| format!("base.orientation[{component}]"));
+    let read = |instance: &mut Instance| names.each_ref().map(|name| get(instance, &table, name));
+    // From (1, 0, 0, 0) towards (-cos 45, 0, 0, sin 45): 270 deg about z.
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    for (name, rate) in names.iter().zip([-half - 1.0, 0.0, 0.0, half]) {
+        assert_eq!(set_rate(&mut instance, &table, name, rate), Ending::Ok);
+    }
+    assert_eq!(instance.do_step(0.0, 1.0), Ending::Ok, "{}", last(&told));
+    assert_close("orientation", &read(&mut instance), &[-half, 0.0, 0.0, half], ROUNDING);
+    // The last part was a fraction of the way: the solve went along, some steps for each part.
+    let iterations =
+        instance.get(&[reference(&table, "solver.iterations")], "Integer", |value| match value {
+            mcm::fmi::variable::Value::Integer(value) => Some(value),
+            _ => None,
+        });
+    assert!(iterations.unwrap().0[0] > 47, "3/2 pi in parts of 0.1 rad");
+    // Through the zero quaternion there is no way.
+    for (name, from) in names.iter().zip(read(&mut instance)) {
+        assert_eq!(set_rate(&mut instance, &table, name, -from), Ending::Ok);
+    }
+    assert_eq!(instance.do_step(1.0, 1.0), Ending::Error);
+    assert!(last(&told).contains("base.orientation"), "{}", last(&told));
+}
+
+#[test]
+fn outputs_have_derivatives_by_time() {
+    let (mut instance, table, _) = initialised(BENT);
+    assert_eq!(output_rate(&mut instance, &table, "tip.angle").to_bits(), 0, "inputs are held");
+    assert_eq!(set_rate(&mut instance, &table, "field.uniform[2]", 0.02), Ending::Ok);
+    assert_eq!(set_rate(&mut instance, &table, "base.orientation[3]", 0.3), Ending::Ok);
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+    // After the step: the derivatives at its end, from the left.
+    instance.save(1);
+    for name in ["tip.angle", "tip.position[2]", "tip.orientation[3]", "base.reaction_moment[1]"] {
+        assert_eq!(instance.restore(1), Ending::Ok);
+        let rate = output_rate(&mut instance, &table, name);
+        let h = 1e-3;
+        let ends = [-h, h].map(|h| {
+            assert_eq!(instance.restore(1), Ending::Ok);
+            let mut there = |name: &str, rate: f64| {
+                let value = get(&mut instance, &table, name) + rate * h;
+                assert_eq!(set(&mut instance, &table, name, value), Ending::Ok);
+            };
+            there("field.uniform[2]", 0.02);
+            there("base.orientation[3]", 0.3);
+            get(&mut instance, &table, name)
+        });
+        assert!(rate.abs() > EFFECT, "{name} {rate}");
+        assert_close(name, &[rate], &[(ends[1] - ends[0]) / (2.0 * h)], DIFFERENCE);
+    }
+    assert_eq!(instance.restore(1), Ending::Ok);
+    assert_eq!(instance.do_step(0.1, 0.1), Ending::Ok);
+    assert_eq!(output_rate(&mut instance, &table, "tip.angle").to_bits(), 0, "held again");
+}
+
+#[test]
+fn derivatives_that_are_none_are_refused_by_name() {
+    let (mut instance, table, told) = initialised(BENT);
+    let of = |name: &str| reference(&table, name);
+    let field = of("field.uniform[2]");
+    for (name, reason) in [
+        ("tip.angle", "tip.angle is no continuous input"),
+        ("gravity[1]", "gravity[1] is no continuous input"),
+        ("model.interaction", "model.interaction is no continuous input"),
+    ] {
+        assert_eq!(instance.set_input_derivatives(&[of(name)], &[1], &[1.0]), Ending::Error);
+        assert!(last(&told).contains(reason), "{}", last(&told));
+    }
+    assert_eq!(instance.set_input_derivatives(&[field], &[0], &[1.0]), Ending::Error);
+    assert!(last(&told).contains("order 0"), "{}", last(&told));
+    assert_eq!(instance.set_input_derivatives(&[field], &[1], &[f64::NAN]), Ending::Error);
+    assert!(last(&told).contains("field.uniform[2] = NaN"), "{}", last(&told));
+    assert_eq!(instance.set_input_derivatives(&[field, field], &[1, 2], &[0.0, 0.0]), Ending::Ok);
+    assert_eq!(instance.set_input_derivatives(&[field, field], &[1, 2], &[0.0, 1.0]), Ending::Warning);
+    assert!(last(&told).contains("above the first"), "{}", last(&told));
+    assert_eq!(instance.output_derivatives(&[of("tip.angle")], &[0]), Err(Ending::Error));
+    assert_eq!(instance.output_derivatives(&[of("tip.angle")], &[2]), Ok(vec![0.0]));
+    for (unknown, known, reason) in [
+        ("stability.margin", "field.uniform[2]", "stability.margin has no derivatives"),
+        ("solver.residual", "field.uniform[2]", "solver.residual has no derivatives"),
+        ("stability.snaps", "field.uniform[2]", "stability.snaps has no derivatives"),
+        ("field.uniform[1]", "field.uniform[2]", "field.uniform[1] has no derivatives"),
+        ("tip.angle", "design.helix.length", "by design.helix.length"),
+        ("tip.angle", "tip.angle", "by tip.angle"),
+    ] {
+        assert_eq!(instance.directional_derivative(&[of(unknown)], &[of(known)], &[1.0]), Err(Ending::Error));
+        assert!(last(&told).contains(reason), "{}", last(&told));
+    }
+    assert_eq!(
+        instance.directional_derivative(&[of("tip.angle")], &[field], &[f64::NAN]),
+        Err(Ending::Error)
+    );
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+}
+
+/// A straight rod under its buckling load has no derivatives.
+#[test]
+fn at_a_fold_there_are_no_derivatives_and_the_log_says_so() {
+    let (mut instance, table, told) = initialised(
+        "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 0.5\nelastic_modulus_mpa = 1.0\n\
+         remanence_t = 0.0\n[model]\ninteraction = \"none\"",
+    );
+    // Euler's load of a clamped rod, pi^2 E I / (4 L^2); compression shortens the rod by a part in 1e3.
+    let inertia = core::f64::consts::PI * 0.5e-3_f64.powi(4) / 4.0;
+    let euler = core::f64::consts::PI.powi(2) * 1e6 * inertia / (4.0 * 0.02_f64.powi(2));
+    let (tip, load) = (reference(&table, "tip.position[1]"), reference(&table, "tip.load_force[1]"));
+    instance.save(1);
+    let mut flexible = |force: f64| {
+        told.lock().unwrap().clear();
+        assert_eq!(instance.restore(1), Ending::Ok);
+        assert_eq!(set(&mut instance, &table, "tip.load_force[3]", -force), Ending::Ok);
+        let straight = instance.directional_derivative(&[tip], &[load], &[1.0]).map(|rates| rates[0]);
+        straight.map_err(|_| {
+            told.lock().unwrap().iter().any(|said| said.contains("no derivatives: the shape is at a fold"))
+        })
+    };
+    let (mut low, mut high) = (0.9 * euler, 1.1 * euler);
+    assert!(flexible(low).unwrap() > flexible(0.5 * low).unwrap());
+    let found = (0..40).any(|_| {
+        let middle = 0.5 * (low + high);
+        let outcome = flexible(middle);
+        if outcome.is_ok_and(|rate| rate > 0.0) && middle < euler {
+            low = middle;
+        } else {
+            high = middle;
+        }
+        outcome == Err(true)
+    });
+    assert!(found && (high / euler - 1.0).abs() < 0.01, "{low} {high} {euler}");
+}

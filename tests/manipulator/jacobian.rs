@@ -1,0 +1,331 @@
+//! Exact derivatives of all outputs by all inputs against differences of whole solves.
+
+use core::cell::Cell;
+
+use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
+use mcm::equilibrium::{Interaction, Settings};
+use mcm::geometry::{Pose, RotationVector, rotation_log};
+use mcm::manipulator::{Input, Inputs, Jacobian, Manipulator, Output, Outputs, Status};
+use nalgebra::{DVector, Vector3};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+use crate::equilibrium::rows::pair;
+use crate::tolerance::{DIFFERENCE, JACOBIAN, PAIRS, assert_close};
+
+/// Centreline points.
+const POINTS: usize = 5;
+
+/// Step of the differences in parts of each input's usual size; their error is of fourth order in it.
+const STEP: f64 = 1e-3;
+
+/// Random scenes.
+const CASES: u32 = 30;
+
+/// Everything acts, on a base that stands askew.
+fn everything(rings: usize) -> Inputs {
+    let mut inputs = Inputs::unloaded(rings);
+    inputs.base = Pose::new([0.003, -0.002, 0.005], [0.8, 0.36, -0.48, 0.0]).unwrap();
+    inputs.magnet = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).unwrap();
+    inputs.magnet_strength = 0.8;
+    inputs.uniform_field = Vector3::new(0.002, 0.004, -0.001);
+    inputs.field_gradient = [0.1, -0.05, 0.07, 0.03, -0.04];
+    inputs.tip_force = Vector3::new(0.002, -0.001, 0.003);
+    inputs.tip_moment = Vector3::new(2e-6, -3e-6, 1e-6);
+    inputs.gravity = Vector3::new(1.0, -2.0, 9.0);
+    for (ring, force) in inputs.ring_forces.iter_mut().enumerate() {
+        *force = Vector3::new(1e-3, 0.5e-3 * ring as f64, -1e-3);
+    }
+    inputs
+}
+
+/// Every input with its usual size in its unit.
+fn inputs_and_sizes(rings: usize) -> Vec<(Input, f64)> {
+    let mut all = vec![
+        (Input::MagnetPosition, 0.05),
+        (Input::MagnetRotation, 1.0),
+        (Input::MagnetStrength, 1.0),
+        (Input::UniformField, 0.01),
+        (Input::FieldGradient, 0.3),
+        (Input::TipForce, 0.005),
+        (Input::TipMoment, 1e-5),
+        (Input::Gravity, 10.0),
+        (Input::BasePosition, 0.05),
+        (Input::BaseRotation, 1.0),
+    ];
+    all.extend((0..rings).map(|ring| (Input::RingForce(ring), 0.005)));
+    all
+}
+
+/// The inputs with one number changed; rotations turn about axes of the world.
+fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
+    let mut out = inputs.clone();
+    let turn = || RotationVector::new(Vector3::ith(axis, by)).matrix();
+    match input {
+        Input::MagnetPosition => out.magnet.position[axis] += by,
+        Input::MagnetRotation => out.magnet.rotation = turn() * out.magnet.rotation,
+        Input::MagnetStrength => out.magnet_strength += by,
+        Input::UniformField => out.uniform_field[axis] += by,
+        Input::FieldGradient => out.field_gradient[axis] += by,
+        Input::TipForce => out.tip_force[axis] += by,
+        Input::TipMoment => out.tip_moment[axis] += by,
+        Input::Gravity => out.gravity[axis] += by,
+        Input::BasePosition => out.base.position[axis] += by,
+        Input::BaseRotation => out.base.rotation = turn() * out.base.rotation,
+        Input::RingForce(ring) => out.ring_forces[ring][axis] += by,
+    }
+    out
+}
+
+/// All outputs of two solves as differences.
+fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f64>)> {
+    let vector = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).as_slice().to_vec();
+    let turn = |a: &Pose, b: &Pose| rotation_log(&(a.rotation * b.rotation.transpose())).as_slice().to_vec();
+    let mut out = vec![
+        (Output::TipAngle, vec![plus.tip_angle - minus.tip_angle]),
+        (Output::TipPosition, vector(&plus.tip.position, &minus.tip.position)),
+        (Output::TipRotation, turn(&plus.tip, &minus.tip)),
+        (Output::MagneticForce, vector(&plus.magnetic_force, &minus.magnetic_force)),
+        (Output::MagneticTorque, vector(&plus.magnetic_torque, &minus.magnetic_torque)),
+        (Output::BaseReactionForce, vector(&plus.base_reaction_force, &minus.base_reaction_force)),
+        (Output::BaseReactionMoment, vector(&plus.base_reaction_moment, &minus.base_reaction_moment)),
+        (Output::MagnetReactionForce, vector(&plus.magnet_reaction_force, &minus.magnet_reaction_force)),
+        (Output::MagnetReactionTorque, vector(&plus.magnet_reaction_torque, &minus.magnet_reaction_torque)),
+        (Output::TipField, vector(&plus.tip_field, &minus.tip_field)),
+    ];
+    for (index, (a, b)) in plus.shape.iter().zip(&minus.shape).enumerate() {
+        out.push((Output::ShapePoint(index), vector(a, b)));
+    }
+    for (index, (a, b)) in plus.rings.iter().zip(&minus.rings).enumerate() {
+        out.push((Output::RingPosition(index), vector(&a.position, &b.position)));
+        out.push((Output::RingRotation(index), turn(a, b)));
+        out.push((Output::RingAxis(index), vector(&a.axis(), &b.axis())));
+    }
+    for (index, (a, b)) in plus.core_angles.iter().zip(&minus.core_angles).enumerate() {
+        out.push((Output::CoreAngle(index), vec![a - b]));
+    }
+    out
+}
+
+fn solved(mut manipulator: Manipulator, inputs: &Inputs) -> Outputs {
+    let outputs = manipulator.solve(inputs).expect("finite inputs");
+    assert!(matches!(outputs.status, Status::Solved | Status::NearFold), "{:?}", outputs.status);
+    outputs.clone()
+}
+
+/// Central differences of fourth order by one number of the inputs.
+fn by_differences(
+    manipulator: &Manipulator,
+    inputs: &Inputs,
+    input: Input,
+    axis: usize,
+    step: f64,
+) -> Vec<(Output, Vec<f64>)> {
+    let spread = |h: f64| {
+        let at = |by: f64| solved(manipulator.clone(), &changed(inputs, input, axis, by));
+        differences(&at(h), &at(-h))
+    };
+    let (near, far) = (spread(step), spread(2.0 * step));
+    near.into_iter()
+        .zip(far)
+        .map(|((output, near), (_, far))| {
+            (output, near.iter().zip(far).map(|(n, f)| (8.0 * n - f) / (12.0 * step)).collect())
+        })
+        .collect()
+}
+
+/// The largest error of any output by any input, relative to the largest effect that an input of usual size has on
+/// that output, and where it is.
+fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
+    let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
+    for (input, size) in inputs_and_sizes(inputs.ring_forces.len()) {
+        for axis in 0..jacobian.columns(input).expect("of this design").len() {
+            for (output, expected) in by_differences(manipulator, inputs, input, axis, STEP * size) {
+                let got = jacobian.block(output, input).expect("of this design").column(axis).into_owned();
+                assert_eq!(got.len(), expected.len(), "{output:?}");
+                let expected = DVector::from_vec(expected);
+                assert!(got.iter().all(|entry| entry.is_finite()), "{output:?} by {input:?}");
+                entries.push((output, input, axis, (&got - &expected).norm() * size, expected.norm() * size));
+            }
+        }
+    }
+    let mut out = (0.0, String::new());
+    for (output, input, axis, error, _) in &entries {
+        let same = entries.iter().filter(|entry| entry.0 == *output);
+        let scale = same.map(|entry| entry.4).fold(0.0, f64::max);
+        if *error > out.0 * scale {
+            out = (error / scale, format!("{output:?} by {input:?} {axis}"));
+        }
+    }
+    assert_eq!(entries.len(), jacobian.matrix().ncols() * differences_of(manipulator));
+    out
+}
+
+fn differences_of(manipulator: &Manipulator) -> usize {
+    differences(manipulator.outputs(), manipulator.outputs()).len()
+}
+
+fn designs() -> Vec<(String, Design)> {
+    let mut out: Vec<(String, Design)> = [1, 3]
+        .map(|segments| (format!("S = {segments}"), Design::new(Specification::paper(segments)).unwrap()))
+        .into();
+    let Specification::Segmented(mut bare) = Specification::paper(2) else { unreachable!() };
+    (bare.base_magnet, bare.tip_magnet) = (false, false);
+    out.push(("S = 2 without its ends' rings".into(), Design::new(Specification::Segmented(bare)).unwrap()));
+    out
+}
+
+fn rod() -> Design {
+    let material = CylinderMaterial::Bulk { elastic_modulus: 1.5e6, poisson: 0.45, remanence: 0.1 };
+    let rod = Cylinder { length: 0.03, radius: 0.001, inner_radius: 0.0, material, density: Some(3000.0) };
+    Design::new(Specification::Cylinder(rod)).unwrap()
+}
+
+fn settings(interaction: Interaction) -> Settings {
+    Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-12, ..Settings::default() }
+}
+
+fn ready(design: &Design, interaction: Interaction, inputs: &Inputs) -> Manipulator {
+    let mut out = Manipulator::new(design, Some(&pair()), settings(interaction), POINTS).unwrap();
+    out.solve(inputs).expect("finite inputs");
+    out
+}
+
+fn check(name: &str, manipulator: &Manipulator, inputs: &Inputs) {
+    let jacobian = manipulator.jacobian().unwrap();
+    let (error, place) = worst(manipulator, &jacobian, inputs);
+    println!("{name}: {error:.1e} ({place})");
+    assert!(error <= JACOBIAN, "{name}: {place} is off by {error:e}");
+}
+
+#[test]
+fn every_output_by_every_input_at_every_level() {
+    for (name, design) in designs() {
+        let inputs = everything(design.rings().count());
+        for &(interaction, level, _) in Interaction::ALL {
+            check(&format!("{name}, {level}"), &ready(&design, interaction, &inputs), &inputs);
+        }
+    }
+}
+
+#[test]
+fn every_output_by_every_input_of_a_plain_rod() {
+    let (design, inputs) = (rod(), everything(0));
+    check("rod", &ready(&design, Interaction::None, &inputs), &inputs);
+}
+
+#[test]
+fn a_magnet_that_is_switched_off_or_absent() {
+    let design = Design::new(Specification::paper(1)).unwrap();
+    let mut inputs = everything(2);
+    inputs.magnet_strength = 0.0;
+    let off = ready(&design, Interaction::Rings, &inputs);
+    check("switched off", &off, &inputs);
+    let mut absent = Manipulator::new(&design, None, settings(Interaction::Rings), POINTS).unwrap();
+    absent.solve(&inputs).unwrap();
+    check("absent", &absent, &inputs);
+    inputs.magnet = inputs.base; // where any strength would be refused
+    let inside = ready(&design, Interaction::Rings, &inputs).jacobian().unwrap();
+    assert_eq!(inside, absent.jacobian().unwrap());
+}
+
+#[test]
+fn windings_that_touch() {
+    let design = Design::new(Specification::paper(2)).unwrap();
+    let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.04, -0.01), ..everything(3) };
+    inputs.base.rotation = RotationVector::new(Vector3::new(0.1, 0.2, 0.3)).matrix();
+    let settings = Settings { bending_stop: true, ..settings(Interaction::Rings) };
+    let mut manipulator = Manipulator::new(&design, Some(&pair()), settings, POINTS).unwrap();
+    let largest = manipulator.solve(&inputs).unwrap().core_angles.iter().copied().fold(0.0, f64::max);
+    assert!(largest.to_degrees() > 40.0, "open at {} deg", largest.to_degrees());
+    check("touching", &manipulator, &inputs);
+}
+
+#[test]
+fn there_are_none_of_what_is_not_solved() {
+    let design = Design::new(Specification::paper(1)).unwrap();
+    let mut manipulator = ready(&design, Interaction::Full, &Inputs::unloaded(2));
+    assert!(manipulator.jacobian().is_ok());
+    // The attraction pulls one segment shut at 35.86 mT.
+    let shut = Inputs { uniform_field: Vector3::new(0.0, 0.06, 0.0), ..Inputs::unloaded(2) };
+    assert_eq!(manipulator.solve(&shut).unwrap().status, Status::NotSolved);
+    let message = manipulator.jacobian().unwrap_err().to_string();
+    assert_eq!(message, "no derivatives: the last inputs are not solved");
+    let jacobian = ready(&design, Interaction::None, &Inputs::unloaded(2)).jacobian().unwrap();
+    assert!(jacobian.block(Output::RingAxis(2), Input::TipForce).is_none());
+    assert!(jacobian.block(Output::TipAngle, Input::RingForce(2)).is_none());
+    assert!(jacobian.along(&[0.0]).is_err());
+}
+
+/// Directions, fields and loads of any size up to the usual ones, at every level.
+fn scenes() -> impl Strategy<Value = (usize, [f64; 16], usize)> {
+    (1_usize..=2, proptest::array::uniform16(-1.0..1.0), 0..Interaction::ALL.len())
+}
+
+#[test]
+fn a_direction_of_all_inputs_at_once_in_random_scenes() {
+    let (checked, worst) = (Cell::new(0), Cell::new(0.0_f64));
+    let config = Config { cases: CASES, failure_persistence: None, ..Config::default() };
+    let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]));
+    runner
+        .run(&scenes(), |(segments, x, level)| {
+            let design = Design::new(Specification::paper(segments)).unwrap();
+            let mut inputs = everything(segments + 1);
+            inputs.magnet.position += Vector3::new(x[0], 0.3 * x[1], x[2]) * 0.03;
+            inputs.magnet.rotation = RotationVector::new(Vector3::new(x[3], x[4], x[5])).matrix();
+            inputs.base.rotation = RotationVector::new(Vector3::new(x[6], x[7], x[8]) * 2.0).matrix();
+            inputs.uniform_field = Vector3::new(x[9], x[10], x[11]) * 0.01;
+            inputs.tip_force *= x[12];
+            inputs.tip_moment *= x[13];
+            inputs.gravity *= x[14];
+            let manipulator = ready(&design, Interaction::ALL[level].0, &inputs);
+            if manipulator.outputs().status != Status::Solved {
+                return Ok(()); // close to a fold, differences are no measure
+            }
+            let jacobian = manipulator.jacobian().unwrap();
+            let mut direction = vec![0.0; jacobian.matrix().ncols()];
+            let mut by_output: Vec<(Output, DVector<f64>, f64)> = Vec::new();
+            // One number of every input, in turn.
+            for (number, (input, size)) in inputs_and_sizes(segments + 1).into_iter().enumerate() {
+                let columns = jacobian.columns(input).unwrap();
+                let axis = number % columns.len();
+                direction[columns.start + axis] = size;
+                let rates = by_differences(&manipulator, &inputs, input, axis, STEP * size);
+                for (index, (output, rate)) in rates.into_iter().enumerate() {
+                    let part = DVector::from_vec(rate) * size;
+                    match by_output.get_mut(index) {
+                        Some((_, sum, scale)) => (*sum, *scale) = (&*sum + &part, *scale + part.norm()),
+                        None => by_output.push((output, part.clone(), part.norm())),
+                    }
+                }
+            }
+            let got = jacobian.along(&direction).unwrap();
+            for (output, expected, scale) in by_output {
+                let rows = jacobian.rows(output).unwrap();
+                let error = (got.rows(rows.start, rows.len()) - expected).norm() / scale;
+                prop_assert!(error <= JACOBIAN, "{output:?}: off by {error:e}");
+                worst.set(error.max(worst.get()));
+            }
+            checked.set(checked.get() + 1);
+            Ok(())
+        })
+        .unwrap();
+    println!("{} scenes, worst {:.1e}", checked.get(), worst.get());
+    assert!(2 * checked.get() > CASES, "only {} of {CASES} scenes", checked.get());
+}
+
+#[test]
+fn quaternions_turn_as_their_components_change() {
+    let pose = Pose::new([0.0; 3], [0.5, -0.5, 0.1, 0.7]).unwrap();
+    let (q, rate) = (pose.quaternion(), [0.3, -0.2, 0.5, 0.1]);
+    let at = |h: f64| {
+        let moved: [f64; 4] = core::array::from_fn(|i| q[i] + h * rate[i]);
+        Pose::new([0.0; 3], moved).unwrap()
+    };
+    let (plus, minus) = (at(1e-4), at(-1e-4));
+    let spin = rotation_log(&(plus.rotation * minus.rotation.transpose())) / 2e-4;
+    assert_close("spin", Pose::rotation_rate(q, rate).as_slice(), spin.as_slice(), DIFFERENCE);
+    let back: [f64; 4] = core::array::from_fn(|i| (plus.quaternion()[i] - minus.quaternion()[i]) / 2e-4);
+    assert_close("back", &pose.quaternion_rate(&spin), &back, DIFFERENCE);
+    assert_eq!(Pose::rotation_rate(q, q), Vector3::zeros(), "its length turns nothing");
+}

@@ -1,0 +1,91 @@
+//! Another manipulator that takes up a snapshot answers bit for bit as the first one goes on to.
+
+use mcm::manipulator::{Inputs, Manipulator, Scene, Status};
+
+use crate::tolerance::EFFECT;
+
+/// Designs and levels, with loads that need every part of a snapshot: ring rules, the unsymmetric matrix of a dead
+/// moment, forces without reaction.
+const SCENES: [&str; 5] = [
+    "[design]\nsegments = 3\n[magnet]\n[model]\ninteraction = \"none\"",
+    "[design]\nsegments = 3\n[magnet]\n[model]\ninteraction = \"rings\"",
+    "[design]\nsegments = 2\n[magnet]\n[model]\ninteraction = \"full\"",
+    "[design]\nsegments = 2\n[magnet]\n[load]\ntip_moment_nm = [1e-6, 2e-6, 0.0]\n[model]\ninteraction = \"preceding\"",
+    "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0\n[magnet]",
+];
+
+fn started(text: &str) -> (Scene, Manipulator) {
+    let scene = Scene::parse(text, "test scene").unwrap();
+    let manipulator = scene.manipulator(5).unwrap();
+    (scene, manipulator)
+}
+
+/// The magnet passes.
+fn at(scene: &Scene, step: usize) -> Inputs {
+    let mut inputs = scene.inputs.clone();
+    inputs.magnet.position.x += 1e-3 * step as f64;
+    inputs.magnet.position.z += 7e-4 * (step as f64).sin();
+    inputs
+}
+
+#[test]
+fn a_snapshot_goes_on_bit_for_bit() {
+    for text in SCENES {
+        let (scene, mut first) = started(text);
+        let (_, mut second) = started(text);
+        second.restore(&first.snapshot().unwrap()).unwrap();
+        for step in 0..12 {
+            let inputs = at(&scene, step);
+            let expected = first.solve(&inputs).unwrap().clone();
+            assert_eq!(expected.status, Status::Solved, "{text}");
+            assert_eq!(second.solve(&inputs).unwrap(), &expected, "{text}");
+            if step % 3 == 2 {
+                // What is read in between leaves no trace.
+                first.measure_margin();
+                first.jacobian().unwrap();
+                let snapshot = first.snapshot().unwrap();
+                (_, second) = started(text);
+                second.restore(&snapshot).unwrap();
+                assert_eq!(second.snapshot().unwrap(), snapshot, "{text}");
+                assert_eq!(second.outputs(), first.outputs(), "{text}");
+                assert_eq!(second.jacobian().unwrap(), first.jacobian().unwrap(), "{text}");
+            }
+        }
+        assert!((first.outputs().tip_angle - started(text).1.outputs().tip_angle).abs() > EFFECT, "{text}");
+    }
+}
+
+#[test]
+fn a_snapshot_of_another_design_is_refused() {
+    for (one, other) in [(0, 2), (0, 4), (4, 1)] {
+        let (scene, mut first) = started(SCENES[one]);
+        let (other_scene, mut second) = started(SCENES[other]);
+        first.solve(&scene.inputs).unwrap();
+        second.solve(&other_scene.inputs).unwrap();
+        assert!(second.restore(&first.snapshot().unwrap()).is_err());
+        assert!(second.jacobian().is_err(), "reset");
+        assert_eq!(second.outputs(), started(SCENES[other]).1.outputs());
+        assert_eq!(second.solve(&other_scene.inputs).unwrap().status, Status::Solved);
+    }
+}
+
+#[test]
+fn a_path_ends_where_its_points_lead() {
+    let (scene, mut by_points) = started(SCENES[1]);
+    let (_, mut by_path) = started(SCENES[1]);
+    let path: Vec<Inputs> = (0..6).map(|step| at(&scene, step)).collect();
+    let iterations: u32 = path.iter().map(|inputs| by_points.solve(inputs).unwrap().iterations).sum();
+    let followed = by_path.follow(&path, 0).unwrap();
+    assert_eq!(followed.iterations, iterations);
+    assert_eq!(followed.tip, by_points.outputs().tip);
+    // A path into the magnet is refused as a whole.
+    let before = by_path.clone();
+    let mut into = path[0].clone();
+    into.magnet.position = nalgebra::Vector3::new(0.0, 0.0, 0.012);
+    let failed = by_path.follow(&[path[2].clone(), into, path[3].clone()], 0).unwrap();
+    assert_eq!(failed.status, Status::NotSolved);
+    assert_eq!(failed.tip, before.outputs().tip);
+    assert_eq!(by_path.snapshot().unwrap(), by_path.snapshot().unwrap());
+    let mut again = before;
+    assert_eq!(by_path.solve(&path[2]).unwrap(), again.solve(&path[2]).unwrap());
+}

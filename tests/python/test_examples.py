@@ -1,0 +1,221 @@
+"""Every example of coupling runs, and all masters agree."""
+
+import math
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PACKAGE, Archive
+
+EXAMPLES = PACKAGE / "fmu" / "examples"
+
+# Relative to the largest value of a quantity. Masters differ in how they round times and interpolate inputs; the solver
+# ends at 1e-11 of the elastic forces.
+SLACK = 1e-9
+
+Table = dict[str, np.ndarray]
+
+
+def run(*command: str | Path) -> subprocess.CompletedProcess[str]:
+    """Runs a program, which must end within a minute."""
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+
+
+def example(name: str, *arguments: str | Path) -> str:
+    """Runs an example; what it prints."""
+    done = run(sys.executable, EXAMPLES / name, *arguments)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def refused(name: str, *arguments: str | Path) -> str:
+    """What an example says that must refuse its arguments."""
+    done = run(sys.executable, EXAMPLES / name, *arguments)
+    assert done.returncode == 1
+    assert "Traceback" not in done.stderr
+    return done.stderr
+
+
+def quantity(column: str) -> str:
+    """`tip.position[2]` and `arm.position_y` are parts of `tip.position` and `arm.position`."""
+    array, bracket, _ = column.partition("[")
+    return array if bracket else column.rpartition("_")[0] or column
+
+
+def table(path: Path) -> Table:
+    """Columns of a table by quantity, a column for each component."""
+    names = path.read_text().partition("\n")[0].split(",")
+    columns = np.loadtxt(path, delimiter=",", skiprows=1, unpack=True)
+    quantities = [quantity(name) for name in names]
+    return {
+        q: np.array([c for c, of in zip(columns, quantities, strict=True) if of == q]) for q in quantities
+    }
+
+
+def difference(got: Table, expected: Table) -> float:
+    """Largest difference of two tables, relative to the largest value of each quantity; says what it is."""
+    assert got.keys() == expected.keys()
+    assert all(np.ptp(values) > 0 for values in expected.values()), "something happens in every column"
+    relative = {q: np.abs(got[q] - expected[q]).max() / np.abs(expected[q]).max() for q in expected}
+    print({q: f"{value:.1e}" for q, value in relative.items()})
+    return max(relative.values())
+
+
+@pytest.fixture(scope="module")
+def mcm(default: Archive, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The default FMU where a path has no blank: proxyfmu takes none."""
+    return Path(shutil.copy(default.path, tmp_path_factory.mktemp("mcm")))
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The partner FMU, built."""
+    fmu = tmp_path_factory.mktemp("arm") / "arm.fmu"
+    subprocess.run(
+        [sys.executable, EXAMPLES / "pack_arm.py", "--out", fmu], check=True, timeout=300, capture_output=True
+    )
+    return fmu
+
+
+@pytest.fixture(scope="module")
+def driven(mcm: Path, tmp_path_factory: pytest.TempPathFactory) -> Table:
+    """The magnet passes, by fmpy."""
+    folder = tmp_path_factory.mktemp("driven")
+    example("fmpy_plain.py", mcm, "--out", folder / "driven.csv", "--picture", folder / "driven.png")
+    assert (folder / "driven.png").stat().st_size > 10_000
+    return table(folder / "driven.csv")
+
+
+@pytest.fixture(scope="module")
+def coupled(mcm: Path, arm: Path, tmp_path_factory: pytest.TempPathFactory) -> Table:
+    """The coupling, by the master of a few lines on fmpy."""
+    out = tmp_path_factory.mktemp("coupled") / "coupled.csv"
+    example("coupled_fmpy.py", mcm, arm, "--out", out)
+    return table(out)
+
+
+def one_step_ahead(expected: Table, got: Table) -> tuple[Table, Table]:
+    """Rows of the master and of ecos that belong together: the manipulator's in ecos are one step ahead."""
+    ahead = {q for q in expected if q.startswith("mcm.")}
+    return (
+        {q: values[:, 1:] if q in ahead else values[:, :-1] for q, values in expected.items()},
+        {q: values[:, :-1] for q, values in got.items()},
+    )
+
+
+def test_force_deflects_the_arm(mcm: Path, arm: Path, coupled: Table, tmp_path: Path) -> None:
+    example("coupled_fmpy.py", mcm, arm, "--stiffness", "1e5", "--out", tmp_path / "stiff.csv")
+    stiff = table(tmp_path / "stiff.csv")
+    force = coupled["mcm.magnet.reaction_force"][:, -1]
+    np.testing.assert_allclose(coupled["arm.deflection"][:, -1], force / 10.0, rtol=2e-3)
+    assert np.abs(stiff["arm.deflection"]).max() < 1e-6
+    assert np.abs(stiff["mcm.tip.angle"] - coupled["mcm.tip.angle"]).max() > math.radians(0.5)
+
+
+def test_libcosim(mcm: Path, arm: Path, coupled: Table, tmp_path: Path) -> None:
+    example("coupled_libcosim.py", mcm, arm, "--out", tmp_path / "coupled.csv")
+    assert difference(table(tmp_path / "coupled.csv"), coupled) < SLACK
+
+
+@pytest.mark.parametrize("options", [[], ["--apart"]], ids=["together", "apart"])
+def test_ecos(mcm: Path, arm: Path, coupled: Table, tmp_path: Path, options: list[str]) -> None:
+    example("coupled_ecos.py", mcm, arm, "--out", tmp_path / "coupled.csv", *options)
+    expected, got = one_step_ahead(coupled, table(tmp_path / "coupled.csv"))
+    assert difference(got, expected) < SLACK
+
+
+@pytest.mark.parametrize("master", ["fmpy", "libcosim", "ecos"])
+def test_ssp(mcm: Path, arm: Path, coupled: Table, tmp_path: Path, master: str) -> None:
+    example("make_ssp.py", mcm, arm, "--out", tmp_path / "coupling.ssp")
+    out = tmp_path / "coupled.csv"
+    example("coupled_ssp.py", tmp_path / "coupling.ssp", "--master", master, "--out", out)
+    expected, got = coupled, table(out)
+    if master == "ecos":
+        expected, got = one_step_ahead(expected, got)
+    assert difference(got, expected) < SLACK
+
+
+@pytest.fixture(scope="module")
+def compile_c(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., Path]:
+    """Compiles the C program with some options."""
+
+    def compiled(*options: str) -> Path:
+        program = tmp_path_factory.mktemp("c") / "drive"
+        headers = f"-I{PACKAGE / 'fmu' / 'headers'}"
+        source = EXAMPLES / "c" / "drive.c"
+        strict = ["-std=c11", "-g", "-O1", "-Wall", "-Wextra", "-pedantic", "-Werror"]
+        done = run("gcc", *strict, *options, headers, "-o", program, source, "-ldl")
+        assert done.returncode == 0, done.stderr
+        return program
+
+    return compiled
+
+
+def test_c_under_address_sanitizer(
+    default: Archive, driven: Table, compile_c: Callable[..., Path], tmp_path: Path
+) -> None:
+    program = compile_c("-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    done = run(program, default.folder, EXAMPLES / "magnet_pass.csv", tmp_path / "driven.csv")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert difference(table(tmp_path / "driven.csv"), driven) < SLACK
+
+
+def test_c_under_valgrind(
+    default: Archive, driven: Table, compile_c: Callable[..., Path], tmp_path: Path
+) -> None:
+    program = compile_c()
+    inputs = (EXAMPLES / "magnet_pass.csv").read_text().splitlines()
+    (tmp_path / "few.csv").write_text("\n".join(inputs[:12]) + "\n")
+    done = run(
+        "valgrind",
+        "--leak-check=full",
+        "--errors-for-leak-kinds=definite,indirect,possible",
+        "--error-exitcode=9",
+        *(program, default.folder, tmp_path / "few.csv", tmp_path / "driven.csv"),
+    )
+    assert done.returncode == 0, done.stderr
+    assert "ERROR SUMMARY: 0 errors" in done.stderr
+    assert "definitely lost: 0 bytes" in done.stderr or "no leaks are possible" in done.stderr
+    few = {q: values[:, :11] for q, values in driven.items()}
+    assert difference(table(tmp_path / "driven.csv"), few) < SLACK
+
+
+def test_c_says_what_is_wrong(default: Archive, compile_c: Callable[..., Path], tmp_path: Path) -> None:
+    program = compile_c()
+    (tmp_path / "unknown.csv").write_text("time,magnet.colour\n0,1\n1,1\n")
+    done = run(program, default.folder, tmp_path / "unknown.csv", tmp_path / "driven.csv")
+    assert (done.returncode, done.stderr) == (1, "the FMU has no variable: magnet.colour\n")
+    done = run(program, tmp_path, tmp_path / "unknown.csv", tmp_path / "driven.csv")
+    assert done.returncode == 1
+    assert "cannot load" in done.stderr
+
+
+@pytest.fixture(scope="module")
+def controlled(mcm: Path, tmp_path_factory: pytest.TempPathFactory) -> Table:
+    """The controller with differences."""
+    folder = tmp_path_factory.mktemp("controlled")
+    arguments = ["--out", folder / "controlled.csv", "--picture", folder / "controlled.png"]
+    example("fmpy_tip_angle.py", mcm, "--differences", *arguments)
+    assert (folder / "controlled.png").stat().st_size > 10_000
+    return table(folder / "controlled.csv")
+
+
+def test_tip_angle_follows_its_target(controlled: Table) -> None:
+    target, angle = controlled["target"][0], controlled["tip.angle"][0]
+    before_change = np.append(np.flatnonzero(np.diff(target)), len(target) - 1)
+    assert len(before_change) == 3
+    np.testing.assert_allclose(angle[before_change], target[before_change], atol=math.radians(0.02))
+
+
+def test_examples_say_what_is_wrong(mcm: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out.csv"
+    vary = ["--out", out, "--vary"]
+    assert "magnet.colour" in refused("sweep_dask.py", mcm, *vary, "magnet.colour=0:1:2")
+    assert "tip.angle" in refused("sweep_dask.py", mcm, *vary, "tip.angle=0:1:2")
+    inputs = tmp_path / "uneven.csv"
+    inputs.write_text("time,magnet.strength\n0,1\n1,1\n1.5,1\n")
+    assert "evenly" in refused("fmpy_plain.py", mcm, "--inputs", inputs, "--out", out)

@@ -1,0 +1,39 @@
+//! The paper's figures: each claim beside something independent.
+
+mod field_ring;
+mod fig4;
+mod fig5;
+mod fig7a;
+mod fig7b;
+mod fig7c;
+mod fig7d;
+mod fig8;
+mod hysteresis;
+
+use mcm::studies::{Comparison, Study, Value};
+
+use crate::tolerance::ROUNDING;
+
+/// A column of a study.
+fn column<'a>(study: &'a Study, name: &str) -> &'a [f64] {
+    study.column(name).unwrap_or_else(|| panic!("there is no column {name}"))
+}
+
+/// The number of the row in which a column has a value.
+fn row_with(study: &Study, name: &str, value: f64) -> usize {
+    let same = |other: &f64| (other - value).abs() <= ROUNDING * value.abs();
+    column(study, name).iter().position(same).unwrap_or_else(|| panic!("{name} is nowhere {value}"))
+}
+
+/// The row of a comparison whose quantity begins so.
+fn row<'a>(study: &'a Study, quantity: &str) -> &'a Comparison {
+    let found = study.comparison.iter().find(|row| row.quantity.starts_with(quantity));
+    found.unwrap_or_else(|| panic!("no comparison of {quantity}"))
+}
+
+fn number(value: &Value) -> f64 {
+    match value {
+        Value::Number(number) => *number,
+        other => panic!("{other:?} is no number"),
+    }
+}
