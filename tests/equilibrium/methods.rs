@@ -96,11 +96,12 @@ fn every_method_agrees_with_the_potential_one() {
                     let Errors { positions, wrenches, energy } = error;
                     let case = format!("{label}, {name}, S = {segments}, {}", interaction.name());
                     println!("{case}: {positions:.1e} {wrenches:.1e} {energy:.1e}");
-                    let bound = if method == Method::ConstantCurvature { METHOD_ARCS } else { METHOD_COARSE };
-                    assert!(
-                        positions <= bound && wrenches <= bound && energy <= bound,
-                        "{case}: above {bound:e}"
-                    );
+                    if method == Method::ConstantCurvature {
+                        assert!(positions.max(wrenches) <= METHOD_ARCS, "{case}: above {METHOD_ARCS:e}");
+                    } else {
+                        let worst = positions.max(wrenches).max(energy);
+                        assert!(worst <= METHOD_COARSE, "{case}: above {METHOD_COARSE:e}");
+                    }
                 }
             }
         }
@@ -112,7 +113,8 @@ fn each_converges_with_its_order() {
     for interaction in [Interaction::None, Interaction::Rings] {
         let scene = scene(SCENES[1].1, 3, interaction);
         let length = scene.design().expect("a design").length();
-        let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+        let reference = solved(&scene, Settings { degree: 8, ..scene.settings }).0;
+        let exact = reference.tip().position / length;
         for (method, label) in others().filter(|row| row.0 != Method::ConstantCurvature) {
             let at = |fineness: usize| {
                 let discretisation = Discretisation {
@@ -123,27 +125,24 @@ fn each_converges_with_its_order() {
                     tolerance: METHOD_RESIDUAL,
                     ..Discretisation::default()
                 };
-                let got = solved(&scene, Settings { method, discretisation, ..scene.settings });
-                let tip = got.0.tip().position - reference.0.tip().position;
-                tip.norm() / length
+                let tip = solved(&scene, Settings { method, discretisation, ..scene.settings }).0.tip();
+                tip.position / length
             };
-            let errors = [1, 2, 4].map(at);
-            println!("{label}, {}: {errors:.2?}", interaction.name());
-            let order = if method == Method::Collocation { 2 } else { 4 };
-            for pair in errors.windows(2) {
-                let reached = (pair[0] / pair[1]).log2();
-                assert!(
-                    (reached - f64::from(order)).abs() <= METHOD_ORDER,
-                    "{label}: order {reached}, not {order}"
-                );
-            }
+            let [coarse, fine, finest] = [2, 4, 16].map(at);
+            let reached = ((coarse - finest).norm() / (fine - finest).norm()).log2();
+            let order = if method == Method::Collocation { 2.0 } else { 4.0 };
+            let error = (finest - exact).norm();
+            let case = format!("{label}, {}: order {reached:.2}, error {error:.1e}", interaction.name());
+            println!("{case}");
+            assert!((reached - order).abs() <= METHOD_ORDER, "{case}, not {order}");
+            assert!(method == Method::Collocation || error <= METHOD_FINE, "{case}");
         }
-        // A tolerance instead of a mesh, and three Gauss points: order six.
+        // A tolerance instead of a mesh, and three Gauss points.
         let discretisation =
             Discretisation { mesh_tolerance: 1e-6, tolerance: METHOD_RESIDUAL, ..Discretisation::default() };
         let got = solved(&scene, Settings { method: Method::Collocation, discretisation, ..scene.settings });
-        let error = errors(&scene.inputs, length, &got, &reference);
-        assert!(error.positions <= METHOD_FINE && error.wrenches <= METHOD_FINE, "{:e}", error.positions);
+        let error = (got.0.tip().position / length - exact).norm();
+        assert!(error <= METHOD_FINE, "collocation to a residual of 1e-6: {error:e}");
     }
 }
 
@@ -160,8 +159,7 @@ fn outside(solver: &Solver, inputs: &Inputs) -> [Vector3<f64>; 2] {
 
 #[test]
 fn a_method_solves_or_says_that_it_has_not() {
-    let mut refused = 0;
-    let mut held = 0;
+    let (mut refused, mut held, mut worst) = (0, 0, 0.0_f64);
     for (field, angle) in [(20.0, 90.0), (60.0, 150.0), (200.0, 90.0), (200.0, 170.0), (500.0, 175.0)] {
         for segments in [1, 3, 9] {
             for interaction in [Interaction::None, Interaction::Rings] {
@@ -184,6 +182,7 @@ fn a_method_solves_or_says_that_it_has_not() {
                         let size = solver.base_reaction().torque.norm().max(1e-6);
                         let length = scene.design().expect("a design").length();
                         let lack = (force.norm() * length).max(torque.norm()) / size;
+                        worst = worst.max(lack);
                         assert!(lack <= METHOD_BALANCE, "{case}: solved, yet out of balance by {lack:e}");
                     } else {
                         refused += 1;
@@ -193,7 +192,7 @@ fn a_method_solves_or_says_that_it_has_not() {
             }
         }
     }
-    println!("{held} solved, {refused} said that they are not");
+    println!("{held} solved (out of balance by {worst:.1e} at most), {refused} said that they are not");
     assert!(held > 0 && refused > 0, "the scenes are too easy or too hard: {held} solved, {refused} not");
 }
 
@@ -241,7 +240,7 @@ fn what_a_method_cannot_is_refused() {
     let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.01, 0.0), ..Inputs::unloaded(2) };
     assert!(planar.solve(&inputs).expect("a plane").solved);
     inputs.tip_force.x = 0.01;
-    assert!(planar.solve(&inputs).expect_err("no plane").to_string().contains("tip force"));
+    assert!(planar.solve(&inputs).expect_err("no plane").to_string().contains("does not lie in one plane"));
     let coarse = Discretisation { steps: 0, ..Discretisation::default() };
     assert!(new(Settings { discretisation: coarse, ..Settings::default() }).is_err());
 }
