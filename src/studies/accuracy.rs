@@ -253,13 +253,14 @@ fn trials(base: Settings) -> Vec<Trial> {
     let level = base.interaction;
     let mut out = Vec::new();
     let mut add = |name, resolution: String, settings| out.push(Trial { name, resolution, settings });
+    // Without pairs there is nothing to be more or less accurate but the rings in the magnet's field.
+    let every = [1e-2, 1e-3, 1e-5, 1e-7];
+    let own = [base.pair_accuracy];
+    let accuracies = if level == Interaction::None { &own[..] } else { &every };
     for degree in [0, 2, 4, 6] {
-        for pair_accuracy in [1e-2, 1e-3, 1e-5, 1e-7] {
-            // Without pairs there is nothing to be more or less accurate but the rings in the magnet's field.
-            if level != Interaction::None || pair_accuracy == base.pair_accuracy {
-                let resolution = format!("degree {degree}, pairs {pair_accuracy:.0e}");
-                add("potential", resolution, Settings { degree, pair_accuracy, ..base });
-            }
+        for &pair_accuracy in accuracies {
+            let resolution = format!("degree {degree}, pairs {pair_accuracy:.0e}");
+            add("potential", resolution, Settings { degree, pair_accuracy, ..base });
         }
     }
     for (method, name, _) in Method::ALL.iter().filter(|row| row.2.contains(&level)) {
