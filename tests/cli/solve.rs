@@ -25,7 +25,7 @@ fn the_method_is_that_of_the_scene() {
         )
     };
     let reference = json("potential", &text(""), 0);
-    for (method, name, _) in &Method::ALL[1..] {
+    for (method, name) in &Method::ALL[1..] {
         let answer = json(name, &text(&format!("method = \"{name}\"")), 0);
         assert_eq!(answer["method"], *name);
         assert!(answer["stable"].is_null() && answer["jacobian"].is_null());

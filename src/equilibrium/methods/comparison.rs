@@ -59,6 +59,8 @@ struct State {
     engine: Engine,
     inputs: Option<Inputs>,
     shape: Shape,
+    /// External magnetic wrench, and what the clamp exerts.
+    wrenches: [Wrench; 2],
 }
 
 impl Comparison {
@@ -75,23 +77,15 @@ impl Comparison {
     ) -> Result<Self, Error> {
         let settings = settings.checked()?;
         check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
-        let (method, level) = (settings.method, settings.interaction);
-        if !method.supports(level) {
-            let known: Vec<&str> =
-                Method::ALL.iter().filter(|row| row.2.contains(&level)).map(|row| row.1).collect();
-            return Err(Error::Unsupported(format!(
-                "method \"{}\" does not support interaction \"{}\"; these do: {}",
-                method.name(),
-                level.name(),
-                known.join(", ")
-            )));
+        let (own, other) = (settings.method.name(), Method::Potential.name());
+        let lacks = |what: String| {
+            Err(Error::Unsupported(format!("method \"{own}\" has no {what}: choose \"{other}\"")))
+        };
+        if !settings.method.supports(settings.interaction) {
+            return lacks(format!("interaction \"{}\"", settings.interaction.name()));
         }
         if settings.bending_stop {
-            return Err(Error::Unsupported(format!(
-                "method \"{}\" has no bending stop, which acts between the ends of a core: choose \"{}\"",
-                method.name(),
-                Method::Potential.name()
-            )));
+            return lacks("bending stop, which acts between the ends of a core".into());
         }
         let line = Line::new(design, &settings)?;
         let state = State::straight(&line, &settings)?;
@@ -145,13 +139,14 @@ impl Comparison {
                 part *= 0.5;
             }
         }
-        report.solved = done >= 1.0;
-        if !report.solved {
+        let answers = if done >= 1.0 { self.answers(inputs) } else { None };
+        let Some((energy, wrenches)) = answers else {
             self.state = before;
             return Ok(report);
-        }
+        };
         self.state.inputs = Some(inputs.clone());
-        report.energy = self.energy(inputs);
+        self.state.wrenches = wrenches;
+        (report.solved, report.energy) = (true, energy);
         Ok(report)
     }
 
@@ -212,21 +207,16 @@ impl Comparison {
         self.arc_lengths.iter().map(|s| (*s, self.state.shape.trace.pose(*s).position))
     }
 
-    /// Force and moment (about the base position) that the clamp exerts, at the last solved inputs.
+    /// Force and moment (about the base position) that the clamp exerts.
     #[must_use]
     pub fn base_reaction(&self) -> Wrench {
-        let Some(inputs) = &self.state.inputs else { return no_wrench() };
-        let around = self.around(inputs, self.magnet.as_ref());
-        let Some((_, loads)) = around.nodes(&self.state.shape.nodes, Order::Gradient) else {
-            return no_wrench();
-        };
-        wrench(&(loads[0] - self.state.shape.base))
+        self.state.wrenches[1]
     }
 
     /// Total external magnetic wrench on the manipulator in the last solved shape, torque about the base position.
     #[must_use]
     pub fn magnetic_wrench(&self) -> Wrench {
-        self.state.inputs.as_ref().map_or(no_wrench(), |inputs| self.magnetic(inputs, self.magnet.as_ref()))
+        self.state.wrenches[0]
     }
 
     /// Wrench on the external magnet about its centre.
@@ -235,7 +225,8 @@ impl Comparison {
         if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
             return no_wrench();
         }
-        reaction_on_magnet(&self.magnetic_wrench(), &self.magnetic(inputs, None), inputs)
+        let background = self.background(inputs).unwrap_or_else(no_wrench);
+        reaction_on_magnet(&self.magnetic_wrench(), &background, inputs)
     }
 
     /// External field (T) at a point, m; `None` inside a magnet.
@@ -244,28 +235,36 @@ impl Comparison {
         Source::external(self.magnet.as_ref(), inputs).at(point)
     }
 
-    /// What the external field does to the last solved shape.
-    fn magnetic(&self, inputs: &Inputs, magnet: Option<&Assembly>) -> Wrench {
-        let around = self.around(inputs, magnet);
-        let nodes = &self.state.shape.nodes;
-        let spans = self.state.shape.trace.totals(&around);
-        let Some(Totals { mut magnetic, .. }) = spans else { return no_wrench() };
-        for node in 0..nodes.len() {
-            let Some(load) = around.node(node, nodes, Order::Gradient) else { return no_wrench() };
-            let on_ring = wrench(&load.magnetic);
-            let arm = nodes[node].position - inputs.base.position;
-            add_wrench(&mut magnetic, &on_ring.force, &on_ring.torque, &arm);
+    /// What the background field alone does to the last solved shape.
+    fn background(&self, inputs: &Inputs) -> Option<Wrench> {
+        let around = self.around(inputs, None);
+        let shape = &self.state.shape;
+        let mut magnetic = shape.trace.totals(&around)?.magnetic;
+        for (index, body) in self.line.chain.rings.iter().enumerate() {
+            let node = &shape.nodes[body.node];
+            let load = around.on_ring(index, node, Order::Gradient)?;
+            add_wrench(&mut magnetic, &load.force, &load.moment(), &(node.position - inputs.base.position));
         }
-        magnetic
+        Some(magnetic)
     }
 
-    /// Potential energy of the last solved shape, J.
-    fn energy(&self, inputs: &Inputs) -> f64 {
+    /// Energy (J) of a shape, the external magnetic wrench on it, and what the clamp exerts.
+    fn answers(&self, inputs: &Inputs) -> Option<(f64, [Wrench; 2])> {
         let around = self.around(inputs, self.magnet.as_ref());
-        let nodes = &self.state.shape.nodes;
-        let spans = self.state.shape.trace.totals(&around).map_or(0.0, |totals| totals.energy);
-        let loads = around.nodes(nodes, Order::Gradient);
-        spans + loads.map_or(0.0, |(loads, _)| loads.iter().map(|load| load.energy).sum())
+        let shape = &self.state.shape;
+        let Totals { mut magnetic, mut energy } = shape.trace.totals(&around)?;
+        let (loads, totals) = around.nodes(&shape.nodes, Order::Gradient)?;
+        for (load, node) in loads.iter().zip(&shape.nodes) {
+            energy += load.energy;
+            let on_ring = wrench(&load.magnetic);
+            add_wrench(
+                &mut magnetic,
+                &on_ring.force,
+                &on_ring.torque,
+                &(node.position - inputs.base.position),
+            );
+        }
+        Some((energy, [magnetic, wrench(&(totals[0] - shape.base))]))
     }
 }
 
@@ -275,7 +274,12 @@ impl State {
             Error::Unsupported("the potential method is not one of the other methods".into())
         })?;
         let (trace, nodes) = Trace::straight(line);
-        Ok(Self { engine, inputs: None, shape: Shape { nodes, base: Vector6::zeros(), trace } })
+        Ok(Self {
+            engine,
+            inputs: None,
+            shape: Shape { nodes, base: Vector6::zeros(), trace },
+            wrenches: [no_wrench(); 2],
+        })
     }
 }
 

@@ -26,19 +26,15 @@ pub enum Method {
 }
 
 impl Method {
-    /// Every method with its name in scene files and the levels of interaction that it supports.
-    pub const ALL: &[(Self, &str, &[Interaction])] = &[
-        (
-            Self::Potential,
-            "potential",
-            &[Interaction::None, Interaction::Preceding, Interaction::Rings, Interaction::Full],
-        ),
-        (Self::ShootingPaper, "shooting-fd", RINGS_AT_MOST),
-        (Self::ShootingExact, "shooting", RINGS_AT_MOST),
-        (Self::MultipleShooting, "multiple-shooting", RINGS_AT_MOST),
-        (Self::Collocation, "collocation", RINGS_AT_MOST),
-        (Self::ConstantCurvature, "constant-curvature", RINGS_AT_MOST),
-        (Self::Planar, "planar", RINGS_AT_MOST),
+    /// Every method with its name in scene files.
+    pub const ALL: &[(Self, &str)] = &[
+        (Self::Potential, "potential"),
+        (Self::ShootingPaper, "shooting-fd"),
+        (Self::ShootingExact, "shooting"),
+        (Self::MultipleShooting, "multiple-shooting"),
+        (Self::Collocation, "collocation"),
+        (Self::ConstantCurvature, "constant-curvature"),
+        (Self::Planar, "planar"),
     ];
 
     /// The method with this name.
@@ -60,15 +56,14 @@ impl Method {
     }
 
     /// Whether it can solve scenes with this level of interaction.
+    ///
+    /// Where rings act on spans the differential equations are no longer local: what a ring feels is an integral over the
+    /// shapes of others. Only the potential method takes that in.
     #[must_use]
     pub fn supports(self, interaction: Interaction) -> bool {
-        Self::ALL.iter().any(|row| row.0 == self && row.2.contains(&interaction))
+        self == Self::Potential || !interaction.acts_on_spans()
     }
 }
-
-/// Where rings act on spans the differential equations are no longer local: what a ring feels is an integral over the
-/// shapes of others.
-const RINGS_AT_MOST: &[Interaction] = &[Interaction::None, Interaction::Rings];
 
 /// Resolution and limits of the methods beside the potential one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -102,6 +102,13 @@ impl Surroundings<'_> {
         Some(self.field.on_matter(matter, pose, order)?.in_axes(&self.field.axes().transpose()))
     }
 
+    /// Load of the external field on a ring whose node is at `pose`.
+    pub(super) fn on_ring(&self, index: usize, pose: &Pose, order: Order) -> Option<Load> {
+        let body = &self.line.chain.rings[index];
+        let centre = pose.advanced(0.5 * body.ring.length).position;
+        self.field.on_ring(body, pose, self.rules.external(index, self.field.distance(&centre)), order)
+    }
+
     /// Load on node `node`; `poses` are those of the nodes up to it. `None` where bodies touch.
     pub(super) fn node(&self, node: usize, poses: &[Pose], order: Order) -> Option<NodeLoad> {
         let chain = &self.line.chain;
@@ -110,11 +117,10 @@ impl Surroundings<'_> {
         let mut magnetic = Vector6::zeros();
         let index = chain.rings.iter().position(|body| body.node == node);
         if let Some(index) = index {
+            load = self.on_ring(index, pose, order)?;
+            magnetic = gradient(&load);
             let body = &chain.rings[index];
             let arm = pose.axis() * (0.5 * body.ring.length);
-            let rule = self.rules.external(index, self.field.distance(&(pose.position + arm)));
-            load = self.field.on_ring(body, pose, rule, order)?;
-            magnetic = gradient(&load);
             let dead = self.inputs.ring_forces[index] + self.inputs.gravity * body.ring.mass;
             load += Load::dead_force(&dead, &pose.position, &arm);
         }
