@@ -15,7 +15,7 @@ fn point(name: &'static str, time: f64, error: f64) -> Point {
         tip_over_length: Some(error),
         angle_deg: Some(0.0),
         wrench_relative: Some(0.0),
-        reference_over_length: 1e-8,
+        reference_over_length: Some(1e-8),
     }
 }
 
