@@ -106,6 +106,11 @@ impl Chain {
         Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, views })
     }
 
+    /// Unstrained length, m.
+    pub(super) fn length(&self) -> f64 {
+        self.elements.iter().map(|element| element.offset + element.length).sum::<f64>() + self.tip_offset
+    }
+
     /// Number of unknowns.
     pub(super) fn freedoms(&self) -> usize {
         self.metric.len()

@@ -111,10 +111,10 @@ impl Potential<'_> {
         let station = &self.chain.elements[k].stations[index];
         let pose = self.work.station(k, index);
         let mut out = Wrenches::none(counts);
-        if station.matter.magnetisation != 0.0 {
-            let points = station.matter.moments.points();
-            let moment = pose.axis()
-                * (station.matter.magnetisation * station.matter.moments.volume / points.len() as f64);
+        let matter = &station.matter;
+        if matter.magnetisation != 0.0 {
+            let points = self.field.points(station);
+            let moment = pose.axis() * (matter.magnetisation * matter.moments.volume / points.len() as f64);
             for point in points {
                 let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
                 out.add_dipole(&moment, &arm, &field_rates(magnet, self.inputs, &(pose.position + arm))?);

@@ -17,9 +17,10 @@ impl Objective for Potential<'_> {
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
         self.work.factored = false;
-        self.work.linearised.copy_from_slice(x);
         let energy = self.load(x, Order::Hessian)?;
-        self.backward(x, Order::Hessian).then_some(energy)
+        let regular = self.backward(x, Order::Hessian);
+        self.note_origin(x);
+        regular.then_some(energy)
     }
 
     fn gradient(&self) -> &[f64] {
@@ -29,7 +30,7 @@ impl Objective for Potential<'_> {
     /// Where the forces have no potential, whether the matrix is regular.
     fn factorise(&mut self, shift: f64) -> bool {
         let size = 6 * self.chain.elements.len();
-        self.work.factored = false;
+        (self.work.factored, self.work.reference.origin.judged) = (false, false);
         self.work.factor.copy_from_slice(&self.work.node_hessian);
         for k in 0..self.chain.elements.len() {
             if !self.condense(k, shift) {

@@ -54,6 +54,13 @@ impl Inputs {
         Self { magnet: self.magnet, base: self.base, ..Self::unloaded(self.ring_forces.len()) }
     }
 
+    /// Takes over `other`, without allocating if it has as many rings.
+    pub fn copy_from(&mut self, other: &Self) {
+        let mut ring_forces = std::mem::take(&mut self.ring_forces);
+        ring_forces.clone_from(&other.ring_forces);
+        *self = Self { ring_forces, ..*other };
+    }
+
     /// The inputs a fraction `t` of the way to `other`; orientations turn along the shortest arc.
     #[must_use]
     pub fn between(&self, other: &Self, t: f64) -> Self {

@@ -3,7 +3,9 @@
 mod chain;
 mod columns;
 mod condensed;
+mod correction;
 mod dead;
+mod drift;
 mod field_rates;
 mod follow;
 mod inputs;
@@ -21,12 +23,14 @@ mod snapshot;
 mod solver;
 mod source;
 mod spans;
+mod transfer;
 mod views;
 
-pub use follow::Report;
+pub use correction::Report;
 pub use inputs::Inputs;
 pub use jacobian::{Input, Jacobian, Output};
-pub use methods::{Comparison, Discretisation, Method, Solver};
+pub use methods::{Comparison, Discretisation, Method};
 pub use settings::{Interaction, Settings};
 pub use snapshot::Snapshot;
 pub use solver::Equilibrium;
+pub use transfer::Gap;

@@ -4,6 +4,7 @@ use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 
 use super::chain::Chain;
 use super::dead::{add_wrench, no_wrench, weight};
+use super::drift::Reference;
 use super::inputs::Inputs;
 use super::internal::Internal;
 use super::pair::{Mixed, PairLoad, blocks, overlap};
@@ -34,14 +35,14 @@ pub(super) struct Workspace {
     pub(super) mixed: Vec<Vec<Mixed>>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
-    /// The unknowns at which the Hessian was last made.
-    pub(super) linearised: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
     pub(super) factor: Vec<f64>,
     /// The factorisation where the matrix is not symmetric.
     pub(super) lu: Option<LU<f64, Dyn, Dyn>>,
     /// Whether `factor` and the reductions hold a factorisation, of this shape or an earlier one.
     pub(super) factored: bool,
+    /// Where the Hessian was last made.
+    pub(super) reference: Reference,
     /// Whether the symmetric part of that matrix is positive definite, and its Cholesky factor there.
     pub(super) definite: bool,
     /// Axes of the elements' start nodes in that factorisation.
@@ -67,11 +68,11 @@ impl Workspace {
             mixed: vec![Vec::new(); count],
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
-            linearised: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
             factor: vec![0.0; size * size],
             lu: None,
             factored: false,
+            reference: Reference::new(chain),
             definite: false,
             axes: vec![Matrix3::identity(); count],
             rhs: vec![0.0; size],
@@ -170,7 +171,7 @@ impl Potential<'_> {
             let start = self.work.nodes[k];
             for (index, station) in element.stations.iter().enumerate() {
                 let pose = self.work.station(k, index);
-                let magnetic = self.field.on_matter(&station.matter, &pose, order)?;
+                let magnetic = self.field.on_station(station, &pose, order)?;
                 let axes = self.field.axes();
                 let arm = pose.position - self.inputs.base.position;
                 let (force, moment) = (axes * magnetic.force, axes * magnetic.moment());

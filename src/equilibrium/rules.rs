@@ -61,8 +61,8 @@ impl PairRules {
     }
 
     /// The numbers of the chosen rules, then the levels.
-    pub(super) fn chosen(&self) -> Vec<usize> {
-        self.chosen.iter().chain(&self.spans).copied().collect()
+    pub(super) fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
+        self.chosen.iter().chain(&self.spans).copied()
     }
 
     /// Chooses by these numbers; false, and nothing happens, if there are no such rules or levels.
@@ -72,7 +72,7 @@ impl PairRules {
         let known = spans.len() == self.spans.len()
             && pairs.iter().all(|&number| number < most)
             && spans.iter().all(|&level| level < Views::LEVELS);
-        if known {
+        if known && !self.chosen().eq(chosen.iter().copied()) {
             self.chosen.copy_from_slice(pairs);
             self.spans.copy_from_slice(spans);
             self.number += 1;

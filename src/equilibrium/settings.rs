@@ -18,6 +18,8 @@ pub enum Interaction {
     /// All pairs of rings, and every ring with every span but the disc bonded to its face, mutual. Spans among
     /// themselves are neglected.
     Full = 3,
+    /// The cheapest of several models that is within the tolerances of the richest: [`Self::Full`] with bending stop.
+    Auto = 4,
 }
 
 impl Interaction {
@@ -28,6 +30,7 @@ impl Interaction {
         (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
         (Self::Rings, "rings", "All pairs of rings, mutual"),
         (Self::Full, "full", "All pairs of rings, and every ring with every span, mutual"),
+        (Self::Auto, "auto", "As much as the tolerances need, up to full with bending stop"),
     ];
 
     /// Whether rings act on spans.
@@ -60,16 +63,20 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
+    /// How far [`Interaction::Auto`] may put the tip from where the richest model puts it, m; default 1e-5.
+    pub tolerance_position: f64,
+    /// How far it may turn the tip against that one, rad; default 1e-3.
+    pub tolerance_angle: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
-    /// windings touch; default no, as in the paper's model.
+    /// windings touch; default no, as in the paper's model. [`Interaction::Auto`] always sees to it.
     pub bending_stop: bool,
     /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
     /// rings act on spans.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of a ring's energy in a field, relative to that energy, and of the energy of two rings,
-    /// relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Thirteen nodes are the most:
+    /// Largest error of the energy of a ring or of a span in a field, relative to that energy, and of the energy of two
+    /// rings, relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Thirteen nodes are the most:
     /// rings closer than 5 mm (the paper's) are good to 4e-6 of their force, those about to snap to 1e-3.
     pub pair_accuracy: f64,
     /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
@@ -92,6 +99,8 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
+            tolerance_position: 1e-5,
+            tolerance_angle: 1e-3,
             bending_stop: false,
             degree: 2,
             cylinder_elements: 8,
@@ -114,6 +123,8 @@ impl Settings {
     /// [`Error::Range`] naming the first knob out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let positive = |value: f64| value > 0.0;
+        check("tolerance of the tip position", self.tolerance_position, positive, "> 0 m")?;
+        check("tolerance of the tip angle", self.tolerance_angle, positive, "> 0 rad")?;
         check("degree of the strain modes", self.degree as f64, |v| v <= 8.0, "from 0 to 8")?;
         check(
             "number of cylinder elements",

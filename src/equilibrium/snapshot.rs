@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::drift::Origin;
 use super::follow::Branch;
-use super::potential::Potential;
 use super::solver::Equilibrium;
-use super::source::Source;
 use crate::error::Error;
 use crate::numerics::trust_region::Objective;
 
@@ -13,9 +12,9 @@ use crate::numerics::trust_region::Objective;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     branch: Branch,
-    /// Where the Hessian was factorised that the next solve begins with.
-    factorised: Option<Vec<f64>>,
-    /// The rules of the ring pairs there.
+    /// Where the Hessian was made whose factorisation the next solve begins with.
+    origin: Option<Origin>,
+    /// The rules of the ring pairs at the shape of the branch.
     rules: Vec<usize>,
 }
 
@@ -25,8 +24,8 @@ impl Equilibrium {
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             branch: self.branch.clone(),
-            factorised: self.work.factored.then(|| self.work.linearised.clone()),
-            rules: self.rules.chosen(),
+            origin: self.work.factored.then(|| self.work.reference.origin.clone()),
+            rules: self.rules.chosen().collect(),
         }
     }
 
@@ -36,8 +35,8 @@ impl Equilibrium {
     /// [`Error::Unsupported`] for a snapshot that is not of this design; the branch is then forgotten.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         self.reset();
-        let Snapshot { branch, factorised, rules } = snapshot;
-        let lists = [Some(&branch.unknowns), Some(&branch.softest), factorised.as_ref()];
+        let Snapshot { branch, origin, rules } = snapshot;
+        let lists = [Some(&branch.unknowns), Some(&branch.softest), origin.as_ref().map(|o| &o.unknowns)];
         let fits = (lists.iter().flatten())
             .all(|list| list.len() == self.chain.freedoms() && list.iter().all(|entry| entry.is_finite()));
         let foreign = || Error::Unsupported("the snapshot is not of this design".into());
@@ -45,23 +44,27 @@ impl Equilibrium {
             return Err(foreign());
         }
         let Some(inputs) = &branch.inputs else { return Ok(()) };
-        inputs.check(self.chain.rings.len())?;
-        let mut potential = Potential {
-            chain: &self.chain,
-            settings: &self.settings,
-            inputs,
-            field: Source::external(self.magnet.as_ref(), inputs),
-            rules: &self.rules,
-            work: &mut self.work,
-        };
-        let factorised = factorised
-            .as_ref()
-            .is_none_or(|shape| potential.linearise(shape).is_some() && potential.factorise(0.0));
-        if !factorised || potential.slope(&branch.unknowns).is_none() {
+        for inputs in [Some(inputs), origin.as_ref().map(|origin| &origin.inputs)].into_iter().flatten() {
+            inputs.check(self.chain.rings.len())?;
+        }
+        let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));
+        let replaced = refactorised && self.rules.restore(rules);
+        if !replaced || self.potential_as_ruled(inputs).slope(&branch.unknowns).is_none() {
             self.reset();
             return Err(foreign());
         }
         self.branch = branch.clone();
         Ok(())
+    }
+
+    /// Makes the Hessian of `origin` again.
+    fn refactorise(&mut self, origin: &Origin) -> bool {
+        if !self.rules.restore(&origin.rules) {
+            return false;
+        }
+        let mut potential = self.potential_as_ruled(&origin.inputs);
+        let done = potential.linearise(&origin.unknowns).is_some() && potential.factorise(0.0);
+        self.work.reference.origin.judged = origin.judged;
+        done
     }
 }

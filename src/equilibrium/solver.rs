@@ -5,12 +5,13 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::Chain;
+use super::correction::{Report, Scene, Scratch, measure};
 use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
-use super::follow::{Branch, Report, Scene, measure};
+use super::follow::Branch;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
-use super::settings::Settings;
+use super::settings::{Interaction, Settings};
 use super::source::Source;
 use crate::design::Design;
 use crate::error::{Error, check};
@@ -46,13 +47,15 @@ pub struct Equilibrium {
     pub(super) branch: Branch,
     pub(super) work: Workspace,
     pub(super) rules: PairRules,
+    scratch: Scratch,
 }
 
 impl Equilibrium {
     /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
     /// # Errors
-    /// [`Error::Range`] for settings or a number of points out of range.
+    /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for
+    /// [`Interaction::Auto`], which takes several models.
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
@@ -60,6 +63,11 @@ impl Equilibrium {
         shape_points: usize,
     ) -> Result<Self, Error> {
         let settings = settings.checked()?;
+        if settings.interaction == Interaction::Auto {
+            return Err(Error::Unsupported(
+                "an equilibrium of one model has no level `auto`: a manipulator has".into(),
+            ));
+        }
         check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
         let chain = Chain::new(design, &settings)?;
         let total = design.length();
@@ -73,6 +81,7 @@ impl Equilibrium {
             branch: Branch::new(&chain),
             work,
             rules,
+            scratch: Scratch::new(&chain),
             chain: Arc::new(chain),
         };
         out.reset();
@@ -100,7 +109,7 @@ impl Equilibrium {
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
-        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules))
+        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules, &mut self.scratch))
     }
 
     /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
@@ -112,6 +121,12 @@ impl Equilibrium {
         potential.linearise(&unknowns)?;
         let definite = potential.factorise(0.0) && potential.has_verdict();
         definite.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
+    }
+
+    /// The inputs of the last solved shape.
+    #[must_use]
+    pub fn inputs(&self) -> Option<&Inputs> {
+        self.branch.inputs.as_ref()
     }
 
     /// Number of unknowns.
@@ -161,11 +176,20 @@ impl Equilibrium {
     pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
         self.work.place(&self.chain, &inputs.base, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
+        self.potential_as_ruled(inputs)
+    }
+
+    /// With the rules that were chosen last.
+    pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
         Potential {
             chain: &self.chain,
             settings: &self.settings,
             inputs,
-            field: Source::external(self.magnet.as_ref(), inputs),
+            field: Source::external(self.magnet.as_ref(), inputs).seen_by(
+                &self.chain,
+                &inputs.base,
+                self.settings.pair_accuracy,
+            ),
             rules: &self.rules,
             work: &mut self.work,
         }
@@ -258,7 +282,7 @@ impl Equilibrium {
         for (k, element) in self.chain.elements.iter().enumerate() {
             for (index, station) in element.stations.iter().enumerate() {
                 let pose = self.work.station(k, index);
-                add(field.on_matter(&station.matter, &pose, Order::Gradient), &pose.position);
+                add(field.on_station(station, &pose, Order::Gradient), &pose.position);
             }
         }
         out

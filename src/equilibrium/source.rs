@@ -4,11 +4,11 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::chain::RingBody;
+use super::chain::{Chain, RingBody};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
-use crate::rod::{Load, Matter, Order, Sample, Sheet};
+use crate::rod::{Load, Matter, Order, Sample, Sheet, Station};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +34,8 @@ pub(super) struct Source<'a> {
     /// The linear field at the frame's origin and its gradient, in the frame's axes.
     field: Vector3<f64>,
     gradient: Matrix3<f64>,
+    /// Largest spread (see [`Station::spread`]) with which material counts as one point.
+    compact: f64,
 }
 
 impl<'a> Source<'a> {
@@ -49,7 +51,25 @@ impl<'a> Source<'a> {
             field: turn.tr_mul(&background.at(&frame.position)),
             gradient: turn.tr_mul(&background.gradient()) * turn,
             frame,
+            compact: 0.0,
         }
+    }
+
+    /// The same for a `chain` with its base there, sampled as coarsely as this relative `accuracy` of the energies allows.
+    ///
+    /// A dipole at distance `d` along the axis has the mean `B (1 - 3 spread / d^2)` over a section. The distance is that
+    /// of all the chain may reach, so that the choice depends on the inputs alone.
+    pub(super) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
+        if !self.has_magnet() {
+            return self;
+        }
+        let reach = self.distance(&base.position) - chain.length();
+        Self { compact: accuracy / 3.0 * reach * reach.max(0.0), ..self }
+    }
+
+    /// The points of a station's section that carry its material in equal parts.
+    pub(super) fn points<'s>(&self, station: &'s Station) -> &'s [Vector2<f64>] {
+        if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
     }
 
     /// A ring of the manipulator whose node is at `node`.
@@ -59,6 +79,7 @@ impl<'a> Source<'a> {
             magnet: Magnet::Ring(&body.source),
             field: Vector3::zeros(),
             gradient: Matrix3::zeros(),
+            compact: 0.0,
         }
     }
 
@@ -142,8 +163,20 @@ impl<'a> Source<'a> {
         Some(load.in_axes(&self.frame.rotation.transpose()))
     }
 
-    /// Energy of a section's material in the axes of the source; `pose` is the section's in the world.
+    /// Energy of a station's material in the axes of the source; `pose` is the station's in the world.
+    pub(super) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
+        // A linear field needs no more than the centroid.
+        let points = if self.has_magnet() { self.points(station) } else { &station.points.0 };
+        self.on_points(&station.matter, points, pose, order)
+    }
+
+    /// The same, for a section's material.
     pub(super) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
+        self.on_points(matter, &matter.moments.points(), pose, order)
+    }
+
+    /// The same, where `points` carry the material in equal parts.
+    fn on_points(&self, matter: &Matter, points: &[Vector2<f64>], pose: &Pose, order: Order) -> Option<Load> {
         let mut load = Load::zero();
         if matter.magnetisation == 0.0 {
             return Some(load);
@@ -151,12 +184,11 @@ impl<'a> Source<'a> {
         let local = self.locate(pose);
         let axis = local.axis();
         let moment = matter.magnetisation * matter.moments.volume;
-        if matches!(self.magnet, Magnet::Absent) && self.gradient == Matrix3::zeros() {
+        if !self.has_magnet() && self.gradient == Matrix3::zeros() {
             load.energy = -moment * axis.dot(&self.field);
             load.couple = self.field * (axis.transpose() * -moment);
             return Some(load);
         }
-        let points = matter.moments.points();
         let share = moment / points.len() as f64;
         self.on_section(points.iter().map(|point| (*point, share)), &local, order)
     }

@@ -69,7 +69,7 @@ impl Views {
 fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<Sight> {
     let beyond = body.node > k;
     let acts = match settings.interaction {
-        Interaction::None | Interaction::Rings => false,
+        Interaction::None | Interaction::Rings | Interaction::Auto => false,
         Interaction::Preceding => !beyond,
         Interaction::Full => true,
     };

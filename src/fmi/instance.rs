@@ -326,6 +326,8 @@ impl Instance {
         }
         condition.jacobian = None;
         let device = condition.device.insert(device);
+        let settings = &condition.given.settings;
+        device.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
         let snaps = device.outputs().snaps;
         let outputs = device.follow(path, condition.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];

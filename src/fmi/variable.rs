@@ -126,8 +126,6 @@ pub enum Reach {
     ClampedAxis,
     /// Upon lengths of the design only.
     Lengths,
-    /// Upon the chosen level of interaction only.
-    Level,
 }
 
 /// A row of the table.
@@ -224,7 +222,6 @@ impl Reach {
                     && !name.starts_with("design.backbone")
                     && name.ends_with(".length"),
             ),
-            Self::Level => dependent(name == "model.interaction"),
         }
     }
 }

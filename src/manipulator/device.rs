@@ -1,11 +1,12 @@
 //! The manipulator: a design, an external magnet, and the last shape.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::ladder;
+use super::solver::Solver;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{self, Report, Settings, Solver};
+use crate::equilibrium::{Gap, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -37,7 +38,7 @@ pub struct Manipulator {
 /// What a manipulator remembers of its past, in numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    equilibrium: equilibrium::Snapshot,
+    models: ladder::Snapshot,
     outputs: Outputs,
 }
 
@@ -55,7 +56,7 @@ impl Manipulator {
         shape_points: usize,
     ) -> Result<Self, Error> {
         let solver = Solver::new(design, magnet, settings, shape_points)?;
-        let outputs = straight(&solver);
+        let outputs = solver.straight();
         Ok(Self { solver, outputs })
     }
 
@@ -119,7 +120,7 @@ impl Manipulator {
     /// # Errors
     /// [`Error::Unsupported`] by another method than the potential one.
     pub fn snapshot(&self) -> Result<Snapshot, Error> {
-        Ok(Snapshot { equilibrium: self.solver.snapshot()?, outputs: self.outputs.clone() })
+        Ok(Snapshot { models: self.solver.snapshot()?, outputs: self.outputs.clone() })
     }
 
     /// Remembers what another manipulator of the same design, magnet and settings did.
@@ -134,7 +135,7 @@ impl Manipulator {
         if lengths(&snapshot.outputs) != lengths(&self.outputs) {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
-        self.solver.restore(&snapshot.equilibrium)?;
+        self.solver.restore(&snapshot.models)?;
         self.outputs = snapshot.outputs.clone();
         Ok(())
     }
@@ -142,7 +143,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.solver.clone().margin() {
+        if let Some(margin) = self.solver.margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -168,7 +169,7 @@ impl Manipulator {
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] when the last solve failed, before the first, at a fold, and where a part lies
-    /// inside the external magnet; see [`equilibrium::Equilibrium::jacobian`]; always by another method than the potential one.
+    /// inside the external magnet; see [`crate::equilibrium::Equilibrium::jacobian`]; always by another method than the potential one.
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
@@ -176,30 +177,33 @@ impl Manipulator {
         self.solver.jacobian()
     }
 
+    /// How far `auto` may put and turn the tip from where the richest model does, m and rad; from the next solve on.
+    ///
+    /// # Errors
+    /// [`Error::Range`] unless both are positive; [`Error::Unsupported`] by another method than the potential one.
+    pub fn set_tolerances(&mut self, position: f64, angle: f64) -> Result<(), Error> {
+        let settings =
+            Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
+        settings.checked()?;
+        self.solver.set_tolerance(Gap { distance: position, angle })
+    }
+
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.solver.reset();
-        self.outputs = straight(&self.solver);
+        self.outputs = self.solver.straight();
     }
 
     fn observe(&mut self, inputs: &Inputs, report: &Report) {
-        let (solver, out) = (&self.solver, &mut self.outputs);
-        out.tip = solver.tip();
+        let out = &mut self.outputs;
+        self.solver.observe(inputs, out);
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        let magnetic = solver.magnetic_wrench();
-        (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
-        let base = solver.base_reaction();
-        (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);
-        let magnet = solver.magnet_reaction(inputs);
-        (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
-        out.tip_field = solver.field_at(inputs, &out.tip.position).unwrap_or_default();
-        copy_shape(solver, out);
         out.stable = report.stable;
         out.stability_margin = report.margin;
         out.snaps += report.snaps;
         out.status = if report.snaps > 0 {
             Status::Snapped
-        } else if report.stable.is_some() && report.margin < solver.settings().fold_margin {
+        } else if report.stable.is_some() && report.margin < self.solver.settings().fold_margin {
             Status::NearFold
         } else {
             Status::Solved
@@ -207,45 +211,5 @@ impl Manipulator {
         out.iterations = report.iterations;
         out.residual = report.residual;
         out.energy = report.energy;
-    }
-}
-
-fn copy_shape(solver: &Solver, out: &mut Outputs) {
-    for ((slot, place), (arc_length, position)) in
-        out.shape.iter_mut().zip(&mut out.shape_arc_length).zip(solver.shape())
-    {
-        (*slot, *place) = (position, arc_length);
-    }
-    out.rings.iter_mut().zip(solver.rings()).for_each(|(slot, pose)| *slot = pose);
-    out.core_angles.iter_mut().zip(solver.core_angles()).for_each(|(slot, angle)| *slot = angle);
-}
-
-/// Outputs of the straight, unloaded manipulator at the origin.
-fn straight(solver: &Solver) -> Outputs {
-    let zero = Vector3::zeros();
-    let (shape_arc_length, shape) = solver.shape().unzip();
-    Outputs {
-        tip_angle: 0.0,
-        tip: solver.tip(),
-        magnetic_force: zero,
-        magnetic_torque: zero,
-        base_reaction_force: zero,
-        base_reaction_moment: zero,
-        magnet_reaction_force: zero,
-        magnet_reaction_torque: zero,
-        tip_field: zero,
-        shape_arc_length,
-        shape,
-        rings: solver.rings().collect(),
-        core_angles: solver.core_angles().collect(),
-        stable: Some(true),
-        stability_margin: 1.0,
-        snaps: 0,
-        status: Status::Solved,
-        iterations: 0,
-        residual: 0.0,
-        energy: 0.0,
-        interaction: solver.settings().interaction,
-        method: solver.settings().method,
     }
 }

@@ -2,8 +2,10 @@
 
 mod branch;
 mod device;
+mod ladder;
 mod outputs;
 mod scene;
+mod solver;
 
 pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use branch::{Branch, Fold};

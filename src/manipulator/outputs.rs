@@ -52,7 +52,8 @@ pub struct Outputs {
     /// or the method does not ask.
     pub stable: Option<bool>,
     /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold. An upper
-    /// bound, close near a fold, until [`super::Manipulator::measure_margin`] measures it.
+    /// bound, close near a fold and up to some percent old along small steps, until
+    /// [`super::Manipulator::measure_margin`] measures it.
     pub stability_margin: f64,
     /// Jumps to another branch since the first solve.
     pub snaps: u32,
@@ -68,4 +69,6 @@ pub struct Outputs {
     pub interaction: Interaction,
     /// Method that was used.
     pub method: Method,
+    /// Estimated distance of the tip from that of the richest model, m, where `auto` chose a cheaper one; else 0.
+    pub error_estimate: f64,
 }

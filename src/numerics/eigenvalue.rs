@@ -1,6 +1,9 @@
 //! The smallest eigenvalue of `H x = lambda K x`, for a diagonal `K` and a solver for `H + shift K`.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
+
+/// So few vectors need no storage on the heap for their tridiagonal matrix.
+const FEW: usize = 8;
 
 /// How hard the eigenvalue is looked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,72 +15,110 @@ pub struct Search {
     pub settled: f64,
 }
 
-/// The smallest `lambda`, and its vector (`x^T K x = 1`) in `vector`, which is also the first guess.
-///
-/// `solve` replaces its argument by `(H + shift K)^-1` times it and must belong to a positive definite matrix;
-/// the method is Lanczos' on `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation
-/// (Golub and Van Loan, Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. A
-/// search that ends early answers an upper bound. NaN for a vector or a solver that is not finite.
-pub fn smallest(
-    metric: &[f64],
-    shift: f64,
-    vector: &mut [f64],
-    search: Search,
-    mut solve: impl FnMut(&mut [f64]),
-) -> f64 {
-    let size = vector.len();
-    let inner =
-        |a: &[f64], b: &[f64]| -> f64 { metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum() };
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    let (mut diagonal, mut beside): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    let mut next = vector.to_vec();
-    loop {
-        let norm = inner(&next, &next).sqrt();
-        if !(norm.is_finite() && norm > 0.0) {
-            return f64::NAN;
+/// Inner product of two vectors in a diagonal metric.
+#[must_use]
+pub fn inner(metric: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum()
+}
+
+/// The search, with storage that makes the next one allocate nothing.
+#[derive(Debug, Clone, Default)]
+pub struct Lanczos {
+    basis: Vec<Vec<f64>>,
+    image: Vec<f64>,
+    diagonal: Vec<f64>,
+    beside: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl Lanczos {
+    /// The smallest `lambda`, and its vector (`x^T K x = 1`) in `vector`, which is also the first guess.
+    ///
+    /// `solve` replaces its argument by `(H + shift K)^-1` times it and must belong to a positive definite matrix;
+    /// the method is Lanczos' on `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation
+    /// (Golub and Van Loan, Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. A
+    /// search that ends early answers an upper bound. NaN for a vector or a solver that is not finite.
+    pub fn smallest(
+        &mut self,
+        metric: &[f64],
+        shift: f64,
+        vector: &mut [f64],
+        search: Search,
+        mut solve: impl FnMut(&mut [f64]),
+    ) -> f64 {
+        let size = vector.len();
+        let inner = |a: &[f64], b: &[f64]| inner(metric, a, b);
+        let Self { basis, image, diagonal, beside, weights } = self;
+        let most = search.vectors.min(size);
+        if basis.len() < most || image.len() != size {
+            basis.resize(most, Vec::new());
+            basis.iter_mut().for_each(|vector| vector.resize(size, 0.0));
+            image.resize(size, 0.0);
         }
-        for entry in &mut next {
-            *entry /= norm;
-        }
-        let mut image: Vec<f64> = next.iter().zip(metric).map(|(x, k)| x * k).collect();
-        solve(&mut image);
-        diagonal.push(inner(&next, &image));
-        basis.push(next);
-        // Once more against rounding.
-        for earlier in basis.iter().chain(&basis) {
-            let along = inner(earlier, &image);
-            for (entry, e) in image.iter_mut().zip(earlier) {
-                *entry -= along * e;
+        image.copy_from_slice(vector);
+        diagonal.clear();
+        beside.clear();
+        loop {
+            let count = diagonal.len() + 1;
+            let norm = inner(image, image).sqrt();
+            if !(norm.is_finite() && norm > 0.0) {
+                return f64::NAN;
             }
-        }
-        let (value, weights) = largest(&diagonal, &beside);
-        let rest = inner(&image, &image).sqrt();
-        let last = weights.last().copied().unwrap_or(0.0).abs();
-        // One vector alone is its own guess: it is confirmed by a second.
-        let settled = basis.len() > 1 && rest * last <= search.settled * value;
-        if settled || basis.len() == search.vectors.min(size) || rest <= f64::EPSILON * value {
-            vector.fill(0.0);
-            for (weight, direction) in weights.iter().zip(&basis) {
-                for (entry, d) in vector.iter_mut().zip(direction) {
-                    *entry += weight * d;
+            if count > 1 {
+                beside.push(norm);
+            }
+            let next = &mut basis[count - 1];
+            for ((x, entry), k) in next.iter_mut().zip(image.iter_mut()).zip(metric) {
+                *x = *entry / norm;
+                *entry = *x * k;
+            }
+            solve(image);
+            diagonal.push(inner(&basis[count - 1], image));
+            // Once more against rounding.
+            for earlier in basis[..count].iter().chain(&basis[..count]) {
+                let along = inner(earlier, image);
+                for (entry, e) in image.iter_mut().zip(earlier) {
+                    *entry -= along * e;
                 }
             }
-            return 1.0 / value - shift;
+            let value = largest(diagonal, beside, weights);
+            let rest = inner(image, image).sqrt();
+            let last = weights.last().copied().unwrap_or(0.0).abs();
+            // One vector alone is its own guess: it is confirmed by a second.
+            let settled = count > 1 && rest * last <= search.settled * value;
+            if settled || count == most || rest <= f64::EPSILON * value {
+                vector.fill(0.0);
+                for (weight, direction) in weights.iter().zip(basis.iter()) {
+                    for (entry, d) in vector.iter_mut().zip(direction) {
+                        *entry += weight * d;
+                    }
+                }
+                return 1.0 / value - shift;
+            }
         }
-        beside.push(rest);
-        next = image;
     }
 }
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix, with its vector.
-fn largest(diagonal: &[f64], beside: &[f64]) -> (f64, Vec<f64>) {
+/// Largest eigenvalue of a symmetric tridiagonal matrix, with its vector in `weights`.
+fn largest(diagonal: &[f64], beside: &[f64], weights: &mut Vec<f64>) -> f64 {
     let size = diagonal.len();
-    let matrix = DMatrix::from_fn(size, size, |i, j| match i.abs_diff(j) {
+    let entry = |i: usize, j: usize| match i.abs_diff(j) {
+        _ if i.max(j) >= size => 0.0,
         0 => diagonal[i],
         1 => beside[i.min(j)],
         _ => 0.0,
-    });
-    let eigen = SymmetricEigen::new(matrix);
-    let top = eigen.eigenvalues.imax();
-    (eigen.eigenvalues[top], eigen.eigenvectors.column(top).iter().copied().collect())
+    };
+    weights.clear();
+    if size <= FEW {
+        // The zeros around it do no harm: the largest eigenvalue is positive.
+        let eigen = SymmetricEigen::new(SMatrix::<f64, FEW, FEW>::from_fn(entry));
+        let top = eigen.eigenvalues.imax();
+        weights.extend(eigen.eigenvectors.column(top).iter().take(size));
+        eigen.eigenvalues[top]
+    } else {
+        let eigen = SymmetricEigen::new(DMatrix::from_fn(size, size, entry));
+        let top = eigen.eigenvalues.imax();
+        weights.extend(eigen.eigenvectors.column(top).iter());
+        eigen.eigenvalues[top]
+    }
 }

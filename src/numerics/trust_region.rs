@@ -4,7 +4,7 @@
 //! `shift` that puts `s` on the rim (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983). It ends at a
 //! minimum, not at a saddle: from a saddle it leaves along the direction of negative curvature.
 
-use super::eigenvalue::{self, Search};
+use super::eigenvalue::{Lanczos, Search, inner};
 
 /// What is minimised.
 pub trait Objective {
@@ -60,7 +60,7 @@ const SHIFTS: u32 = 40;
 /// Norm of `x` in the metric.
 #[must_use]
 pub fn norm(metric: &[f64], x: &[f64]) -> f64 {
-    metric.iter().zip(x).map(|(k, v)| k * v * v).sum::<f64>().sqrt()
+    inner(metric, x, x).sqrt()
 }
 
 /// Norm of a gradient in the inverse of the metric.
@@ -191,7 +191,7 @@ fn along_negative_curvature(
     let mut direction = vec![0.0; step.len()];
     spread(&metric, &mut direction, 1.0);
     let search = Search { vectors: 40, settled: 1e-2 };
-    let lambda = eigenvalue::smallest(&metric, shift, &mut direction, search, |x| objective.solve(x));
+    let lambda = Lanczos::default().smallest(&metric, shift, &mut direction, search, |x| objective.solve(x));
     let size = norm(&metric, &direction);
     let along =
         metric.iter().zip(&direction).zip(step.iter()).map(|((k, z), s)| k * z * s).sum::<f64>() / size;

@@ -2,6 +2,8 @@
 
 use core::ops::Range;
 
+use nalgebra::Vector2;
+
 use super::basis::{Ends, Modes, Part};
 use super::cubature::{SPIRAL_POINTS, Sight};
 use super::matter::Matter;
@@ -15,6 +17,9 @@ pub const COMPONENTS: usize = 6;
 
 /// The first components are rotations, the others strains.
 pub(super) const ROTATIONS: usize = 3;
+
+/// Curvature about `d3`, whose modes are all polynomials.
+const TORSION: usize = 2;
 
 /// Gauss points of a disc: its strain is some percent of the core's.
 const DISC_POINTS: usize = 2;
@@ -66,6 +71,10 @@ pub struct Station {
     pub stiffness: Stiffness,
     /// The material that this station stands for.
     pub matter: Matter,
+    /// Its centroid and four points, for fields that are linear and quadratic over the section, m.
+    pub points: ([Vector2<f64>; 1], [Vector2<f64>; 4]),
+    /// Mean square distance of the material from its centroid, m2.
+    pub spread: f64,
 }
 
 /// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
@@ -160,6 +169,15 @@ impl Element {
         self.metric.len()
     }
 
+    /// By strain component, the degrees of freedom of its polynomial modes by degree: those that elements of the same
+    /// pieces share, whatever else they have.
+    #[must_use]
+    pub fn polynomials(&self) -> [Vec<usize>; COMPONENTS] {
+        let of = |c: usize| (0..self.freedoms()).filter(move |i| self.component[*i] == c);
+        let count = of(TORSION).count();
+        core::array::from_fn(|c| of(c).take(count).collect())
+    }
+
     /// What the core's windings add to the elastic energy; `None` where they do not touch.
     pub(super) fn contact(&self, amplitudes: &[f64]) -> Option<Contact> {
         self.stop.as_ref()?.contact(&self.core_ends, amplitudes, &self.component)
@@ -220,6 +238,8 @@ impl Element {
                 weight,
                 stiffness: span.stiffness,
                 matter: Matter::new(span, material, weight),
+                points: ([material.centroid()], material.points()),
+                spread: material.spread(),
             });
         }
     }

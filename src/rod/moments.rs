@@ -59,6 +59,21 @@ impl SectionMoments {
         Self { volume: self.volume, first: Vector2::zeros(), second }
     }
 
+    /// Mean square distance of the material from its centroid, m2.
+    #[must_use]
+    pub fn spread(&self) -> f64 {
+        if self.volume <= 0.0 {
+            return 0.0;
+        }
+        self.second.trace() / self.volume - (self.first / self.volume).norm_squared()
+    }
+
+    /// Centroid of the section; fields that are linear over the section are integrated exactly by this one point.
+    #[must_use]
+    pub fn centroid(&self) -> Vector2<f64> {
+        if self.volume <= 0.0 { Vector2::zeros() } else { self.first / self.volume }
+    }
+
     /// Four points of equal volume in the section plane with the same zeroth, first and second moments.
     ///
     /// Fields that are quadratic over the section are integrated exactly; of a cubic part only what the

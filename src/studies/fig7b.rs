@@ -147,7 +147,8 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
             last(&grown[3], "mT"),
             format!(
                 "a field fixed at 90 deg turns the tip to 90 deg at most, so the device's was turned on, in a direction that is \
-                 not printed; without stop the exact branch ends at {:.2} mT",
+                 not printed; without stop the exact branch ends at {:.2} mT; as printed, rings attract without reaction, \
+                 and the base bears what adds up",
                 ends(&grown[1])
             ),
         ),

@@ -7,6 +7,7 @@
 
 import csv
 import json
+import math
 import os
 import platform
 import re
@@ -57,11 +58,24 @@ def solves() -> None:
     rows = []
     for segments in (1, 3, 9):
         for field in ("uniform", "pair"):
-            for level in ("none", "rings"):
+            for level in ("none", "rings", "full"):
                 name = f"S={segments} {level} {field}"
+                if f"warm {name}" not in times:
+                    continue
                 cold, warm = times[f"cold {name}"], times[f"warm {name}"]
                 rows.append([str(segments), field, level, micro(cold), micro(warm)])
     table(["segments", "field", "interaction", "cold (us)", "warm (us)"], rows)
+
+    errors = re.findall(r"target (.*): tip within (\S+) m, (\S+) deg", printed)
+    rows = [[name, length, angle, micro(times[f"target {name}"])] for name, length, angle in errors]
+    table(["target", "tip (m)", "angle (deg)", "warm (us)"], rows)
+
+    sizes = (1, 2, 4, 9, 16, 32)
+    rows = []
+    for level in ("none", "rings", "full"):
+        found = [times[f"growth S={size} {level}"] for size in sizes]
+        rows.append([level, *map(micro, found), f"{math.log(found[3] / found[0], 9):.2f}"])
+    table(["growth, warm (us)", *(f"S = {size}" for size in sizes), "exponent to 9"], rows)
 
     error = re.search(r"tip dipole: error of the angle (\S+) rad", printed)
     if error is None:

@@ -80,6 +80,7 @@ fn json_has_the_promised_keys() {
         "residual",
         "energy_j",
         "interaction",
+        "error_estimate_m",
         "method",
         "jacobian",
     ];
@@ -155,7 +156,7 @@ fn past_the_last_fold_the_last_good_shape_is_printed_with_status_2() {
 fn jacobian_is_how_the_tip_moves_with_magnet_and_field() {
     let at = |millimetres: f64, millitesla: f64| {
         let scene = format!(
-            "[design]\nsegments = 3\n[magnet]\nposition_mm = [5.0, -110.0, {millimetres:?}]\n[field]\n\
+            "[design]\nsegments = 3\n[model]\ninteraction = \"rings\"\n[magnet]\nposition_mm = [5.0, -110.0, {millimetres:?}]\n[field]\n\
              uniform_mt = [0.0, {millitesla:?}, 0.0]"
         );
         json("jacobian", &scene, 0)

@@ -3,12 +3,13 @@
 
 use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::magnetics::Assembly;
+use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
-use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, PAIRS, PAIRS_BY_DEFAULT};
+use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT};
 
 const RICHEST: usize = 8;
-const DEFAULT: usize = 3;
 
 fn tip(design: &Design, settings: Settings, field: f64) -> Vector3<f64> {
     let mut equilibrium = Equilibrium::new(design, None, settings, 2).expect("allowed");
@@ -36,15 +37,16 @@ fn by_degree(segments: usize, interaction: Interaction, field: f64) -> Vec<f64> 
 #[test]
 fn the_default_degree_is_enough_and_more_is_better() {
     println!("tip error over the length by degree 0 to 6, against {RICHEST}");
+    let default = Settings::default().degree;
     for (interaction, field, bound) in
         [(Interaction::None, 0.02, DEGREE_NONE), (Interaction::Rings, 0.01, DEGREE_RINGS)]
     {
         for segments in [1, 3, 9] {
             let errors = by_degree(segments, interaction, field);
             assert!(
-                errors[DEFAULT] <= bound,
+                errors[default] <= bound,
                 "{interaction:?}, {segments} segments: {:e} of the length at the default degree, allowed {bound:e}",
-                errors[DEFAULT]
+                errors[default]
             );
             // Two degrees more leave at most a tenth, down to where the shear that varies along a disc (which no
             // mode has: 2e-9 with ring pairs) or rounding is all that is left.
@@ -103,4 +105,38 @@ fn the_accuracy_of_the_pairs_is_held() {
     println!("pair accuracy 1e-3, default, {PAIRS:e}: tip error over the length {errors:?}");
     assert!(errors[1] <= PAIRS_BY_DEFAULT, "default: {errors:?}");
     assert!(errors[0] <= 1e-3 && errors[2] <= errors[1] && errors[1] <= errors[0], "{errors:?}");
+}
+
+#[test]
+fn full_by_default_is_close_to_its_own_refinement() {
+    for (segments, field) in [(1, 0.02), (3, 0.01), (9, 0.002)] {
+        let design = Design::new(Specification::paper(segments)).expect("allowed");
+        let full = Settings { interaction: Interaction::Full, ..Settings::default() };
+        let exact = tip(&design, Settings { degree: 4, pair_accuracy: PAIRS, ..full }, field);
+        let error = (tip(&design, full, field) - exact).norm() / design.length();
+        println!("full, S = {segments}, {:.0} mT: tip error over the length {error:.1e}", 1e3 * field);
+        assert!(error <= FULL_BY_DEFAULT, "{segments} segments: {error:e}");
+    }
+}
+
+/// Far from the magnet a section counts as one point: within the accuracy asked for, and only if that allows it.
+#[test]
+fn sections_are_as_coarse_as_the_accuracy_allows() {
+    let text = "[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, 120.0, 10.0]\norientation_wxyz = [0.8, 0.6, 0, 0]";
+    let scene = Scene::parse(text, "test scene").unwrap();
+    let assembly = Assembly::new(scene.magnets.clone().unwrap()).unwrap();
+    let energy = |pair_accuracy: f64| {
+        let settings = Settings { pair_accuracy, interaction: Interaction::None, ..scene.settings };
+        let mut equilibrium =
+            Equilibrium::new(&scene.design().unwrap(), Some(&assembly), settings, 2).unwrap();
+        let straight = vec![0.0; equilibrium.freedoms()];
+        equilibrium.gradient(&scene.inputs, &straight).unwrap().0
+    };
+    let fine = energy(1e-9);
+    for (accuracy, coarse) in [(1e-5, false), (5e-3, true)] {
+        let error = (energy(accuracy) / fine - 1.0).abs();
+        println!("accuracy {accuracy:.0e}: {error:.1e}");
+        assert!(error <= accuracy);
+        assert_eq!(error > 1e-5, coarse);
+    }
 }

@@ -1,9 +1,8 @@
 //! The other methods beside the potential one: the same equilibria, to the accuracy that each states, or none.
 
 use mcm::design::Design;
-use mcm::equilibrium::{Discretisation, Inputs, Interaction, Method, Settings, Solver};
-use mcm::magnetics::Wrench;
-use mcm::manipulator::{Manipulator, Scene, Status};
+use mcm::equilibrium::{Discretisation, Inputs, Interaction, Method, Settings};
+use mcm::manipulator::{Manipulator, Outputs, Scene, Status};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{
@@ -36,16 +35,15 @@ fn scene(table: &str, segments: usize, interaction: Interaction) -> Scene {
     scene
 }
 
-fn solver(scene: &Scene, settings: Settings) -> Solver {
-    let magnet = scene.assembly().expect("a magnet");
-    Solver::new(&scene.design().expect("a design"), magnet.as_ref(), settings, 21).expect("supported")
+fn manipulator(scene: &Scene, settings: Settings) -> Manipulator {
+    Scene { settings, ..scene.clone() }.manipulator(21).expect("supported")
 }
 
-fn solved(scene: &Scene, settings: Settings) -> (Solver, f64) {
-    let mut solver = solver(scene, settings);
-    let report = solver.solve(&scene.inputs).expect("valid inputs");
-    assert!(report.solved, "{settings:?}: {report:?}");
-    (solver, report.energy)
+fn solved(scene: &Scene, settings: Settings) -> Outputs {
+    let mut manipulator = manipulator(scene, settings);
+    let outputs = manipulator.solve(&scene.inputs).expect("valid inputs");
+    assert!(outputs.status != Status::NotSolved, "{settings:?}: {outputs:?}");
+    outputs.clone()
 }
 
 /// Errors beside a reference: positions over the length, and wrenches.
@@ -55,29 +53,28 @@ struct Errors {
     energy: f64,
 }
 
-fn errors(inputs: &Inputs, length: f64, got: &(Solver, f64), reference: &(Solver, f64)) -> Errors {
-    let of = |pairs: &mut dyn Iterator<Item = (Vector3<f64>, Vector3<f64>)>| {
-        pairs.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+fn errors(length: f64, a: &Outputs, b: &Outputs) -> Errors {
+    let of = |a: &[Vector3<f64>], b: &[Vector3<f64>]| {
+        a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
     };
-    let (a, b) = (&got.0, &reference.0);
-    let shape = of(&mut a.shape().map(|p| p.1).zip(b.shape().map(|p| p.1)));
-    let rings = of(&mut a.rings().map(|p| p.position).zip(b.rings().map(|p| p.position)));
-    let angles = a.core_angles().zip(b.core_angles()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let turn = (a.tip().rotation - b.tip().rotation).norm();
-    let tip = (a.tip().position - b.tip().position).norm();
-    let wrenches = |solver: &Solver| {
-        [solver.magnetic_wrench(), solver.base_reaction(), solver.magnet_reaction(inputs)]
-            .map(|w| [w.force, w.torque / length])
+    let places = |out: &Outputs| out.rings.iter().map(|ring| ring.position).collect::<Vec<_>>();
+    let (shape, rings) = (of(&a.shape, &b.shape), of(&places(a), &places(b)));
+    let angles = a.core_angles.iter().zip(&b.core_angles).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let turn = (a.tip.rotation - b.tip.rotation).norm();
+    let tip = (a.tip.position - b.tip.position).norm();
+    let wrenches = |out: &Outputs| {
+        let forces = [out.magnetic_force, out.base_reaction_force, out.magnet_reaction_force];
+        let torques = [out.magnetic_torque, out.base_reaction_moment, out.magnet_reaction_torque];
+        [forces, torques.map(|torque| torque / length)].concat()
     };
-    let (own, other) = (wrenches(a), wrenches(b));
-    let size = other.iter().flatten().map(Vector3::norm).fold(0.0, f64::max);
-    let wrong = of(&mut own.into_iter().flatten().zip(other.into_iter().flatten()));
+    let size = wrenches(b).iter().map(Vector3::norm).fold(0.0, f64::max);
+    let wrong = of(&wrenches(a), &wrenches(b));
     Errors {
         positions: [shape / length, rings / length, tip / length, angles, turn]
             .into_iter()
             .fold(0.0, f64::max),
         wrenches: wrong / size,
-        energy: (got.1 - reference.1).abs() / reference.1.abs(),
+        energy: (a.energy - b.energy).abs() / b.energy.abs(),
     }
 }
 
@@ -92,7 +89,7 @@ fn every_method_agrees_with_the_potential_one() {
                 let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
                 for (method, label) in others() {
                     let got = solved(&scene, Settings { method, ..scene.settings });
-                    let error = errors(&scene.inputs, length, &got, &reference);
+                    let error = errors(length, &got, &reference);
                     let Errors { positions, wrenches, energy } = error;
                     let case = format!("{label}, {name}, S = {segments}, {}", interaction.name());
                     println!("{case}: {positions:.1e} {wrenches:.1e} {energy:.1e}");
@@ -113,8 +110,8 @@ fn each_converges_with_its_order() {
     for interaction in [Interaction::None, Interaction::Rings] {
         let scene = scene(SCENES[1].1, 3, interaction);
         let length = scene.design().expect("a design").length();
-        let reference = solved(&scene, Settings { degree: 8, ..scene.settings }).0;
-        let exact = reference.tip().position / length;
+        let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+        let exact = reference.tip.position / length;
         for (method, label) in others().filter(|row| row.0 != Method::ConstantCurvature) {
             let at = |fineness: usize| {
                 let discretisation = Discretisation {
@@ -125,8 +122,8 @@ fn each_converges_with_its_order() {
                     tolerance: METHOD_RESIDUAL,
                     ..Discretisation::default()
                 };
-                let tip = solved(&scene, Settings { method, discretisation, ..scene.settings }).0.tip();
-                tip.position / length
+                let got = solved(&scene, Settings { method, discretisation, ..scene.settings });
+                got.tip.position / length
             };
             let [coarse, fine, finest] = [2, 4, 16].map(at);
             let reached = ((coarse - finest).norm() / (fine - finest).norm()).log2();
@@ -141,19 +138,16 @@ fn each_converges_with_its_order() {
         let discretisation =
             Discretisation { mesh_tolerance: 1e-6, tolerance: METHOD_RESIDUAL, ..Discretisation::default() };
         let got = solved(&scene, Settings { method: Method::Collocation, discretisation, ..scene.settings });
-        let error = (got.0.tip().position / length - exact).norm();
+        let error = (got.tip.position / length - exact).norm();
         assert!(error <= METHOD_FINE, "collocation to a residual of 1e-6: {error:e}");
     }
 }
 
 /// Force and torque about the base of all that acts from outside.
-fn outside(solver: &Solver, inputs: &Inputs) -> [Vector3<f64>; 2] {
-    let add = |wrenches: [Wrench; 2]| {
-        let [a, b] = wrenches;
-        [a.force + b.force, a.torque + b.torque]
-    };
-    let [force, torque] = add([solver.magnetic_wrench(), solver.base_reaction()]);
-    let arm = solver.tip().position - inputs.base.position;
+fn outside(out: &Outputs, inputs: &Inputs) -> [Vector3<f64>; 2] {
+    let force = out.magnetic_force + out.base_reaction_force;
+    let torque = out.magnetic_torque + out.base_reaction_moment;
+    let arm = out.tip.position - inputs.base.position;
     [force + inputs.tip_force, torque + arm.cross(&inputs.tip_force) + inputs.tip_moment]
 }
 
@@ -170,23 +164,24 @@ fn a_method_solves_or_says_that_it_has_not() {
                 for (method, label) in others() {
                     let discretisation =
                         Discretisation { iterations: 30, smallest_part: 1.0, ..Discretisation::default() };
-                    let mut solver = solver(&scene, Settings { method, discretisation, ..scene.settings });
-                    let straight = solver.tip();
-                    let report = solver.solve(&inputs).expect("valid inputs");
+                    let settings = Settings { method, discretisation, ..scene.settings };
+                    let mut manipulator = manipulator(&scene, settings);
+                    let straight = manipulator.outputs().tip;
+                    let outputs = manipulator.solve(&inputs).expect("valid inputs");
                     let case =
                         format!("{label}, {field} mT at {angle} deg, S = {segments}, {}", interaction.name());
-                    assert!(report.stable.is_none(), "{case}: no verdict");
-                    if report.solved {
+                    if outputs.status != Status::NotSolved {
                         held += 1;
-                        let [force, torque] = outside(&solver, &inputs);
-                        let size = solver.base_reaction().torque.norm().max(1e-6);
+                        assert!(outputs.stable.is_none(), "{case}: no verdict");
+                        let [force, torque] = outside(outputs, &inputs);
+                        let size = outputs.base_reaction_moment.norm().max(1e-6);
                         let length = scene.design().expect("a design").length();
                         let lack = (force.norm() * length).max(torque.norm()) / size;
                         worst = worst.max(lack);
                         assert!(lack <= METHOD_BALANCE, "{case}: solved, yet out of balance by {lack:e}");
                     } else {
                         refused += 1;
-                        assert_eq!(solver.tip(), straight, "{case}: the last solution is kept");
+                        assert_eq!(outputs.tip, straight, "{case}: the last solution is kept");
                     }
                 }
             }
@@ -201,44 +196,48 @@ fn warm_is_as_cold() {
     for (method, label) in others() {
         let scene = scene(SCENES[1].1, 3, Interaction::Rings);
         let settings = Settings { method, ..scene.settings };
-        let (mut warm, _) = solved(&scene, settings);
+        let mut warm = manipulator(&scene, settings);
+        assert_eq!(warm.solve(&scene.inputs).expect("valid").status, Status::Solved, "{label}");
         let mut moved = scene.clone();
         moved.inputs.magnet.position.z += 5e-3;
-        assert!(warm.solve(&moved.inputs).expect("valid").solved);
-        let (cold, _) = solved(&moved, settings);
+        assert_eq!(warm.solve(&moved.inputs).expect("valid").status, Status::Solved, "{label}");
+        let cold = solved(&moved, settings);
         let length = scene.design().expect("a design").length();
-        let tips = [warm.tip().position, cold.tip().position].map(|p| p / length);
+        let tips = [warm.outputs().tip.position, cold.tip.position].map(|p| p / length);
         assert_close(label, tips[0].as_slice(), tips[1].as_slice(), METHOD_COARSE);
         warm.reset();
-        assert_eq!(warm.tip().position, Vector3::new(0.0, 0.0, length), "{label}: straight again");
+        assert_eq!(warm.outputs().tip.position, Vector3::new(0.0, 0.0, length), "{label}: straight again");
     }
 }
 
 #[test]
 fn what_a_method_cannot_is_refused() {
     let settings = |method, interaction| Settings { method, interaction, ..Settings::default() };
-    let new = |settings| Solver::new(&design(), None, settings, 2);
+    let new = |settings| Manipulator::new(&design(), None, settings, 2);
     for (method, label) in others() {
-        for interaction in [Interaction::Preceding, Interaction::Full] {
+        for interaction in [Interaction::Preceding, Interaction::Full, Interaction::Auto] {
             let error = new(settings(method, interaction)).expect_err(label).to_string();
-            assert!(error.contains(label) && error.contains(interaction.name()), "{error}");
+            let level = interaction.name();
+            let expected =
+                format!("method \"{label}\" has no interaction \"{level}\": choose \"none\" or \"rings\"");
+            assert!(error.contains(&expected), "{error}");
         }
         let stop = Settings { bending_stop: true, ..settings(method, Interaction::None) };
         assert!(new(stop).expect_err(label).to_string().contains("bending stop"));
 
-        let mut manipulator =
-            Manipulator::new(&design(), None, settings(method, Interaction::None), 2).expect("supported");
+        let mut manipulator = new(settings(method, Interaction::None)).expect("supported");
         let mut inputs = Inputs::unloaded(2);
         inputs.uniform_field.y = 0.02;
         let outputs = manipulator.solve(&inputs).expect("valid inputs");
         assert_eq!((outputs.status, outputs.method, outputs.stable), (Status::Solved, method, None));
-        for error in [manipulator.jacobian().map(drop), manipulator.snapshot().map(drop)] {
+        let tolerances = manipulator.set_tolerances(1e-5, 1e-3);
+        for error in [manipulator.jacobian().map(drop), manipulator.snapshot().map(drop), tolerances] {
             assert!(error.expect_err(label).to_string().contains(label));
         }
     }
     let mut planar = new(settings(Method::Planar, Interaction::None)).expect("supported");
     let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.01, 0.0), ..Inputs::unloaded(2) };
-    assert!(planar.solve(&inputs).expect("a plane").solved);
+    assert!(planar.solve(&inputs).expect("a plane").status == Status::Solved);
     inputs.tip_force.x = 0.01;
     assert!(planar.solve(&inputs).expect_err("no plane").to_string().contains("does not lie in one plane"));
     let coarse = Discretisation { steps: 0, ..Discretisation::default() };

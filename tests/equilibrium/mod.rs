@@ -7,6 +7,7 @@ mod laws;
 mod loads;
 mod lost;
 mod methods;
+mod neglected;
 mod reciprocity;
 mod reference;
 mod robustness;

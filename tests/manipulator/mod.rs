@@ -1,7 +1,11 @@
 //! Tests of `manipulator`.
 
+mod auto;
+
 mod jacobian;
 
 mod scene;
 
 mod snapshot;
+
+mod steps;

@@ -69,7 +69,7 @@ fn empty_scene_is_table_1_with_nine_segments_unloaded() {
     assert_eq!(scene.specification, Specification::paper(9));
     assert_eq!(scene.inputs, mcm::manipulator::Inputs::unloaded(10));
     assert_eq!(scene.magnets, None);
-    assert_eq!(scene.settings.interaction, Interaction::Rings);
+    assert_eq!(scene.settings.interaction, Interaction::Auto);
 }
 
 #[test]
@@ -134,8 +134,8 @@ fn refusals_name_line_path_and_remedy() {
             "load.ring_force_n has 1 entries, expected 10, one for each ring of the design",
         ),
         (
-            "[model]\ninteraction = \"auto\"",
-            "test, line 2: `model.interaction`: \"auto\" is not available in this version: choose one of none, preceding, rings, full",
+            "[model]\ninteraction = \"all\"",
+            "test, line 2: `model.interaction`: \"all\" is no level: choose one of none, preceding, rings, full, auto",
         ),
         (
             "[model]\nmethod = \"shoting\"",

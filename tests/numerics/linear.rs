@@ -1,7 +1,7 @@
 //! Cholesky factorisation and smallest eigenvalue, against nalgebra's.
 
 use mcm::numerics::cholesky::{backward, dot, factorise, forward, solve};
-use mcm::numerics::eigenvalue::{Search, smallest};
+use mcm::numerics::eigenvalue::{Lanczos, Search};
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 use crate::tolerance::{EIGENVALUE, LAW, assert_close};
@@ -71,7 +71,7 @@ fn smallest_eigenvalue_is_the_dense_ones() {
             let mut vector: Vec<f64> =
                 metric.iter().enumerate().map(|(i, k)| (1.5 + pseudo(9, i)) / k.sqrt()).collect();
             let search = Search { vectors: 60, settled: 1e-7 };
-            let found = smallest(&metric, shift, &mut vector, search, |x| {
+            let found = Lanczos::default().smallest(&metric, shift, &mut vector, search, |x| {
                 let solution = factor.solve(&DVector::from_row_slice(x));
                 x.copy_from_slice(solution.as_slice());
             });
@@ -94,12 +94,17 @@ fn an_early_end_of_the_search_is_an_upper_bound() {
     let metric = vec![1.0; size];
     for vectors in 1..6 {
         let mut vector: Vec<f64> = (0..size).map(|i| 1.5 + pseudo(4, i)).collect();
-        let found = smallest(&metric, 0.0, &mut vector, Search { vectors, settled: 1e-12 }, |x| {
-            let solution = factor.solve(&DVector::from_row_slice(x));
-            x.copy_from_slice(solution.as_slice());
-        });
+        let found =
+            Lanczos::default().smallest(&metric, 0.0, &mut vector, Search { vectors, settled: 1e-12 }, |x| {
+                let solution = factor.solve(&DVector::from_row_slice(x));
+                x.copy_from_slice(solution.as_slice());
+            });
         assert!(found >= 0.05 * (1.0 - LAW), "{vectors} vectors: {found}");
     }
     let mut broken = vec![f64::NAN; size];
-    assert!(smallest(&metric, 0.0, &mut broken, Search { vectors: 5, settled: 0.1 }, |_| {}).is_nan());
+    assert!(
+        Lanczos::default()
+            .smallest(&metric, 0.0, &mut broken, Search { vectors: 5, settled: 0.1 }, |_| {})
+            .is_nan()
+    );
 }

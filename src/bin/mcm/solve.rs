@@ -102,6 +102,7 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
         "residual": outputs.residual,
         "energy_j": outputs.energy,
         "interaction": outputs.interaction.name(),
+        "error_estimate_m": outputs.error_estimate,
         "method": outputs.method.name(),
         "jacobian": derivatives,
         "jacobian_note": jacobian.as_ref().err().map(ToString::to_string),

@@ -11,11 +11,11 @@ use super::plane::Plane;
 use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
+use crate::equilibrium::correction::Report;
 use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
-use crate::equilibrium::follow::Report;
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::rules::PairRules;
-use crate::equilibrium::settings::Settings;
+use crate::equilibrium::settings::{Interaction, Settings};
 use crate::equilibrium::source::Source;
 use crate::error::{Error, check};
 use crate::geometry::Pose;
@@ -78,14 +78,16 @@ impl Comparison {
         let settings = settings.checked()?;
         check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
         let (own, other) = (settings.method.name(), Method::Potential.name());
-        let lacks = |what: String| {
-            Err(Error::Unsupported(format!("method \"{own}\" has no {what}: choose \"{other}\"")))
-        };
         if !settings.method.supports(settings.interaction) {
-            return lacks(format!("interaction \"{}\"", settings.interaction.name()));
+            let level = settings.interaction.name();
+            let [none, rings] = [Interaction::None, Interaction::Rings].map(Interaction::name);
+            return Err(Error::Unsupported(format!(
+                "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
+            )));
         }
         if settings.bending_stop {
-            return lacks("bending stop, which acts between the ends of a core".into());
+            let stop = "bending stop, which acts between the ends of a core";
+            return Err(Error::Unsupported(format!("method \"{own}\" has no {stop}: choose \"{other}\"")));
         }
         let line = Line::new(design, &settings)?;
         let state = State::straight(&line, &settings)?;

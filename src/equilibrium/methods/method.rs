@@ -58,10 +58,10 @@ impl Method {
     /// Whether it can solve scenes with this level of interaction.
     ///
     /// Where rings act on spans the differential equations are no longer local: what a ring feels is an integral over the
-    /// shapes of others. Only the potential method takes that in.
+    /// shapes of others. Only the potential method takes that in, and with it [`Interaction::Auto`], which may come to that.
     #[must_use]
     pub fn supports(self, interaction: Interaction) -> bool {
-        self == Self::Potential || !interaction.acts_on_spans()
+        self == Self::Potential || matches!(interaction, Interaction::None | Interaction::Rings)
     }
 }
 

@@ -16,11 +16,9 @@ mod planar;
 mod plane;
 mod runge_kutta;
 mod shooting;
-mod solver;
 mod strong_form;
 mod surroundings;
 mod trace;
 
 pub use comparison::Comparison;
 pub use method::{Discretisation, Method};
-pub use solver::Solver;

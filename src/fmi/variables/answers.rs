@@ -152,7 +152,11 @@ impl Rows {
         let level = Access::IntegerAnswer(|o| o.interaction as i32);
         let kind = Kind::Enumeration(&INTERACTION);
         let draft = Draft::new("model.level", kind, "Level of local interaction that was used", level);
-        self.real(draft.reach(Reach::Level));
+        self.real(draft);
+        let estimate = answer(|o, _| o.error_estimate);
+        let description =
+            "Estimated distance of the tip from that of the richest model, where auto chose a cheaper one";
+        self.real(Draft::real("model.error_estimate", LENGTH, description, estimate).min(0.0));
     }
 }
 

@@ -98,6 +98,27 @@ impl Rows {
             )
             .role(Role::Fixed),
         );
+        let tolerance = |name, unit, description, access| {
+            Draft::real(name, unit, description, access).min(0.0).role(Role::Tunable)
+        };
+        self.one(tolerance(
+            "model.tolerance_position",
+            LENGTH,
+            "How far auto may put the tip from where the richest model puts it",
+            Access::Real {
+                get: |given, _| given.settings.tolerance_position,
+                set: |given, _, value| given.settings.tolerance_position = value,
+            },
+        ));
+        self.one(tolerance(
+            "model.tolerance_angle",
+            ANGLE,
+            "How far auto may turn the tip against that of the richest model",
+            Access::Real {
+                get: |given, _| given.settings.tolerance_angle,
+                set: |given, _, value| given.settings.tolerance_angle = value,
+            },
+        ));
         self.fixed(Draft::new(
             "model.bending_stop",
             Kind::Boolean,

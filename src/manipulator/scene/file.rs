@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::{Interaction, Method, Settings};
+use crate::equilibrium::{Interaction, Method};
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -257,8 +257,7 @@ pub(super) struct ModelTable {
 
 impl Default for ModelTable {
     fn default() -> Self {
-        let Settings { interaction, method, bending_stop, .. } = Settings::default();
-        Self { interaction, method, bending_stop }
+        Self { interaction: Interaction::Auto, method: Method::Potential, bending_stop: false }
     }
 }
 
@@ -269,7 +268,8 @@ fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::E
 
 fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
     let name = String::deserialize(input)?;
-    Interaction::named(&name).ok_or_else(|| unavailable(&name, Interaction::ALL.iter().map(|row| row.1)))
+    let known = Interaction::ALL.iter().map(|row| row.1);
+    Interaction::named(&name).ok_or_else(|| unknown(&name, "no level", known))
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
@@ -279,11 +279,11 @@ fn write_method<S: Serializer>(method: &Method, out: S) -> Result<S::Ok, S::Erro
 
 fn read_method<'de, D: Deserializer<'de>>(input: D) -> Result<Method, D::Error> {
     let name = String::deserialize(input)?;
-    Method::named(&name).ok_or_else(|| unavailable(&name, Method::ALL.iter().map(|row| row.1)))
+    let known = Method::ALL.iter().map(|row| row.1);
+    Method::named(&name).ok_or_else(|| unknown(&name, "not available in this version", known))
 }
 
-fn unavailable<E: Error>(name: &str, known: impl Iterator<Item = &'static str>) -> E {
+fn unknown<E: Error>(name: &str, is: &str, known: impl Iterator<Item = &'static str>) -> E {
     let known: Vec<&str> = known.collect();
-    let known = known.join(", ");
-    E::custom(format!("\"{name}\" is not available in this version: choose one of {known}"))
+    E::custom(format!("\"{name}\" is {is}: choose one of {}", known.join(", ")))
 }

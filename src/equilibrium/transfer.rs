@@ -1,0 +1,84 @@
+//! From the shape of one model of a design to another, and how far the two are apart.
+
+use serde::{Deserialize, Serialize};
+
+use super::chain::Chain;
+use super::inputs::Inputs;
+use super::solver::Equilibrium;
+use crate::geometry::{Pose, rotation_log};
+use crate::numerics::trust_region::{Objective, norm};
+
+/// Longest Newton step, in turns of one element by a radian, whose end still counts as an estimate of the equilibrium.
+const NEAR: f64 = 1.0;
+
+/// How far one tip is from another.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Gap {
+    /// Distance of the tips, m.
+    pub distance: f64,
+    /// Angle by which one is turned against the other, rad.
+    pub angle: f64,
+}
+
+impl Equilibrium {
+    /// Takes up a shape of another model of the same design as if it had been solved at `inputs`; the past is forgotten.
+    ///
+    /// The next solve corrects what the two models disagree upon.
+    pub fn adopt(&mut self, other: &Self, unknowns: &[f64], inputs: &Inputs) {
+        self.reset();
+        self.branch.unknowns = transferred(&self.chain, &other.chain, unknowns);
+        self.branch.inputs = Some(inputs.clone());
+    }
+
+    /// How far the last solved shape of another model of the same design is from an equilibrium of this one, by one
+    /// Newton step of this model from there. The branch of this model is forgotten.
+    ///
+    /// `None` if nothing is solved yet, if the step is too long to tell, or if this model is not stable there.
+    pub fn gap(&mut self, other: &Self) -> Option<Gap> {
+        let inputs = other.branch.inputs.clone()?;
+        self.adopt(other, other.unknowns(), &inputs);
+        let mut unknowns = self.branch.unknowns.clone();
+        let mut potential = self.potential(&inputs, &unknowns);
+        potential.linearise(&unknowns)?;
+        let stable = potential.factorise(0.0) && potential.has_verdict();
+        let mut step: Vec<f64> = potential.gradient().iter().map(|slope| -slope).collect();
+        if stable {
+            potential.solve(&mut step);
+        }
+        self.work.factored = false;
+        if !stable || norm(&self.chain.metric, &step) > NEAR * self.chain.unit() {
+            return None;
+        }
+        unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
+        self.work.place(&self.chain, &inputs.base, &unknowns);
+        Some(Gap::between(&self.tip(), &other.tip())).filter(Gap::is_finite)
+    }
+}
+
+impl Gap {
+    /// None at all.
+    pub const NONE: Self = Self { distance: 0.0, angle: 0.0 };
+
+    /// Of two poses.
+    #[must_use]
+    pub fn between(a: &Pose, b: &Pose) -> Self {
+        let angle = rotation_log(&a.rotation.tr_mul(&b.rotation)).norm();
+        Self { distance: (a.position - b.position).norm(), angle }
+    }
+
+    fn is_finite(&self) -> bool {
+        self.distance.is_finite() && self.angle.is_finite()
+    }
+}
+
+/// The amplitudes of the modes that both chains have; the others are zero.
+fn transferred(to: &Chain, from: &Chain, unknowns: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; to.freedoms()];
+    for (k, (own, other)) in to.elements.iter().zip(&from.elements).enumerate() {
+        let (target, source) = (&mut out[to.first[k]..to.first[k + 1]], from.part(k, unknowns));
+        for (own, other) in own.polynomials().iter().zip(&other.polynomials()) {
+            own.iter().zip(other).for_each(|(i, j)| target[*i] = source[*j]);
+        }
+    }
+    out
+}

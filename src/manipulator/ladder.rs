@@ -1,0 +1,268 @@
+//! As much model as the tolerances need: a ladder of models of one design, from the cheapest to the richest.
+//!
+//! The richest model is the judge: one Newton step of it from the shape of a cheaper one tells how far that is off. The
+//! cheapest rung that is good enough answers. It is judged again once the shape, the field or the loads have changed by
+//! a few percent, and left when it is no longer good, does not solve, snaps or comes near a fold; a cheaper one is tried
+//! as seldom, and must be clearly better than needed, so that rungs do not alternate. Both rungs of a change are
+//! within the tolerance of the judge by [`CLIMB`] and [`DESCEND`], and so is the jump between them.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::design::Design;
+use crate::equilibrium::{self, Equilibrium, Gap, Inputs, Interaction, Report, Settings};
+use crate::error::Error;
+use crate::geometry::Pose;
+use crate::magnetics::Assembly;
+
+/// Part of the tolerance beyond which a rung is left.
+const CLIMB: f64 = 0.5;
+
+/// Part of the tolerance within which a cheaper rung is taken.
+const DESCEND: f64 = 0.25;
+
+/// Change of what surrounds or loads the manipulator, relative to its size, after which a rung is judged again.
+const CHANGED: f64 = 0.02;
+
+/// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a rung is judged again.
+const MOVED: f64 = 0.02;
+
+/// Accuracy of the pairs on the coarse rungs.
+const COARSE: f64 = 1e-3;
+
+/// Models of one design, cheapest first; one alone where the level is fixed.
+#[derive(Debug, Clone)]
+pub(super) struct Ladder {
+    rungs: Vec<Equilibrium>,
+    present: usize,
+    judged: Option<Judged>,
+    length: f64,
+    fold_margin: f64,
+    /// Largest error of the tip: position (m) and angle (rad).
+    tolerance: Gap,
+}
+
+/// When a rung was judged last.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Judged {
+    inputs: Inputs,
+    tip: Pose,
+    field: Vector3<f64>,
+    gap: Gap,
+}
+
+/// What a ladder remembers of its past.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Snapshot {
+    present: usize,
+    equilibrium: equilibrium::Snapshot,
+    judged: Option<Judged>,
+}
+
+impl Ladder {
+    /// # Errors
+    /// As [`Equilibrium::new`].
+    pub(super) fn new(
+        design: &Design,
+        magnet: Option<&Assembly>,
+        settings: Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
+        let rungs = rungs(&settings, design.rings().next().is_some());
+        let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
+        Ok(Self {
+            rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
+            present: 0,
+            judged: None,
+            length: design.length(),
+            fold_margin: settings.fold_margin,
+            tolerance: Gap { distance: settings.tolerance_position, angle: settings.tolerance_angle },
+        })
+    }
+
+    /// The model that answers.
+    pub(super) fn present(&self) -> &Equilibrium {
+        &self.rungs[self.present]
+    }
+
+    /// Estimated distance of the tip (m) from that of the richest model; 0 where that one answers or the level is fixed.
+    pub(super) fn error_estimate(&self) -> f64 {
+        self.judged.as_ref().filter(|_| self.present < self.last()).map_or(0.0, |judged| judged.gap.distance)
+    }
+
+    /// New tolerances; the next solve judges by them.
+    pub(super) fn set_tolerance(&mut self, tolerance: Gap) {
+        if self.tolerance != tolerance {
+            (self.tolerance, self.judged) = (tolerance, None);
+        }
+    }
+
+    /// Forgets the shape.
+    pub(super) fn reset(&mut self) {
+        (self.present, self.judged) = (0, None);
+        self.rungs.iter_mut().for_each(Equilibrium::reset);
+    }
+
+    /// Follows the branch to `inputs` on the cheapest rung that is good enough.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::solve`].
+    pub(super) fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
+        let (from, last) = (self.present, self.last());
+        if last == 0 {
+            return self.rungs[0].solve(inputs);
+        }
+        let Some(before) = self.present().inputs() else {
+            return self.ascend(0, inputs, |models, rung| {
+                models[rung].reset();
+                models[rung].solve(inputs)
+            });
+        };
+        // The richest one needs no way back.
+        let way_back = (from < last).then(|| (before.clone(), self.present().unknowns().to_vec()));
+        let report = self.rungs[from].solve(inputs)?;
+        let changed = self.changed(inputs);
+        if let Some((before, shape)) = way_back
+            && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
+        {
+            return self.ascend(from + 1, inputs, |models, rung| {
+                let (lower, upper) = models.split_at_mut(rung);
+                upper[0].adopt(&lower[from], &shape, &before);
+                let settled = upper[0].solve(&before)?;
+                let report = upper[0].solve(inputs)?;
+                let (iterations, snaps) =
+                    (settled.iterations + report.iterations, settled.snaps + report.snaps);
+                Ok(Report { iterations, snaps, ..report })
+            });
+        }
+        if changed && from > 0 && report.solved { self.descend(inputs, report) } else { Ok(report) }
+    }
+
+    /// From rung `first` up to one that is good enough, each solved by `solve`.
+    fn ascend(
+        &mut self,
+        first: usize,
+        inputs: &Inputs,
+        solve: impl Fn(&mut [Equilibrium], usize) -> Result<Report, Error>,
+    ) -> Result<Report, Error> {
+        let mut iterations = 0;
+        self.present = first;
+        loop {
+            let report = solve(&mut self.rungs, self.present)?;
+            iterations += report.iterations;
+            let richest = self.present == self.last();
+            if richest {
+                self.note(inputs, Gap::NONE);
+            }
+            if richest || (self.is_sound(&report) && self.judge(inputs, CLIMB)) {
+                return Ok(Report { iterations, ..report });
+            }
+            self.present += 1;
+        }
+    }
+
+    /// Tries the next cheaper rung; without success `report` stays the answer.
+    fn descend(&mut self, inputs: &Inputs, report: Report) -> Result<Report, Error> {
+        let from = self.present;
+        // The richest model forgets its branch as it judges.
+        let kept = (from == self.last()).then(|| self.rungs[from].clone());
+        let gap = self.judged.as_ref().map_or(Gap::NONE, |judged| judged.gap);
+        let (lower, upper) = self.rungs.split_at_mut(from);
+        let cheaper = &mut lower[from - 1];
+        cheaper.adopt(&upper[0], upper[0].unknowns(), inputs);
+        let other = cheaper.solve(inputs)?;
+        self.present = from - 1;
+        if self.is_sound(&other) && self.judge(inputs, DESCEND) {
+            let iterations = report.iterations + other.iterations;
+            return Ok(Report { iterations, snaps: report.snaps, ..other });
+        }
+        self.present = from;
+        if let Some(kept) = kept {
+            self.rungs[from] = kept;
+        }
+        self.note(inputs, gap);
+        Ok(report)
+    }
+
+    /// Number of the richest model.
+    fn last(&self) -> usize {
+        self.rungs.len() - 1
+    }
+
+    /// Whether a cheaper model's answer may stand: solved, stable, without a jump and away from folds.
+    fn is_sound(&self, report: &Report) -> bool {
+        let held = report.stable.is_none_or(|stable| stable && report.margin >= self.fold_margin);
+        report.solved && held && report.snaps == 0
+    }
+
+    /// Whether the richest model finds the present rung within that part of the tolerance.
+    fn judge(&mut self, inputs: &Inputs, part: f64) -> bool {
+        let last = self.last();
+        let (cheaper, judge) = self.rungs.split_at_mut(last);
+        let Some(gap) = judge[0].gap(&cheaper[self.present]) else { return false };
+        self.note(inputs, gap);
+        gap.distance <= part * self.tolerance.distance && gap.angle <= part * self.tolerance.angle
+    }
+
+    fn note(&mut self, inputs: &Inputs, gap: Gap) {
+        let tip = self.present().tip();
+        let field = self.present().field_at(inputs, &tip.position).unwrap_or_default();
+        self.judged = Some(Judged { inputs: inputs.clone(), tip, field, gap });
+    }
+
+    /// Whether enough has changed since the last judgement to judge again.
+    fn changed(&self, inputs: &Inputs) -> bool {
+        let Some(judged) = &self.judged else { return true };
+        let (tip, then) = (self.present().tip(), &judged.inputs);
+        let field = self.present().field_at(inputs, &tip.position).unwrap_or_default();
+        let other = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() > CHANGED * a.norm().max(b.norm());
+        let moved = Gap::between(&tip, &judged.tip);
+        let [gradient, before] = [inputs, then].map(|i| nalgebra::SVector::from(i.field_gradient));
+        moved.distance > MOVED * self.length
+            || moved.angle > MOVED
+            || other(&field, &judged.field)
+            || (gradient - before).norm() > CHANGED * gradient.norm().max(before.norm())
+            || other(&inputs.tip_force, &then.tip_force)
+            || other(&inputs.tip_moment, &then.tip_moment)
+            || other(&inputs.gravity, &then.gravity)
+            || inputs.ring_forces.iter().zip(&then.ring_forces).any(|(a, b)| other(a, b))
+    }
+
+    /// What it remembers.
+    pub(super) fn snapshot(&self) -> Snapshot {
+        let equilibrium = self.present().snapshot();
+        Snapshot { present: self.present, equilibrium, judged: self.judged.clone() }
+    }
+
+    /// Goes on from there.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::restore`].
+    pub(super) fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        self.reset();
+        let Some(rung) = self.rungs.get_mut(snapshot.present) else {
+            return Err(Error::Unsupported("the snapshot is not of this model".into()));
+        };
+        rung.restore(&snapshot.equilibrium)?;
+        (self.present, self.judged) = (snapshot.present, snapshot.judged.clone());
+        Ok(())
+    }
+}
+
+/// Settings of the rungs, cheapest first, the user's own last.
+fn rungs(settings: &Settings, has_rings: bool) -> Vec<Settings> {
+    if settings.interaction != Interaction::Auto {
+        return vec![*settings];
+    }
+    let coarse = settings.pair_accuracy.max(COARSE);
+    let cheap = |interaction| Settings { interaction, bending_stop: false, ..*settings };
+    let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
+    let mut out = vec![Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::None) }];
+    if has_rings {
+        out.push(Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::Rings) });
+        out.push(cheap(Interaction::Rings));
+        out.push(Settings { degree: 0, pair_accuracy: coarse, ..richest });
+    }
+    out.push(richest);
+    out
+}

@@ -1,0 +1,130 @@
+//! The level `auto`: as much model as the tolerances need.
+
+use core::f64::consts::PI;
+
+use mcm::design::{Cylinder, CylinderMaterial, Design, Segmented, Specification, SpiralKind};
+use mcm::equilibrium::{Gap, Interaction, Settings};
+use mcm::geometry::RotationVector;
+use mcm::manipulator::{Inputs, Manipulator, Outputs, Status};
+use nalgebra::Vector3;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use rayon::prelude::*;
+
+use crate::equilibrium::rows::pair;
+
+const SCENES: u64 = 2000;
+
+/// A design, what acts on it, and tolerances.
+struct Scene {
+    design: Design,
+    inputs: Inputs,
+    auto: Settings,
+}
+
+impl Scene {
+    /// Any of the designs and poses that people would try, by number.
+    fn random(number: u64) -> Self {
+        let mut random = StdRng::seed_from_u64(number);
+        let design = loop {
+            if let Ok(design) = Design::new(specification(&mut random)) {
+                break design;
+            }
+        };
+        let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..=size));
+        let mut inputs = Inputs::unloaded(design.rings().count());
+        // The magnet's surface stays 40 mm or more away.
+        let direction = vector(1.0).normalize();
+        inputs.magnet.rotation = RotationVector::new(vector(PI / 3.0_f64.sqrt())).matrix();
+        inputs.uniform_field = vector(0.005);
+        inputs.base.rotation = RotationVector::new(vector(1.0)).matrix();
+        inputs.tip_force = vector(1e-3);
+        inputs.gravity = vector(9.81);
+        let middle = inputs.base.advanced(0.5 * design.length()).position;
+        inputs.magnet.position = middle + direction * random.random_range(0.13..0.3);
+        inputs.magnet_strength = if random.random_bool(0.8) { 1.0 } else { 0.0 };
+        let tolerance_position = 10_f64.powf(random.random_range(-5.0..-3.0));
+        let auto = Settings {
+            interaction: Interaction::Auto,
+            tolerance_position,
+            tolerance_angle: 100.0 * tolerance_position,
+            ..Settings::default()
+        };
+        Self { design, inputs, auto }
+    }
+
+    fn manipulator(&self, settings: Settings) -> Manipulator {
+        Manipulator::new(&self.design, Some(&pair()), settings, 2).unwrap()
+    }
+}
+
+fn specification(random: &mut StdRng) -> Specification {
+    if random.random_bool(0.1) {
+        let material = CylinderMaterial::Bulk {
+            elastic_modulus: random.random_range(0.5e6..3e6),
+            poisson: 0.45,
+            remanence: random.random_range(0.02..0.2),
+        };
+        let radius = random.random_range(0.5e-3..1.5e-3);
+        let length = random.random_range(0.01..0.04);
+        return Specification::Cylinder(Cylinder {
+            length,
+            radius,
+            inner_radius: 0.0,
+            material,
+            density: Some(3000.0),
+        });
+    }
+    // More often short than long: a long one takes many times as long to solve.
+    let mut out = Segmented::paper(random.random_range(1..=9).min(random.random_range(1..=9)));
+    out.base_magnet = random.random_bool(0.8);
+    out.tip_magnet = random.random_bool(0.8);
+    out.spiral = if random.random_bool(0.5) { SpiralKind::Helical } else { SpiralKind::Axisymmetric };
+    out.helix.length = random.random_range(3e-3..6e-3);
+    out.helix.boundary_angle = random.random_range(0.4..0.9);
+    out.helix.shore_a = random.random_range(25.0..60.0);
+    out.helix.volume_fraction = random.random_range(0.0..0.3);
+    out.ring.length = random.random_range(0.5e-3..1.5e-3);
+    out.ring.remanence = random.random_range(0.5..1.3);
+    Specification::Segmented(out)
+}
+
+fn richest(auto: Settings) -> Settings {
+    Settings { interaction: Interaction::Full, bending_stop: true, ..auto }
+}
+
+/// The larger part of the tolerances that the tips are apart.
+fn parts(settings: &Settings, a: &Outputs, b: &Outputs) -> f64 {
+    let gap = Gap::between(&a.tip, &b.tip);
+    (gap.distance / settings.tolerance_position).max(gap.angle / settings.tolerance_angle)
+}
+
+#[test]
+fn is_within_its_tolerance_of_the_richest_model() {
+    let compared: Vec<(u64, f64, Interaction, bool)> = (0..SCENES)
+        .into_par_iter()
+        .filter_map(|number| {
+            let scene = Scene::random(number);
+            let (mut own, mut judge) =
+                (scene.manipulator(scene.auto), scene.manipulator(richest(scene.auto)));
+            let (own, judge) = (own.solve(&scene.inputs).unwrap(), judge.solve(&scene.inputs).unwrap());
+            assert_eq!(own.status == Status::NotSolved, judge.status == Status::NotSolved, "scene {number}");
+            (judge.status != Status::NotSolved)
+                .then(|| (number, parts(&scene.auto, own, judge), own.interaction, own.error_estimate > 0.0))
+        })
+        .collect();
+    let share = |holds: &dyn Fn(&(u64, f64, Interaction, bool)) -> bool| {
+        compared.iter().filter(|row| holds(row)).count() as f64 / compared.len() as f64
+    };
+    for (level, name, _) in Interaction::ALL {
+        println!("{name}: {:.3} of the scenes", share(&|row| row.2 == *level));
+    }
+    println!("{} solved, cheaper than the richest: {:.3}", compared.len(), share(&|row| row.3));
+    let mut bad: Vec<_> = compared.iter().filter(|row| row.1 > 1.0).collect();
+    bad.sort_by(|a, b| b.1.total_cmp(&a.1));
+    println!("over the tolerance: {bad:?}");
+    assert!(10 * compared.len() as u64 > 9 * SCENES, "only {} of {SCENES} scenes", compared.len());
+    assert!(share(&|row| row.3) > 0.1, "the ladder is of no use");
+    assert!(share(&|row| row.1 <= 1.0) >= 0.999, "{bad:?}");
+    assert!(share(&|row| row.1 <= 2.0) >= 1.0, "{bad:?}");
+}
