@@ -170,7 +170,10 @@ fn a_method_solves_or_says_that_it_has_not() {
                     let outputs = manipulator.solve(&inputs).expect("valid inputs");
                     let case =
                         format!("{label}, {field} mT at {angle} deg, S = {segments}, {}", interaction.name());
-                    if outputs.status != Status::NotSolved {
+                    if outputs.status == Status::NotSolved {
+                        refused += 1;
+                        assert_eq!(outputs.tip, straight, "{case}: the last solution is kept");
+                    } else {
                         held += 1;
                         assert!(outputs.stable.is_none(), "{case}: no verdict");
                         let [force, torque] = outside(outputs, &inputs);
@@ -179,9 +182,6 @@ fn a_method_solves_or_says_that_it_has_not() {
                         let lack = (force.norm() * length).max(torque.norm()) / size;
                         worst = worst.max(lack);
                         assert!(lack <= METHOD_BALANCE, "{case}: solved, yet out of balance by {lack:e}");
-                    } else {
-                        refused += 1;
-                        assert_eq!(outputs.tip, straight, "{case}: the last solution is kept");
                     }
                 }
             }
