@@ -13,6 +13,9 @@ use rayon::prelude::*;
 
 use crate::equilibrium::rows::pair;
 
+/// Number of a scene, error over the tolerance, level that answered, whether that was a cheaper one.
+type Compared = (u64, f64, Interaction, bool);
+
 const SCENES: u64 = 2000;
 
 /// A design, what acts on it, and tolerances.
@@ -113,8 +116,7 @@ fn is_within_its_tolerance_of_the_richest_model() {
                 .then(|| (number, parts(&scene.auto, own, judge), own.interaction, own.error_estimate > 0.0))
         })
         .collect();
-    type Row = (u64, f64, Interaction, bool);
-    let share = |holds: &dyn Fn(&Row) -> bool| {
+    let share = |holds: &dyn Fn(&Compared) -> bool| {
         compared.iter().filter(|row| holds(row)).count() as f64 / compared.len() as f64
     };
     for (level, name, _) in Interaction::ALL {
