@@ -218,6 +218,27 @@ pub(crate) const COLLAPSE_MT: f64 = 0.06;
 /// relative to the largest effect that an input of usual size has on that kind of output (reached: 4e-8).
 pub(crate) const ABI_DIFFERENCE: f64 = 3e-7;
 
+/// Other methods by default, relative to the length, a radian or the largest wrench (reached: 7.6e-6 by collocation, 1.1e-6
+/// by those that shoot).
+pub(crate) const METHOD_COARSE: f64 = 1e-5;
+
+/// Arcs of constant curvature: shear, extension and the moment's change along a core are missing (reached: 1.6e-2).
+pub(crate) const METHOD_ARCS: f64 = 0.02;
+
+/// Tips by other methods with fine meshes, over the length: what the shear that varies along a disc leaves of the potential
+/// method, which gives it no mode (2e-9), and some.
+pub(crate) const METHOD_FINE: f64 = 1e-8;
+
+/// Orders of convergence between two meshes, of which the coarser is not yet asymptotic.
+pub(crate) const METHOD_ORDER: f64 = 0.5;
+
+/// Residual to which methods are solved where errors of the mesh are compared: differences leave the paper's shooting at 3e-12.
+pub(crate) const METHOD_RESIDUAL: f64 = 1e-11;
+
+/// Balance of force and moment at a shape that a method calls solved, up to 500 mT: the torque is summed up over a mesh made
+/// for 20 mT (reached: 1.6e-4).
+pub(crate) const METHOD_BALANCE: f64 = 5e-4;
+
 /// Bending moment of spans on spans, which no level counts, over the elastic one: an estimate by slices (0.094 to 0.107).
 pub(crate) const SPANS_AMONG_THEMSELVES: f64 = 0.01;
 

@@ -111,17 +111,17 @@ impl Potential<'_> {
         let station = &self.chain.elements[k].stations[index];
         let pose = self.work.station(k, index);
         let mut out = Wrenches::none(counts);
-        if station.magnetisation != 0.0 {
+        let matter = &station.matter;
+        if matter.magnetisation != 0.0 {
             let points = self.field.points(station);
-            let moment =
-                pose.axis() * (station.magnetisation * station.material.volume / points.len() as f64);
+            let moment = pose.axis() * (matter.magnetisation * matter.moments.volume / points.len() as f64);
             for point in points {
                 let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
                 out.add_dipole(&moment, &arm, &field_rates(magnet, self.inputs, &(pose.position + arm))?);
             }
         }
         for (axis, column) in Input::Gravity.columns().enumerate() {
-            let load = weight(station, &pose, &Vector3::ith(axis, 1.0));
+            let load = weight(&station.matter, &pose, &Vector3::ith(axis, 1.0));
             out.add(column, &load.force, &load.moment());
         }
         Some(out.0)

@@ -2,16 +2,17 @@
 
 use nalgebra::Vector3;
 
+use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
-use crate::rod::{Load, Station};
+use crate::rod::{Load, Matter};
 
-/// Weight of a station's material and backbone; `pose` is the station's, in world axes.
-pub(super) fn weight(station: &Station, pose: &Pose, gravity: &Vector3<f64>) -> Load {
-    let material = station.density * station.material.volume;
-    let first = station.material.first * station.density;
+/// Weight of a section's material and backbone; `pose` is the section's, in world axes.
+pub(super) fn weight(matter: &Matter, pose: &Pose, gravity: &Vector3<f64>) -> Load {
+    let material = matter.density * matter.moments.volume;
+    let first = matter.moments.first * matter.density;
     let lever = pose.rotation * Vector3::new(first.x, first.y, 0.0);
-    let mass = material + station.line_mass;
+    let mass = material + matter.line_mass;
     Load {
         energy: -gravity.dot(&(pose.position * mass + lever)),
         force: gravity * -mass,
@@ -23,6 +24,13 @@ pub(super) fn weight(station: &Station, pose: &Pose, gravity: &Vector3<f64>) -> 
 /// No wrench.
 pub(super) fn no_wrench() -> Wrench {
     Wrench { force: Vector3::zeros(), torque: Vector3::zeros() }
+}
+
+/// What the external magnet feels about its centre, of what all fields and the background alone do to the manipulator.
+pub(super) fn reaction_on_magnet(whole: &Wrench, background: &Wrench, inputs: &Inputs) -> Wrench {
+    let force = background.force - whole.force;
+    let about_base = background.torque - whole.torque;
+    Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
 }
 
 /// Adds the wrench of a load with the given derivatives by position and rotation, whose frame's origin is at

@@ -178,7 +178,7 @@ impl Potential<'_> {
                 add_wrench(&mut self.work.magnetic, &force, &moment, &arm);
                 let mut load = magnetic.in_axes(&axes.tr_mul(&start.rotation));
                 if gravity != Vector3::zeros() {
-                    load += weight(station, &pose, &gravity).in_axes(&start.rotation);
+                    load += weight(&station.matter, &pose, &gravity).in_axes(&start.rotation);
                 }
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;

@@ -95,6 +95,12 @@ impl PairRules {
         &self.tables[second][self.chosen[pair]].2
     }
 
+    /// The rule of the pair of two rings, the earlier first.
+    pub(super) fn between(&self, first: usize, second: usize) -> &AxialRule {
+        let rings = self.tables.len();
+        self.pair(first * (2 * rings - first - 1) / 2 + second - first - 1, second)
+    }
+
     /// The rule of ring number `ring` in a field whose sources are `reach` (m) away.
     pub(super) fn external(&self, ring: usize, reach: f64) -> &AxialRule {
         let table = &self.tables[ring];

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::methods::{Discretisation, Method};
 use crate::error::{Error, check};
 
 /// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
@@ -88,6 +89,10 @@ pub struct Settings {
     pub fold_margin: f64,
     /// Iterations at most of one solve, after which it has failed; default 500.
     pub iterations: u32,
+    /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
+    pub method: Method,
+    /// Resolution of the other methods.
+    pub discretisation: Discretisation,
 }
 
 impl Default for Settings {
@@ -105,6 +110,8 @@ impl Default for Settings {
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
             iterations: 500,
+            method: Method::Potential,
+            discretisation: Discretisation::default(),
         }
     }
 }
@@ -146,6 +153,7 @@ impl Settings {
             "in [0, 1)",
         )?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
+        self.discretisation.checked()?;
         Ok(self)
     }
 }

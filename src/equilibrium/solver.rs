@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::correction::{Report, Scene, Scratch, measure};
-use super::dead::{add_wrench, no_wrench};
+use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use super::follow::Branch;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
@@ -252,11 +252,7 @@ impl Equilibrium {
         if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
             return no_wrench();
         }
-        let whole = self.magnetic_wrench();
-        let background = self.background_wrench(inputs);
-        let force = background.force - whole.force;
-        let about_base = background.torque - whole.torque;
-        Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
+        reaction_on_magnet(&self.magnetic_wrench(), &self.background_wrench(inputs), inputs)
     }
 
     /// External field (T) at a point, m; `None` inside a magnet.

@@ -8,7 +8,7 @@ use super::chain::{Chain, RingBody};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
-use crate::rod::{Load, Order, Sample, Sheet, Station};
+use crate::rod::{Load, Matter, Order, Sample, Sheet, Station};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -60,7 +60,7 @@ impl<'a> Source<'a> {
     /// A dipole at distance `d` along the axis has the mean `B (1 - 3 spread / d^2)` over a section. The distance is that
     /// of all the chain may reach, so that the choice depends on the inputs alone.
     pub(super) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
-        if matches!(self.magnet, Magnet::Absent) {
+        if !self.has_magnet() {
             return self;
         }
         let reach = self.distance(&base.position) - chain.length();
@@ -81,6 +81,11 @@ impl<'a> Source<'a> {
             gradient: Matrix3::zeros(),
             compact: 0.0,
         }
+    }
+
+    /// Whether there is a magnet, and not the background field alone.
+    pub(super) fn has_magnet(&self) -> bool {
+        !matches!(self.magnet, Magnet::Absent)
     }
 
     /// The axes in which the energies are given: the columns, in the world's axes.
@@ -160,21 +165,30 @@ impl<'a> Source<'a> {
 
     /// Energy of a station's material in the axes of the source; `pose` is the station's in the world.
     pub(super) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
+        // A linear field needs no more than the centroid.
+        let points = if self.has_magnet() { self.points(station) } else { &station.points.0 };
+        self.on_points(&station.matter, points, pose, order)
+    }
+
+    /// The same, for a section's material.
+    pub(super) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
+        self.on_points(matter, &matter.moments.points(), pose, order)
+    }
+
+    /// The same, where `points` carry the material in equal parts.
+    fn on_points(&self, matter: &Matter, points: &[Vector2<f64>], pose: &Pose, order: Order) -> Option<Load> {
         let mut load = Load::zero();
-        if station.magnetisation == 0.0 {
+        if matter.magnetisation == 0.0 {
             return Some(load);
         }
         let local = self.locate(pose);
         let axis = local.axis();
-        let moment = station.magnetisation * station.material.volume;
-        if matches!(self.magnet, Magnet::Absent) && self.gradient == Matrix3::zeros() {
+        let moment = matter.magnetisation * matter.moments.volume;
+        if !self.has_magnet() && self.gradient == Matrix3::zeros() {
             load.energy = -moment * axis.dot(&self.field);
             load.couple = self.field * (axis.transpose() * -moment);
             return Some(load);
         }
-        // A linear field needs no more than the centroid.
-        let linear = matches!(self.magnet, Magnet::Absent);
-        let points = if linear { &station.points.0 } else { self.points(station) };
         let share = moment / points.len() as f64;
         self.on_section(points.iter().map(|point| (*point, share)), &local, order)
     }

@@ -1,7 +1,7 @@
 //! What the host gives: inputs and parameters as they were set, and what they mean together.
 
 use crate::design::{Backbone, Design, Specification};
-use crate::equilibrium::Settings;
+use crate::equilibrium::{Method, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
@@ -61,9 +61,15 @@ impl Given {
     /// A scene without an external magnet gets the usual one with strength 0, so that it can be switched on.
     ///
     /// # Errors
-    /// What [`Scene`] refuses.
+    /// What [`Scene`] refuses; [`Error::Unsupported`] for another method than the potential one, which alone has
+    /// derivatives and a state to save.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
+        let (method, own) = (scene.settings.method, Method::Potential);
+        if method != own {
+            let (given, own) = (method.name(), own.name());
+            return Err(Error::Unsupported(format!("an FMU solves by method \"{own}\", not \"{given}\"")));
+        }
         let (magnets, magnet) = if let Some(magnets) = &scene.magnets {
             (magnets.clone(), scene.inputs.magnet)
         } else {

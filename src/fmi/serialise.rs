@@ -17,7 +17,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// To be raised with every change of [`Record`] or of what it holds.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -57,7 +57,7 @@ pub(super) fn to_bytes(condition: &Condition, package: &Package) -> Result<Vec<u
         state: condition.state,
         values: settable(package).filter_map(|variable| variable.given(&condition.given)).collect(),
         rates: condition.rates.clone(),
-        device: condition.device.as_ref().map(Manipulator::snapshot),
+        device: condition.device.as_ref().map(Manipulator::snapshot).transpose()?,
         solved: condition.solved,
         ahead: condition.ahead,
         near_fold: condition.near_fold,

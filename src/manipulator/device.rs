@@ -1,12 +1,12 @@
 //! The manipulator: a design, an external magnet, and the last shape.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::ladder::{self, Ladder};
+use super::ladder;
+use super::solver::Solver;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Gap, Report, Settings};
+use crate::equilibrium::{Gap, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -31,7 +31,7 @@ use crate::magnetics::Assembly;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    models: Ladder,
+    solver: Solver,
     outputs: Outputs,
 }
 
@@ -55,9 +55,9 @@ impl Manipulator {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let models = Ladder::new(design, magnet, settings, shape_points)?;
-        let outputs = straight(models.present());
-        Ok(Self { models, outputs })
+        let solver = Solver::new(design, magnet, settings, shape_points)?;
+        let outputs = solver.straight();
+        Ok(Self { solver, outputs })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -68,7 +68,7 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.models.solve(inputs)?;
+        let report = self.solver.solve(inputs)?;
         if report.solved {
             self.observe(inputs, &report);
         } else {
@@ -116,9 +116,11 @@ impl Manipulator {
     }
 
     /// What it remembers: from it another manipulator of the same design goes on bit for bit.
-    #[must_use]
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot { models: self.models.snapshot(), outputs: self.outputs.clone() }
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] by another method than the potential one.
+    pub fn snapshot(&self) -> Result<Snapshot, Error> {
+        Ok(Snapshot { models: self.solver.snapshot()?, outputs: self.outputs.clone() })
     }
 
     /// Remembers what another manipulator of the same design, magnet and settings did.
@@ -133,7 +135,7 @@ impl Manipulator {
         if lengths(&snapshot.outputs) != lengths(&self.outputs) {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
-        self.models.restore(&snapshot.models)?;
+        self.solver.restore(&snapshot.models)?;
         self.outputs = snapshot.outputs.clone();
         Ok(())
     }
@@ -141,7 +143,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.models.present().clone().margin() {
+        if let Some(margin) = self.solver.margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -167,50 +169,41 @@ impl Manipulator {
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] when the last solve failed, before the first, at a fold, and where a part lies
-    /// inside the external magnet; see [`Equilibrium::jacobian`].
+    /// inside the external magnet; see [`crate::equilibrium::Equilibrium::jacobian`]; always by another method than the potential one.
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
-        self.models.present().jacobian()
+        self.solver.jacobian()
     }
 
     /// How far `auto` may put and turn the tip from where the richest model does, m and rad; from the next solve on.
     ///
     /// # Errors
-    /// [`Error::Range`] unless both are positive.
+    /// [`Error::Range`] unless both are positive; [`Error::Unsupported`] by another method than the potential one.
     pub fn set_tolerances(&mut self, position: f64, angle: f64) -> Result<(), Error> {
         let settings =
             Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
         settings.checked()?;
-        self.models.set_tolerance(Gap { distance: position, angle });
-        Ok(())
+        self.solver.set_tolerance(Gap { distance: position, angle })
     }
 
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        self.models.reset();
-        self.outputs = straight(self.models.present());
+        self.solver.reset();
+        self.outputs = self.solver.straight();
     }
 
     fn observe(&mut self, inputs: &Inputs, report: &Report) {
-        let (equilibrium, out) = (self.models.present(), &mut self.outputs);
-        out.tip = equilibrium.tip();
+        let out = &mut self.outputs;
+        self.solver.observe(inputs, out);
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        let magnetic = equilibrium.magnetic_wrench();
-        (out.magnetic_force, out.magnetic_torque) = (magnetic.force, magnetic.torque);
-        let base = equilibrium.base_reaction();
-        (out.base_reaction_force, out.base_reaction_moment) = (base.force, base.torque);
-        let magnet = equilibrium.magnet_reaction(inputs);
-        (out.magnet_reaction_force, out.magnet_reaction_torque) = (magnet.force, magnet.torque);
-        out.tip_field = equilibrium.field_at(inputs, &out.tip.position).unwrap_or_default();
-        copy_shape(equilibrium, out);
         out.stable = report.stable;
         out.stability_margin = report.margin;
         out.snaps += report.snaps;
         out.status = if report.snaps > 0 {
             Status::Snapped
-        } else if report.stable.is_some() && report.margin < equilibrium.settings().fold_margin {
+        } else if report.stable.is_some() && report.margin < self.solver.settings().fold_margin {
             Status::NearFold
         } else {
             Status::Solved
@@ -218,47 +211,5 @@ impl Manipulator {
         out.iterations = report.iterations;
         out.residual = report.residual;
         out.energy = report.energy;
-        out.interaction = equilibrium.settings().interaction;
-        out.error_estimate = self.models.error_estimate();
-    }
-}
-
-fn copy_shape(equilibrium: &Equilibrium, out: &mut Outputs) {
-    for ((slot, place), (arc_length, position)) in
-        out.shape.iter_mut().zip(&mut out.shape_arc_length).zip(equilibrium.shape())
-    {
-        (*slot, *place) = (position, arc_length);
-    }
-    out.rings.iter_mut().zip(equilibrium.rings()).for_each(|(slot, pose)| *slot = pose);
-    out.core_angles.iter_mut().zip(equilibrium.core_angles()).for_each(|(slot, angle)| *slot = angle);
-}
-
-/// Outputs of the straight, unloaded manipulator at the origin.
-fn straight(equilibrium: &Equilibrium) -> Outputs {
-    let zero = Vector3::zeros();
-    let (shape_arc_length, shape) = equilibrium.shape().unzip();
-    Outputs {
-        tip_angle: 0.0,
-        tip: equilibrium.tip(),
-        magnetic_force: zero,
-        magnetic_torque: zero,
-        base_reaction_force: zero,
-        base_reaction_moment: zero,
-        magnet_reaction_force: zero,
-        magnet_reaction_torque: zero,
-        tip_field: zero,
-        shape_arc_length,
-        shape,
-        rings: equilibrium.rings().collect(),
-        core_angles: equilibrium.core_angles().collect(),
-        stable: Some(true),
-        stability_margin: 1.0,
-        snaps: 0,
-        status: Status::Solved,
-        iterations: 0,
-        residual: 0.0,
-        energy: 0.0,
-        interaction: equilibrium.settings().interaction,
-        error_estimate: 0.0,
     }
 }

@@ -5,6 +5,7 @@ mod device;
 mod ladder;
 mod outputs;
 mod scene;
+mod solver;
 
 pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use branch::{Branch, Fold};

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::equilibrium::Interaction;
+use crate::equilibrium::{Interaction, Method};
 use crate::geometry::Pose;
 
 /// How the last solve ended.
@@ -48,7 +48,8 @@ pub struct Outputs {
     pub rings: Vec<Pose>,
     /// Bending angle of each core (of each element of a plain cylinder), rad.
     pub core_angles: Vec<f64>,
-    /// Whether the equilibrium is stable; `None` when the model has no potential to tell.
+    /// Whether the equilibrium is stable; `None` when the model has no potential to tell,
+    /// or the method does not ask.
     pub stable: Option<bool>,
     /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold. An upper
     /// bound, close near a fold and up to some percent old along small steps, until
@@ -66,6 +67,8 @@ pub struct Outputs {
     pub energy: f64,
     /// Level of local interaction that was used.
     pub interaction: Interaction,
+    /// Method that was used.
+    pub method: Method,
     /// Estimated distance of the tip from that of the richest model, m, where `auto` chose a cheaper one; else 0.
     pub error_estimate: f64,
 }

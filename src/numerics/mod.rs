@@ -3,5 +3,7 @@
 pub mod cholesky;
 pub mod eigenvalue;
 pub mod lagrange;
+pub mod levenberg_marquardt;
+pub mod newton;
 pub mod quadrature;
 pub mod trust_region;

@@ -6,6 +6,7 @@ use nalgebra::Vector2;
 
 use super::basis::{Ends, Modes, Part};
 use super::cubature::{SPIRAL_POINTS, Sight};
+use super::matter::Matter;
 use super::moments::SectionMoments;
 use super::stop::{Contact, Stop};
 use crate::design::{Span, SpanKind, Stiffness};
@@ -68,18 +69,12 @@ pub struct Station {
     pub weight: f64,
     /// Section stiffness.
     pub stiffness: Stiffness,
-    /// Moments of the material that this station stands for.
-    pub material: SectionMoments,
+    /// The material that this station stands for.
+    pub matter: Matter,
     /// Its centroid and four points, for fields that are linear and quadratic over the section, m.
     pub points: ([Vector2<f64>; 1], [Vector2<f64>; 4]),
     /// Mean square distance of the material from its centroid, m2.
     pub spread: f64,
-    /// Magnetisation of the material, A/m.
-    pub magnetisation: f64,
-    /// Mass on the centreline that this station stands for, kg.
-    pub line_mass: f64,
-    /// Density of the material, kg/m3.
-    pub density: f64,
 }
 
 /// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
@@ -242,12 +237,9 @@ impl Element {
                 row,
                 weight,
                 stiffness: span.stiffness,
-                material,
+                matter: Matter::new(span, material, weight),
                 points: ([material.centroid()], material.points()),
                 spread: material.spread(),
-                magnetisation: span.magnetisation,
-                line_mass: span.line_density * weight,
-                density: span.density,
             });
         }
     }

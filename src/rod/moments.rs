@@ -52,6 +52,13 @@ impl SectionMoments {
         self.second += Matrix2::identity() * (weight * 0.125 * angle * (outer.powi(4) - inner.powi(4)));
     }
 
+    /// The moments of the same material spread evenly around the centreline.
+    #[must_use]
+    pub fn axisymmetric(&self) -> Self {
+        let second = Matrix2::identity() * (0.5 * self.second.trace());
+        Self { volume: self.volume, first: Vector2::zeros(), second }
+    }
+
     /// Mean square distance of the material from its centroid, m2.
     #[must_use]
     pub fn spread(&self) -> f64 {

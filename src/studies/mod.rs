@@ -1,7 +1,9 @@
 //! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
 //!
-//! Every study is a function without arguments that returns a [`Study`]: nothing is printed or written here.
+//! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
+//! points, which [`accuracy_picture`] draws. Nothing is printed or written here.
 
+mod accuracy;
 mod bending;
 mod experiment;
 mod field_ring;
@@ -15,6 +17,7 @@ mod fig8;
 mod hysteresis;
 mod study;
 
+pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
 pub use field_ring::field_ring;
 pub use fig4::fig4;
 pub use fig5::fig5;
@@ -24,4 +27,4 @@ pub use fig7c::fig7c;
 pub use fig7d::fig7d;
 pub use fig8::fig8;
 pub use hysteresis::hysteresis;
-pub use study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+pub use study::{Column, Comparison, Curve, Mark, Panel, Series, Stroke, Study, Value};

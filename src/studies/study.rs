@@ -38,6 +38,19 @@ pub enum Panel {
         /// What else is drawn.
         marks: Vec<Mark>,
     },
+    /// Points on logarithmic axes; what is not positive is left out.
+    Places {
+        /// What is drawn.
+        title: String,
+        /// Label with unit of the abscissa.
+        x: String,
+        /// Label with unit of the ordinate.
+        y: String,
+        /// What is drawn.
+        series: Vec<Series>,
+        /// What else is drawn.
+        marks: Vec<Mark>,
+    },
     /// A column as colours over the grid of two others.
     Map {
         /// What is drawn.
@@ -64,6 +77,19 @@ pub struct Curve {
     pub colour: usize,
     /// How it is drawn.
     pub stroke: Stroke,
+}
+
+/// Points that belong together, in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// What the legend calls it.
+    pub label: String,
+    /// Number of the colour, from 0.
+    pub colour: usize,
+    /// How they are joined.
+    pub stroke: Stroke,
+    /// Abscissa and ordinate of each.
+    pub places: Vec<[f64; 2]>,
 }
 
 /// How a curve is drawn.

@@ -1,10 +1,11 @@
 """Measures the solves and fields beside their peers in one run and prints the tables in Markdown.
 
 .venv/bin/python tests/bench/table.py            all
-.venv/bin/python tests/bench/table.py solve      only the solves beside scipy
+.venv/bin/python tests/bench/table.py solve      only the solves beside scipy; leaves tests/charts/peers.csv
 .venv/bin/python tests/bench/table.py field      only the fields beside magba and magpylib
 """
 
+import csv
 import json
 import math
 import os
@@ -18,6 +19,7 @@ from pathlib import Path
 import solve_bvp_peer
 
 PACKAGE = Path(__file__).resolve().parents[2]
+PEERS = PACKAGE / "tests" / "charts" / "peers.csv"
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", PACKAGE / "target"))
 
 
@@ -80,13 +82,27 @@ def solves() -> None:
         raise RuntimeError("the bench has not told its error")
     cold, warm = times["cold tip dipole"], times["warm tip dipole"]
     rows = [["mcm", micro(cold), micro(warm), f"{float(error[1]):.0e}", "1", "1"]]
+    # Below the rounding of a radian nothing is told apart.
+    least = sys.float_info.epsilon
+    peers = [("mcm", start, time, least) for start, time in (("cold", cold), ("warm", warm))]
     for peer in map(solve_bvp_peer.measure, (1e-3, 1e-6, 1e-9)):
+        for start, time in (("cold", peer.cold), ("warm", peer.warm)):
+            peers.append(("scipy solve_bvp", start, time, max(peer.error, least)))
         name = f"scipy {version('scipy')} solve_bvp, tol {peer.tolerance:.0e}"
         ratios = [f"{peer.cold / cold:.0f}", f"{peer.warm / warm:.0f}"]
         rows.append([name, micro(peer.cold), micro(peer.warm), f"{peer.error:.0e}", *ratios])
+    leave(peers)
     table(
         ["tip dipole", "cold (us)", "warm (us)", "error (rad)", "times ours, cold", "times ours, warm"], rows
     )
+
+
+def leave(peers: list[tuple[str, str, float, float]]) -> None:
+    """Writes solver, start, time (s) and error (rad) for `mcm study accuracy --peers`."""
+    with PEERS.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["solver", "start", "time_us", "error_rad"])
+        table.writerows([solver, start, micro(time), f"{error:.2g}"] for solver, start, time, error in peers)
 
 
 def fields() -> None:

@@ -1,13 +1,13 @@
 //! `mcm solve`.
 
-use mcm::equilibrium::{Equilibrium, Inputs};
+use mcm::equilibrium::{Equilibrium, Inputs, Method};
 use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 use serde_json::Value;
 
 use super::{assert_status, stderr, with_scene};
 use crate::equilibrium::critical::{is_stable, last_true};
-use crate::tolerance::{DIFFERENCE, TWO_DECIMALS_DEG, assert_close};
+use crate::tolerance::{DIFFERENCE, METHOD_ARCS, METHOD_COARSE, TWO_DECIMALS_DEG, assert_close};
 
 const ONE_SEGMENT: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
 
@@ -15,6 +15,45 @@ fn json(test: &str, scene: &str, status: i32) -> Value {
     let (_, output) = with_scene(test, scene, &["solve", "scene.toml", "--json"]);
     assert_status(&output, status);
     serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn the_method_is_that_of_the_scene() {
+    let text = |method: &str| {
+        format!(
+            "[field]\nuniform_mt = [0, 20, 0]\n[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n{method}"
+        )
+    };
+    let reference = json("potential", &text(""), 0);
+    for (method, name) in &Method::ALL[1..] {
+        let answer = json(name, &text(&format!("method = \"{name}\"")), 0);
+        assert_eq!(answer["method"], *name);
+        assert!(answer["stable"].is_null() && answer["jacobian"].is_null());
+        assert!(answer["jacobian_note"].as_str().unwrap().contains("no derivatives"));
+        let tolerance = if *method == Method::ConstantCurvature { METHOD_ARCS } else { METHOD_COARSE };
+        let angle = |answer: &Value| [answer["alpha_rad"].as_f64().unwrap()];
+        assert_close(name, &angle(&answer), &angle(&reference), tolerance);
+    }
+    for (method, status, word) in [
+        ("shoting", 1, "choose one of potential, shooting-fd"),
+        ("planar\"\nbending_stop = true # ", 1, "bending stop"),
+    ] {
+        let scene = text(&format!("method = \"{method}\""));
+        let (_, output) = with_scene("refused method", &scene, &["solve", "scene.toml"]);
+        assert_status(&output, status);
+        assert!(stderr(&output).contains(word), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn an_fmu_solves_by_the_potential_method_alone() {
+    let (_, output) = with_scene(
+        "packed method",
+        "[model]\nmethod = \"planar\"",
+        &["pack", "--scene", "scene.toml", "--out", "x.fmu"],
+    );
+    assert_status(&output, 1);
+    assert!(stderr(&output).contains("method \"potential\", not \"planar\""), "{}", stderr(&output));
 }
 
 #[test]

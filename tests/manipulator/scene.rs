@@ -138,8 +138,9 @@ fn refusals_name_line_path_and_remedy() {
             "test, line 2: `model.interaction`: \"all\" is no level: choose one of none, preceding, rings, full, auto",
         ),
         (
-            "[model]\nmethod = \"shooting\"",
-            "test, line 2: `model.method`: unknown variant `shooting`, expected `potential`",
+            "[model]\nmethod = \"shoting\"",
+            "test, line 2: `model.method`: \"shoting\" is not available in this version: choose one of potential, shooting-fd, \
+             shooting, multiple-shooting, collocation, constant-curvature, planar",
         ),
         (
             "[model]\nbending_stop = \"yes\"",

@@ -68,7 +68,7 @@ fn the_stations_stand_for_all_of_the_material() {
             let weight = |s: f64| (s - start).powi(power);
             let got = own().fold((0.0, Vector2::zeros(), Matrix2::zeros()), |sum, station| {
                 let w = weight(station.row.arc_length);
-                let m = &station.material;
+                let m = &station.matter.moments;
                 (sum.0 + m.volume * w, sum.1 + m.first * w, sum.2 + m.second * w)
             });
             let case = (number, power);
@@ -87,7 +87,7 @@ fn four_points_carry_the_moments() {
         let spans = spans(kind);
         let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
         for station in &Element::new(0.0, &pieces, &PLAIN).stations {
-            let (moments, points) = (&station.material, station.material.points());
+            let (moments, points) = (&station.matter.moments, station.matter.moments.points());
             let quarter = moments.volume / 4.0;
             let first: Vector2<f64> = points.iter().map(|point| point * quarter).sum();
             let second: Matrix2<f64> = points.iter().map(|point| point * point.transpose() * quarter).sum();

@@ -1,5 +1,6 @@
 //! The paper's figures: each claim beside something independent.
 
+mod accuracy;
 mod field_ring;
 mod fig4;
 mod fig5;

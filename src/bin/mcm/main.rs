@@ -1,5 +1,6 @@
 //! The command line.
 
+mod accuracy;
 mod comparison;
 mod failure;
 mod field;

@@ -19,7 +19,8 @@ In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a 
 Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
 centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
 jacobian_note says why.\n\n\
-Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\"), 1 bad input, 2 not converged, \
+Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\", any \
+method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable.")]
 pub(crate) struct Solve {
     /// Scene file (TOML)
@@ -102,7 +103,7 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
         "energy_j": outputs.energy,
         "interaction": outputs.interaction.name(),
         "error_estimate_m": outputs.error_estimate,
-        "method": "potential",
+        "method": outputs.method.name(),
         "jacobian": derivatives,
         "jacobian_note": jacobian.as_ref().err().map(ToString::to_string),
     })

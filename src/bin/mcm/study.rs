@@ -12,12 +12,15 @@ use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{comparison, picture};
+use super::{accuracy, comparison, picture};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
-#[command(after_help = "`all` computes every figure and writes the comparison to comparison.md, too.\n\n\
-Example: mcm study fig5 --out figures")]
+#[command(
+    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` \
+measures times, which differ from run to run, and is no part of it.\n\n\
+Example: mcm study fig5 --out figures"
+)]
 pub(crate) struct Study {
     /// Which figure
     #[arg(value_enum)]
@@ -25,6 +28,9 @@ pub(crate) struct Study {
     /// Folder for tables and pictures; made if it is not there
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// For accuracy: what others reach, as tests/bench/table.py writes it
+    #[arg(long, value_name = "CSV")]
+    peers: Option<PathBuf>,
 }
 
 /// What can be asked for.
@@ -49,12 +55,14 @@ enum Name {
     Fig8,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
+    /// Error against time of all methods, and who is on the front
+    Accuracy,
     /// Every figure
     All,
 }
 
 impl Name {
-    /// The study of this name; `None` for all.
+    /// The study of this name; `None` for all, and for that of times.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -66,7 +74,7 @@ impl Name {
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
-            Self::All => None,
+            Self::Accuracy | Self::All => None,
         }
     }
 
@@ -81,13 +89,16 @@ impl Study {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
+        if self.name == Name::Accuracy {
+            return accuracy::run(&self.out, self.peers.as_deref());
+        }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
             .iter()
             .filter(|name| wanted(name))
             .filter_map(|name| Some((name.typed(), name.study()?)))
             .collect();
-        let bar = progress_bar(chosen.len() as u64);
+        let bar = progress_bar(chosen.len() as u64, "studies, {msg}");
         let computed = chosen
             .into_par_iter()
             .map(|(name, study)| {
@@ -123,9 +134,10 @@ fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
 }
 
 /// Hidden when standard error is no terminal.
-fn progress_bar(studies: u64) -> ProgressBar {
-    let bar = ProgressBar::new(studies);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} studies, {msg}, {elapsed}") {
+pub(super) fn progress_bar(count: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(count);
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }
     bar.enable_steady_tick(std::time::Duration::from_millis(100));

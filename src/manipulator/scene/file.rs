@@ -1,9 +1,9 @@
 //! The scene file's tables and keys, as written: units in the names.
 
-use serde::de::Error as _;
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::Interaction;
+use crate::equilibrium::{Interaction, Method};
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -245,25 +245,19 @@ pub(super) struct GravityTable {
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum MethodName {
-    #[default]
-    Potential,
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelTable {
     #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
     pub(super) interaction: Interaction,
-    pub(super) method: MethodName,
+    #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
+    pub(super) method: Method,
     pub(super) bending_stop: bool,
 }
 
 impl Default for ModelTable {
     fn default() -> Self {
-        Self { interaction: Interaction::Auto, method: MethodName::default(), bending_stop: false }
+        Self { interaction: Interaction::Auto, method: Method::Potential, bending_stop: false }
     }
 }
 
@@ -274,9 +268,22 @@ fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::E
 
 fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
     let name = String::deserialize(input)?;
-    Interaction::named(&name).ok_or_else(|| {
-        let known: Vec<&str> = Interaction::ALL.iter().map(|row| row.1).collect();
-        let known = known.join(", ");
-        D::Error::custom(format!("\"{name}\" is no level: choose one of {known}"))
-    })
+    let known = Interaction::ALL.iter().map(|row| row.1);
+    Interaction::named(&name).ok_or_else(|| unknown(&name, "no level", known))
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+fn write_method<S: Serializer>(method: &Method, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(method.name())
+}
+
+fn read_method<'de, D: Deserializer<'de>>(input: D) -> Result<Method, D::Error> {
+    let name = String::deserialize(input)?;
+    let known = Method::ALL.iter().map(|row| row.1);
+    Method::named(&name).ok_or_else(|| unknown(&name, "not available in this version", known))
+}
+
+fn unknown<E: Error>(name: &str, is: &str, known: impl Iterator<Item = &'static str>) -> E {
+    let known: Vec<&str> = known.collect();
+    E::custom(format!("\"{name}\" is {is}: choose one of {}", known.join(", ")))
 }

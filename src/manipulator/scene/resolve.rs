@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Scene;
 use super::file::{
-    BackboneTable, DesignTable, FieldTable, HelixTable, Kind, MagnetCylinder, RingTable, SceneFile,
-    SpiralName,
+    BackboneTable, DesignTable, FieldTable, HelixTable, Kind, MagnetCylinder, ModelTable, RingTable,
+    SceneFile, SpiralName,
 };
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
@@ -99,8 +99,8 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Settings {
-        let (interaction, bending_stop) = (self.model.interaction, self.model.bending_stop);
-        Settings { interaction, bending_stop, ..Settings::default() }
+        let ModelTable { interaction, method, bending_stop } = self.model;
+        Settings { interaction, bending_stop, method, ..Settings::default() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Curves and maps on their axes.
 
-use mcm::studies::{Curve, Mark, Stroke, Study};
+use mcm::studies::{Curve, Mark, Series, Stroke, Study};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
@@ -27,15 +27,44 @@ pub(super) fn curves(
         Mark::Band(_, heights) => *heights,
     });
     let heights = span(ordinates.iter().flat_map(|values| values.iter().copied()).chain(heights));
-    let mut chart = chart(area, span(abscissa.iter().copied()), widened(heights), [&x.0, y_label])?;
-    draw_backdrop(&mut chart, span(abscissa.iter().copied()), marks)?;
+    let across = span(abscissa.iter().copied());
+    let mut chart = chart(area, across, widened(heights), [&x.0, y_label], tick)?;
+    draw_backdrop(&mut chart, across, marks)?;
     for (curve, values) in curves.iter().zip(&ordinates) {
         let points: Vec<(f64, f64)> = abscissa.iter().copied().zip(values.iter().copied()).collect();
         for run in points.split(|point| point.1.is_nan()) {
-            draw_curve(&mut chart, run, curve)?;
+            draw_curve(&mut chart, run, curve.colour, curve.stroke)?;
         }
     }
     draw_points(&mut chart, marks)
+}
+
+/// Points on logarithmic axes.
+pub(super) fn places(area: &Canvas, labels: [&str; 2], series: &[Series], marks: &[Mark]) -> Drawn {
+    let marks: Vec<Mark> = marks
+        .iter()
+        .map(|mark| match mark {
+            Mark::Level(label, height) => Mark::Level(label.clone(), height.log10()),
+            Mark::Band(label, heights) => Mark::Band(label.clone(), heights.map(f64::log10)),
+            Mark::Point(label, place) => Mark::Point(label.clone(), place.map(f64::log10)),
+        })
+        .collect();
+    let shown = |series: &Series| -> Vec<(f64, f64)> {
+        let positive = series.places.iter().filter(|place| place.iter().all(|value| *value > 0.0));
+        positive.map(|[x, y]| (x.log10(), y.log10())).collect()
+    };
+    let all: Vec<(f64, f64)> = series.iter().flat_map(shown).collect();
+    // Whole powers of ten around all points.
+    let around = |[low, high]: [f64; 2]| [low.floor(), high.ceil()];
+    let across = around(span(all.iter().map(|point| point.0)));
+    let mut chart = chart(area, across, around(span(all.iter().map(|point| point.1))), labels, power)?;
+    draw_backdrop(&mut chart, across, &marks)?;
+    for series in series {
+        let points = shown(series);
+        draw_curve(&mut chart, &points, series.colour, series.stroke)?;
+        draw_curve(&mut chart, &points, series.colour, Stroke::Dots)?;
+    }
+    draw_points(&mut chart, &marks)
 }
 
 /// A column as colours over the grid of two others, with its scale beside it.
@@ -54,7 +83,7 @@ pub(super) fn map(
         let [low, high] = span(values.iter().copied());
         [low - 0.5 * cell, high + 0.5 * cell]
     };
-    let mut chart = chart(&left, around(xs, cell_x), around(ys, cell_y), [&x.0, &y.0])?;
+    let mut chart = chart(&left, around(xs, cell_x), around(ys, cell_y), [&x.0, &y.0], tick)?;
     let cells = xs.iter().zip(ys).zip(values).filter(|(_, value)| !value.is_nan());
     chart.draw_series(cells.map(|((&x, &y), &value)| {
         let corners = [(x - 0.5 * cell_x, y - 0.5 * cell_y), (x + 0.5 * cell_x, y + 0.5 * cell_y)];
@@ -93,6 +122,7 @@ fn chart<'a, 'b>(
     x: [f64; 2],
     y: [f64; 2],
     [x_label, y_label]: [&str; 2],
+    tick: fn(f64) -> String,
 ) -> Result<Chart<'a, 'b>, Box<dyn std::error::Error>>
 where
     'b: 'a,
@@ -128,10 +158,15 @@ fn tick(value: f64) -> String {
     if rounded == 0.0 { "0".into() } else { rounded.to_string() }
 }
 
-fn draw_curve(chart: &mut Chart, run: &[(f64, f64)], curve: &Curve) -> Drawn {
-    let colour = colour(curve.colour);
+/// A power of ten by its exponent; nothing between.
+fn power(exponent: f64) -> String {
+    if (exponent - exponent.round()).abs() < 1e-6 { format!("1e{exponent:.0}") } else { String::new() }
+}
+
+fn draw_curve(chart: &mut Chart, run: &[(f64, f64)], number: usize, stroke: Stroke) -> Drawn {
+    let colour = colour(number);
     let points = run.iter().copied();
-    match curve.stroke {
+    match stroke {
         Stroke::Solid => drop(chart.draw_series(LineSeries::new(points, pen(colour, LINE)))?),
         Stroke::Dashed => {
             let dashes = DashedLineSeries::new(points, scaled(10.0), scaled(6.0), pen(colour, LINE));

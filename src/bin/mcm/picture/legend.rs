@@ -20,17 +20,22 @@ pub(super) enum Sample {
 
 /// Title and legend of a panel; what has no label has no entry.
 pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
-    let (title, curves, marks) = match panel {
-        Panel::Curves { title, curves, marks, .. } => (title, curves.as_slice(), marks),
-        Panel::Map { title, marks, .. } => (title, &[][..], marks),
+    let curve = |label, colour, stroke| (label, Sample::Curve(colour, stroke));
+    let (title, curves, marks): (_, Vec<(&str, Sample)>, _) = match panel {
+        Panel::Curves { title, curves, marks, .. } => {
+            (title, curves.iter().map(|c| curve(c.label.as_str(), c.colour, c.stroke)).collect(), marks)
+        }
+        Panel::Places { title, series, marks, .. } => {
+            (title, series.iter().map(|s| curve(s.label.as_str(), s.colour, s.stroke)).collect(), marks)
+        }
+        Panel::Map { title, marks, .. } => (title, Vec::new(), marks),
     };
-    let curves = curves.iter().map(|curve| (curve.label.as_str(), Sample::Curve(curve.colour, curve.stroke)));
     let marks = marks.iter().map(|mark| match mark {
         Mark::Level(label, _) => (label.as_str(), Sample::Level),
         Mark::Band(label, _) => (label.as_str(), Sample::Band),
         Mark::Point(label, _) => (label.as_str(), Sample::Point),
     });
-    (title, curves.chain(marks).filter(|(label, _)| !label.is_empty()).collect())
+    (title, curves.into_iter().chain(marks).filter(|(label, _)| !label.is_empty()).collect())
 }
 
 /// Draws title and legend in as many lines as they need; returns where they end.

@@ -90,6 +90,7 @@ fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
     let (_, area) = area.split_vertically(below);
     match panel {
         Panel::Curves { x, y, curves, marks, .. } => axes::curves(study, &area, x, y, curves, marks),
+        Panel::Places { x, y, series, marks, .. } => axes::places(&area, [x, y], series, marks),
         Panel::Map { x, y, value, marks, .. } => axes::map(study, &area, [x, y], value, marks),
     }
 }

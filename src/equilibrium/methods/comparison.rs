@@ -1,0 +1,291 @@
+//! The equilibrium by another method: the same questions as to [`crate::equilibrium::Equilibrium`].
+
+use std::sync::Arc;
+
+use nalgebra::{Vector3, Vector6};
+
+use super::engine::{Engine, Shape};
+use super::line::Line;
+use super::method::Method;
+use super::plane::Plane;
+use super::surroundings::Surroundings;
+use super::trace::{Totals, Trace};
+use crate::design::Design;
+use crate::equilibrium::correction::Report;
+use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
+use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::rules::PairRules;
+use crate::equilibrium::settings::{Interaction, Settings};
+use crate::equilibrium::source::Source;
+use crate::error::{Error, check};
+use crate::geometry::Pose;
+use crate::magnetics::{Assembly, Wrench};
+use crate::rod::Order;
+
+/// How often the rules of ring pairs may change at a solved shape.
+const RULE_CHOICES: u32 = 3;
+
+/// The equilibrium of a manipulator by one of the methods beside the potential one.
+///
+/// It starts straight, later from its own last solution. Where the whole change of the inputs does not converge, parts of
+/// it are tried ([`super::Discretisation::smallest_part`]). A clone is a full snapshot.
+///
+/// ```
+/// use mcm::design::{Design, Specification};
+/// use mcm::equilibrium::{Comparison, Inputs, Interaction, Method, Settings};
+/// let design = Design::new(Specification::paper(1))?;
+/// let settings = Settings { interaction: Interaction::None, method: Method::ShootingExact, ..Settings::default() };
+/// let mut shooting = Comparison::new(&design, None, settings, 11)?;
+/// let mut inputs = Inputs::unloaded(2);
+/// inputs.uniform_field.y = 0.02;
+/// assert!(shooting.solve(&inputs)?.solved);
+/// let angle = shooting.tip().axis().angle(&nalgebra::Vector3::z());
+/// assert!((angle.to_degrees() - 30.50).abs() < 0.01);
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Comparison {
+    line: Arc<Line>,
+    settings: Settings,
+    magnet: Option<Assembly>,
+    arc_lengths: Arc<Vec<f64>>,
+    rules: PairRules,
+    state: State,
+}
+
+/// What a solve changes.
+#[derive(Debug, Clone)]
+struct State {
+    engine: Engine,
+    inputs: Option<Inputs>,
+    shape: Shape,
+    /// External magnetic wrench, and what the clamp exerts.
+    wrenches: [Wrench; 2],
+}
+
+impl Comparison {
+    /// The straight manipulator; `shape_points` is the number of centreline points, at least 2.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for a method that cannot
+    /// solve the model asked for.
+    pub fn new(
+        design: &Design,
+        magnet: Option<&Assembly>,
+        settings: Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
+        let settings = settings.checked()?;
+        check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
+        let (own, other) = (settings.method.name(), Method::Potential.name());
+        if !settings.method.supports(settings.interaction) {
+            let level = settings.interaction.name();
+            let [none, rings] = [Interaction::None, Interaction::Rings].map(Interaction::name);
+            return Err(Error::Unsupported(format!(
+                "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
+            )));
+        }
+        if settings.bending_stop {
+            let stop = "bending stop, which acts between the ends of a core";
+            return Err(Error::Unsupported(format!("method \"{own}\" has no {stop}: choose \"{other}\"")));
+        }
+        let line = Line::new(design, &settings)?;
+        let state = State::straight(&line, &settings)?;
+        let total = design.length();
+        let arc_lengths = (0..shape_points).map(|i| total * i as f64 / (shape_points - 1) as f64).collect();
+        Ok(Self {
+            rules: PairRules::new(&line.chain, settings.pair_accuracy),
+            magnet: magnet.cloned(),
+            arc_lengths: Arc::new(arc_lengths),
+            line: Arc::new(line),
+            settings,
+            state,
+        })
+    }
+
+    /// Back to the straight shape at the origin; the last solution is forgotten.
+    pub fn reset(&mut self) {
+        if let Ok(state) = State::straight(&self.line, &self.settings) {
+            self.state = state;
+        }
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Solves at `inputs`, from the last solution or from straight. Nothing is said about stability.
+    ///
+    /// # Errors
+    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length,
+    /// [`Error::Unsupported`] for inputs that do not lie in a plane, if the method asks for that; the last solution is then
+    /// untouched, as it is when a solve fails, which is no error: see [`Report::solved`].
+    pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
+        inputs.check(self.line.chain.rings.len())?;
+        if self.settings.method == Method::Planar {
+            Plane::of(inputs, self.magnet.is_some() && inputs.magnet_strength != 0.0)?;
+        }
+        let before = self.state.clone();
+        let start = self.state.inputs.clone().unwrap_or_else(|| inputs.without_loads());
+        let smallest = self.settings.discretisation.smallest_part;
+        let mut report = Report::start();
+        let (mut done, mut part) = (0.0, 1.0);
+        while done < 1.0 && part >= smallest {
+            let next = f64::min(1.0, done + part);
+            let target = if next >= 1.0 { inputs.clone() } else { start.between(inputs, next) };
+            if self.attempt(&target, &mut report) {
+                (done, part) = (next, 2.0 * part);
+            } else {
+                part *= 0.5;
+            }
+        }
+        let answers = if done >= 1.0 { self.answers(inputs) } else { None };
+        let Some((energy, wrenches)) = answers else {
+            self.state = before;
+            return Ok(report);
+        };
+        self.state.inputs = Some(inputs.clone());
+        self.state.wrenches = wrenches;
+        (report.solved, report.energy) = (true, energy);
+        Ok(report)
+    }
+
+    /// One solve without further parts; whether it succeeded.
+    fn attempt(&mut self, inputs: &Inputs, report: &mut Report) -> bool {
+        let knobs = self.settings.discretisation;
+        let mut state = self.state.clone();
+        self.rules.choose(&self.line.chain, &state.shape.nodes);
+        for _ in 0..=RULE_CHOICES {
+            let around = self.around(inputs, self.magnet.as_ref());
+            let end = state.engine.solve(&around, &knobs);
+            report.iterations += end.iterations;
+            report.residual = end.residual;
+            if !end.converged {
+                return false;
+            }
+            let Some(shape) = state.engine.shape(&around, &knobs) else { return false };
+            state.shape = shape;
+            // The rules must be those of the solved shape, or the answer would depend on the way to it.
+            if !self.rules.choose(&self.line.chain, &state.shape.nodes) {
+                break;
+            }
+        }
+        self.state = state;
+        true
+    }
+
+    fn around<'a>(&'a self, inputs: &'a Inputs, magnet: Option<&'a Assembly>) -> Surroundings<'a> {
+        Surroundings {
+            line: &self.line,
+            interaction: self.settings.interaction,
+            inputs,
+            field: Source::external(magnet, inputs),
+            rules: &self.rules,
+        }
+    }
+
+    /// Pose of the tip: the distal face of the last body.
+    #[must_use]
+    pub fn tip(&self) -> Pose {
+        let nodes = &self.state.shape.nodes;
+        nodes[nodes.len() - 1].advanced(self.line.chain.tip_offset)
+    }
+
+    /// Poses of the rings' centres, base to tip.
+    pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
+        let nodes = &self.state.shape.nodes;
+        self.line.chain.rings.iter().map(|body| nodes[body.node].advanced(0.5 * body.ring.length))
+    }
+
+    /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.
+    pub fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.state.shape.trace.core_angles(&self.line).into_iter()
+    }
+
+    /// Unstrained arc length (m) and position (m) of the shape points, base to tip.
+    pub fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
+        self.arc_lengths.iter().map(|s| (*s, self.state.shape.trace.pose(*s).position))
+    }
+
+    /// Force and moment (about the base position) that the clamp exerts.
+    #[must_use]
+    pub fn base_reaction(&self) -> Wrench {
+        self.state.wrenches[1]
+    }
+
+    /// Total external magnetic wrench on the manipulator in the last solved shape, torque about the base position.
+    #[must_use]
+    pub fn magnetic_wrench(&self) -> Wrench {
+        self.state.wrenches[0]
+    }
+
+    /// Wrench on the external magnet about its centre.
+    #[must_use]
+    pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
+        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
+            return no_wrench();
+        }
+        let background = self.background(inputs).unwrap_or_else(no_wrench);
+        reaction_on_magnet(&self.magnetic_wrench(), &background, inputs)
+    }
+
+    /// External field (T) at a point, m; `None` inside a magnet.
+    #[must_use]
+    pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        Source::external(self.magnet.as_ref(), inputs).at(point)
+    }
+
+    /// What the background field alone does to the last solved shape.
+    fn background(&self, inputs: &Inputs) -> Option<Wrench> {
+        let around = self.around(inputs, None);
+        let shape = &self.state.shape;
+        let mut magnetic = shape.trace.totals(&around)?.magnetic;
+        for (index, body) in self.line.chain.rings.iter().enumerate() {
+            let node = &shape.nodes[body.node];
+            let load = around.on_ring(index, node, Order::Gradient)?;
+            add_wrench(&mut magnetic, &load.force, &load.moment(), &(node.position - inputs.base.position));
+        }
+        Some(magnetic)
+    }
+
+    /// Energy (J) of a shape, the external magnetic wrench on it, and what the clamp exerts.
+    fn answers(&self, inputs: &Inputs) -> Option<(f64, [Wrench; 2])> {
+        let around = self.around(inputs, self.magnet.as_ref());
+        let shape = &self.state.shape;
+        let Totals { mut magnetic, mut energy } = shape.trace.totals(&around)?;
+        let (loads, totals) = around.nodes(&shape.nodes, Order::Gradient)?;
+        for (load, node) in loads.iter().zip(&shape.nodes) {
+            energy += load.energy;
+            let on_ring = wrench(&load.magnetic);
+            add_wrench(
+                &mut magnetic,
+                &on_ring.force,
+                &on_ring.torque,
+                &(node.position - inputs.base.position),
+            );
+        }
+        Some((energy, [magnetic, wrench(&(totals[0] - shape.base))]))
+    }
+}
+
+impl State {
+    fn straight(line: &Line, settings: &Settings) -> Result<Self, Error> {
+        let engine = Engine::new(settings.method, line, &settings.discretisation).ok_or_else(|| {
+            Error::Unsupported("the potential method is not one of the other methods".into())
+        })?;
+        let (trace, nodes) = Trace::straight(line);
+        Ok(Self {
+            engine,
+            inputs: None,
+            shape: Shape { nodes, base: Vector6::zeros(), trace },
+            wrenches: [no_wrench(); 2],
+        })
+    }
+}
+
+/// Force and torque of a column.
+fn wrench(column: &Vector6<f64>) -> Wrench {
+    Wrench { force: column.fixed_rows::<3>(0).into_owned(), torque: column.fixed_rows::<3>(3).into_owned() }
+}

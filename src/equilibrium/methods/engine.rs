@@ -1,0 +1,95 @@
+//! What the methods have in common: they solve in given surroundings, from their own last solution.
+
+use nalgebra::Vector6;
+
+use super::arcs::Arcs;
+use super::collocation::Collocation;
+use super::line::Line;
+use super::method::{Discretisation, Method};
+use super::multiple_shooting::{self, Spatial};
+use super::node_shape::NodeShape;
+use super::planar::InPlane;
+use super::plane::Plane;
+use super::shooting::Shooting;
+use super::surroundings::Surroundings;
+use super::trace::Trace;
+use crate::geometry::Pose;
+use crate::numerics::levenberg_marquardt::Ending;
+
+/// A method and its last solution.
+#[derive(Debug, Clone)]
+pub(super) enum Engine {
+    Shooting(Shooting),
+    MultipleShooting(NodeShape),
+    Planar(NodeShape),
+    Collocation(Collocation),
+    Arcs(Arcs),
+}
+
+/// A solved shape.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    pub(super) nodes: Vec<Pose>,
+    /// Internal wrench behind the base node.
+    pub(super) base: Vector6<f64>,
+    pub(super) trace: Trace,
+}
+
+impl Engine {
+    /// Straight; `None` for the potential method, which is none of these.
+    pub(super) fn new(method: Method, line: &Line, knobs: &Discretisation) -> Option<Self> {
+        match method {
+            Method::Potential => None,
+            Method::ShootingPaper => Some(Self::Shooting(Shooting::new(false, knobs.steps))),
+            Method::ShootingExact => Some(Self::Shooting(Shooting::new(true, knobs.steps))),
+            Method::MultipleShooting => Some(Self::MultipleShooting(NodeShape::straight(line))),
+            Method::Planar => Some(Self::Planar(NodeShape::straight(line))),
+            Method::Collocation => Some(Self::Collocation(Collocation::straight(line, knobs))),
+            Method::ConstantCurvature => Some(Self::Arcs(Arcs::straight(line))),
+        }
+    }
+
+    /// Solves from the last solution, which stays as it was if that fails.
+    pub(super) fn solve(&mut self, around: &Surroundings<'_>, knobs: &Discretisation) -> Ending {
+        let base = &around.inputs.base;
+        let (tolerance, iterations) = (knobs.tolerance, knobs.iterations);
+        match self {
+            Self::Shooting(shooting) => shooting.solve(around, tolerance, iterations),
+            Self::MultipleShooting(shape) => {
+                *shape = shape.carried(base);
+                let space = Spatial::new(around, knobs.steps);
+                multiple_shooting::solve(around, &space, shape, tolerance, iterations)
+            }
+            Self::Planar(shape) => {
+                let Ok(plane) = Plane::of(around.inputs, around.has_magnet()) else {
+                    return Ending { converged: false, iterations: 0, residual: f64::INFINITY };
+                };
+                *shape = plane.carried(shape);
+                let plane = InPlane::new(around, plane, knobs.steps);
+                multiple_shooting::solve(around, &plane, shape, tolerance, iterations)
+            }
+            Self::Collocation(collocation) => collocation.solve(around, knobs),
+            Self::Arcs(arcs) => arcs.solve(around, tolerance, iterations),
+        }
+    }
+
+    /// The last solution, in the surroundings in which it was found.
+    pub(super) fn shape(&self, around: &Surroundings<'_>, knobs: &Discretisation) -> Option<Shape> {
+        let of_nodes =
+            |shape: &NodeShape, trace| Shape { nodes: shape.nodes.clone(), base: shape.wrenches[0], trace };
+        match self {
+            Self::Shooting(shooting) => shooting.shape(around),
+            Self::MultipleShooting(shape) => {
+                let trace = multiple_shooting::trace(around, &Spatial::new(around, knobs.steps), shape)?;
+                Some(of_nodes(shape, trace))
+            }
+            Self::Planar(shape) => {
+                let plane = Plane::of(around.inputs, around.has_magnet()).ok()?;
+                let plane = InPlane::new(around, plane, knobs.steps);
+                Some(of_nodes(shape, multiple_shooting::trace(around, &plane, shape)?))
+            }
+            Self::Collocation(collocation) => collocation.shape(around),
+            Self::Arcs(arcs) => arcs.shape(around),
+        }
+    }
+}

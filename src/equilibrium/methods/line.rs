@@ -1,0 +1,65 @@
+//! The chain as differential equations see it: rigid offset and spans of each element, one after another.
+
+use crate::design::{Design, Span};
+use crate::equilibrium::chain::Chain;
+use crate::equilibrium::settings::{Interaction, Settings};
+use crate::error::Error;
+
+/// A place on the deformable part of the chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Number of the element.
+    pub(super) element: usize,
+    /// Number of the span in it.
+    pub(super) piece: usize,
+    /// Arc length from the span's start, m.
+    pub(super) s: f64,
+}
+
+/// Nodes and rings of the chain with the spans between them.
+#[derive(Debug, Clone)]
+pub(super) struct Line {
+    /// Nodes and rings; its strain modes are not used.
+    pub(super) chain: Chain,
+    /// Spans of each element, base to tip.
+    pub(super) spans: Vec<Vec<Span>>,
+    /// Length of an element, the unit of lengths, m.
+    pub(super) length: f64,
+    /// Moment that bends an element by a radian, the unit of moments, N m.
+    pub(super) moment: f64,
+}
+
+impl Line {
+    pub(super) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
+        let plain = Settings { interaction: Interaction::None, degree: 0, bending_stop: false, ..*settings };
+        let chain = Chain::new(design, &plain)?;
+        let spans: Vec<Vec<Span>> = design
+            .segments()
+            .iter()
+            .zip(&chain.cores)
+            .flat_map(|(segment, (first, last))| {
+                let parts = last - first + 1;
+                let part = |span: &Span| Span { length: span.length / parts as f64, ..span.clone() };
+                vec![segment.spans.iter().map(part).collect(); parts]
+            })
+            .collect();
+        let (length, moment) = (chain.elements[0].length, chain.unit().powi(2));
+        Ok(Self { chain, spans, length, moment })
+    }
+
+    /// Number of elements.
+    pub(super) fn count(&self) -> usize {
+        self.spans.len()
+    }
+
+    /// Units of force (N) and moment (N m): those that bend an element by a radian.
+    pub(super) fn wrench_units(&self) -> [f64; 6] {
+        let force = self.moment / self.length;
+        [force, force, force, self.moment, self.moment, self.moment]
+    }
+
+    /// Units of a displacement (m) and a rotation (rad).
+    pub(super) fn pose_units(&self) -> [f64; 6] {
+        [self.length, self.length, self.length, 1.0, 1.0, 1.0]
+    }
+}

@@ -1,0 +1,24 @@
+//! Other methods, kept beside the potential one for a fair comparison: same scene in, same equilibrium out.
+
+mod arc;
+mod arcs;
+mod collocation;
+mod comparison;
+mod condensation;
+mod engine;
+mod line;
+mod mesh;
+mod method;
+mod multiple_shooting;
+mod node_shape;
+mod node_system;
+mod planar;
+mod plane;
+mod runge_kutta;
+mod shooting;
+mod strong_form;
+mod surroundings;
+mod trace;
+
+pub use comparison::Comparison;
+pub use method::{Discretisation, Method};

@@ -1,0 +1,66 @@
+//! The plane that holds base axis, field and loads, if there is one.
+
+use nalgebra::Vector3;
+
+use crate::equilibrium::inputs::Inputs;
+use crate::error::Error;
+use crate::geometry::Pose;
+use crate::magnetics::LinearField;
+
+/// How far a direction may stand out of the plane, relative to its size: rounding of orientations.
+const SLACK: f64 = 1e-9;
+
+/// A plane through the base and its axis.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane {
+    pub(super) base: Pose,
+    /// Unit vector in the plane, across the base's axis; towards it a turn about the normal is positive.
+    pub(super) across: Vector3<f64>,
+    pub(super) normal: Vector3<f64>,
+}
+
+impl Plane {
+    /// The plane of these inputs, with or without an external magnet.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] naming what stands out of any such plane.
+    pub(super) fn of(inputs: &Inputs, magnet: bool) -> Result<Self, Error> {
+        let base = inputs.base;
+        let axis = base.axis();
+        let field = LinearField::new(inputs.uniform_field, inputs.field_gradient);
+        let gradient = field.gradient();
+        let mut inside = vec![
+            ("background field", field.at(&base.position)),
+            ("field gradient", gradient * axis),
+            ("gravity", inputs.gravity),
+            ("tip force", inputs.tip_force),
+        ];
+        inside.extend(inputs.ring_forces.iter().map(|force| ("ring force", *force)));
+        if magnet {
+            inside.push(("magnet's axis", inputs.magnet.axis()));
+            inside.push(("magnet's position", inputs.magnet.position - base.position));
+        }
+        // Where a moment turns the tangent.
+        let turned = ("tip moment", inputs.tip_moment.cross(&axis));
+        let aside = |v: &Vector3<f64>| v - axis * v.dot(&axis);
+        let steep = |v: &Vector3<f64>| aside(v).norm() / v.norm().max(f64::MIN_POSITIVE);
+        let widest = inside.iter().chain([&turned]).max_by(|a, b| steep(&a.1).total_cmp(&steep(&b.1)));
+        let across = widest.filter(|(_, v)| steep(v) > SLACK).and_then(|(_, v)| aside(v).try_normalize(0.0));
+        let across = across.unwrap_or_else(|| base.rotation.column(1).into_owned());
+        let normal = axis.cross(&across);
+        inside.push(("field gradient", gradient * across));
+        // A gradient that leads out of the plane shows in two products of a matrix that is large.
+        let size = |name: &str, v: &Vector3<f64>| {
+            if name == "field gradient" { gradient.norm() } else { v.norm() }
+        };
+        let outside = inside.iter().find(|(name, v)| v.dot(&normal).abs() > SLACK * size(name, v));
+        let moment = inputs.tip_moment;
+        let about_other = (moment - normal * moment.dot(&normal)).norm() > SLACK * moment.norm();
+        match outside.map(|(name, _)| *name).or(about_other.then_some("tip moment's plane")) {
+            Some(name) => Err(Error::Unsupported(format!(
+                "method \"planar\": the {name} does not lie in one plane with the base's axis and the other loads"
+            ))),
+            None => Ok(Self { base, across, normal }),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! A solved shape as poses and strains along the arc, whatever the method: what the outputs are read from.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::line::{Line, Place};
+use super::strong_form::Rates;
+use super::surroundings::Surroundings;
+use crate::design::SpanKind;
+use crate::equilibrium::dead::{add_wrench, no_wrench};
+use crate::geometry::{Pose, RotationVector, rotation_log};
+use crate::magnetics::Wrench;
+use crate::numerics::quadrature::gauss_legendre;
+use crate::rod::{Matter, Order};
+
+/// Gauss points of a link when loads and energies are added up.
+const LINK_POINTS: usize = 3;
+
+/// A part of the centreline between two places where position and rotation are known with their rates: cubic in
+/// position and rotation vector.
+#[derive(Debug, Clone)]
+struct Link {
+    /// Where on the chain; `None` on a rigid part.
+    place: Option<Place>,
+    /// Unstrained arc length from the base to its start, and its length, m.
+    from: f64,
+    length: f64,
+    start: Pose,
+    /// Displacement from start to end, m, and rotation vector.
+    whole: [Vector3<f64>; 2],
+    /// Rates of both at start and end, times the length.
+    rates: [[Vector3<f64>; 2]; 2],
+}
+
+/// All links from base to tip.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Trace {
+    links: Vec<Link>,
+}
+
+/// Magnetic wrench about the base position and energies of the spans.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Totals {
+    pub(super) magnetic: Wrench,
+    pub(super) energy: f64,
+}
+
+/// Values of the cubic from `0` to `whole` with the slopes `rates`, and its slope.
+fn cubic(whole: &Vector3<f64>, rates: [&Vector3<f64>; 2], x: f64) -> [Vector3<f64>; 2] {
+    let (square, cube) = (x * x, x * x * x);
+    let value = whole * (3.0 * square - 2.0 * cube)
+        + rates[0] * (x - 2.0 * square + cube)
+        + rates[1] * (cube - square);
+    let slope = whole * (6.0 * (x - square))
+        + rates[0] * (1.0 - 4.0 * x + 3.0 * square)
+        + rates[1] * (3.0 * square - 2.0 * x);
+    [value, slope]
+}
+
+impl Link {
+    /// Pose at the part `x` of the link, with the rates of position and rotation (fixed axes) by `x`.
+    fn at(&self, x: f64) -> (Pose, Vector3<f64>, Vector3<f64>) {
+        let component = |c: usize| cubic(&self.whole[c], [&self.rates[0][c], &self.rates[1][c]], x);
+        let ([position, tangent], [theta, rate]) = (component(0), component(1));
+        let theta = RotationVector::new(theta);
+        let pose =
+            Pose { position: self.start.position + position, rotation: theta.matrix() * self.start.rotation };
+        (pose, tangent, theta.left_jacobian() * rate)
+    }
+}
+
+impl Trace {
+    /// The straight shape at the origin, and its nodes.
+    pub(super) fn straight(line: &Line) -> (Self, Vec<Pose>) {
+        let mut trace = Self::default();
+        let mut nodes = vec![Pose::identity()];
+        for (element, spans) in line.spans.iter().enumerate() {
+            let offset = line.chain.elements[element].offset;
+            trace.add_rigid(offset, &nodes[element]);
+            let mut pose = nodes[element].advanced(offset);
+            for (piece, span) in spans.iter().enumerate() {
+                let end = pose.advanced(span.length);
+                let rates =
+                    Rates { tangent: pose.axis(), turning: Vector3::zeros(), wrench: Vector6::zeros() };
+                trace.add(&Place { element, piece, s: 0.0 }, span.length, [&pose, &end], &[rates; 2]);
+                pose = end;
+            }
+            nodes.push(pose);
+        }
+        trace.add_rigid(line.chain.tip_offset, &nodes[line.count()]);
+        (trace, nodes)
+    }
+
+    fn reach(&self) -> f64 {
+        self.links.last().map_or(0.0, |link| link.from + link.length)
+    }
+
+    /// Appends a link on a span.
+    pub(super) fn add(&mut self, place: &Place, length: f64, ends: [&Pose; 2], rates: &[Rates; 2]) {
+        let turn = rotation_log(&(ends[1].rotation * ends[0].rotation.transpose()));
+        let inverse = RotationVector::new(turn).left_jacobian_inverse().unwrap_or_default();
+        let rate = |side: usize| rates[side].turning * length;
+        self.links.push(Link {
+            place: Some(*place),
+            from: self.reach(),
+            length,
+            start: *ends[0],
+            whole: [ends[1].position - ends[0].position, turn],
+            rates: [[rates[0].tangent * length, rate(0)], [rates[1].tangent * length, inverse * rate(1)]],
+        });
+    }
+
+    /// Appends a rigid part.
+    pub(super) fn add_rigid(&mut self, length: f64, start: &Pose) {
+        let along = start.axis() * length;
+        let rates = [along, Vector3::zeros()];
+        self.links.push(Link {
+            place: None,
+            from: self.reach(),
+            length,
+            start: *start,
+            whole: rates,
+            rates: [rates, rates],
+        });
+    }
+
+    /// Pose at unstrained arc length `s` from the base.
+    pub(super) fn pose(&self, s: f64) -> Pose {
+        let after = self.links.partition_point(|link| link.from <= s);
+        let Some(link) = self.links.get(after.saturating_sub(1)) else { return Pose::identity() };
+        let x = if link.length > 0.0 { (s - link.from) / link.length } else { 0.0 };
+        link.at(x.clamp(0.0, 1.0)).0
+    }
+
+    /// Bending angle of each core, or of each segment without one.
+    pub(super) fn core_angles(&self, line: &Line) -> Vec<f64> {
+        let core = |element: usize| {
+            line.spans[element].iter().position(|span| span.kind == SpanKind::Core).unwrap_or(0)
+        };
+        let axis = |link: Option<&Link>, x: f64| link.map_or(Vector3::z(), |link| link.at(x).0.axis());
+        let on = |link: &&Link, element: usize| {
+            link.place.is_some_and(|place| place.element == element && place.piece == core(element))
+        };
+        let angle = |&(first, last): &(usize, usize)| {
+            let start = axis(self.links.iter().find(|link| on(link, first)), 0.0);
+            start.angle(&axis(self.links.iter().rfind(|link| on(link, last)), 1.0))
+        };
+        line.chain.cores.iter().map(angle).collect()
+    }
+
+    /// Adds up what the spans feel and store.
+    pub(super) fn totals(&self, around: &Surroundings<'_>) -> Option<Totals> {
+        let (points, weights) = gauss_legendre(LINK_POINTS);
+        let mut out = Totals { magnetic: no_wrench(), energy: 0.0 };
+        let origin = around.inputs.base.position;
+        for (link, from) in self.links.iter().filter_map(|link| Some((link, link.place?))) {
+            let span = &around.line.spans[from.element][from.piece];
+            for (point, weight) in points.iter().zip(&weights) {
+                let x = 0.5 * (1.0 + point);
+                let weight = 0.5 * weight * link.length;
+                let place = Place { s: from.s + x * link.length, ..from };
+                let (pose, tangent, turning) = link.at(x);
+                let stretch = pose.rotation.tr_mul(&tangent) / link.length - Vector3::z();
+                let curvature = pose.rotation.tr_mul(&turning) / link.length;
+                let k = &span.stiffness;
+                let bent = Vector3::new(k.bending, k.bending, k.torsion).component_mul(&curvature);
+                let sheared = Vector3::new(k.shear, k.shear, k.axial).component_mul(&stretch);
+                let stored = 0.5 * (bent.dot(&curvature) + sheared.dot(&stretch));
+                let load = around.along(&place, &pose, Order::Gradient)?;
+                out.energy += weight * (stored + load.energy);
+                let matter = Matter::section(span, place.s);
+                let magnetic = around.magnetic(&matter, &pose, Order::Gradient)?;
+                let arm = pose.position - origin;
+                add_wrench(
+                    &mut out.magnetic,
+                    &(magnetic.force * weight),
+                    &(magnetic.moment() * weight),
+                    &arm,
+                );
+            }
+        }
+        Some(out)
+    }
+}

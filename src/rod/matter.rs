@@ -1,0 +1,43 @@
+//! The material of a station, or of a section per length.
+
+use super::moments::SectionMoments;
+use crate::design::Span;
+
+/// What has weight and magnetic moment at one place of the centreline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matter {
+    /// Moments of the material.
+    pub moments: SectionMoments,
+    /// Magnetisation of the material, A/m.
+    pub magnetisation: f64,
+    /// Density of the material, kg/m3.
+    pub density: f64,
+    /// Mass on the centreline (the backbone), kg.
+    pub line_mass: f64,
+}
+
+impl Matter {
+    /// Material of a length `weight` (m) of `span` with these moments.
+    pub(super) fn new(span: &Span, moments: SectionMoments, weight: f64) -> Self {
+        Self {
+            moments,
+            magnetisation: span.magnetisation,
+            density: span.density,
+            line_mass: span.line_density * weight,
+        }
+    }
+
+    /// Material per length of the section of `span` at arc length `s` (m) from its start.
+    #[must_use]
+    pub fn section(span: &Span, s: f64) -> Self {
+        let mut moments = SectionMoments::zero();
+        moments.add_section(span, s, 1.0);
+        Self::new(span, moments, 1.0)
+    }
+
+    /// The same material spread evenly around the centreline.
+    #[must_use]
+    pub fn axisymmetric(&self) -> Self {
+        Self { moments: self.moments.axisymmetric(), ..*self }
+    }
+}

@@ -1,0 +1,367 @@
+//! Error against time: methods by resolution, quadrature of the ring pairs and levels of interaction, beside references.
+//!
+//! The one study that looks at a clock: its times are those of one machine at one moment.
+
+use std::time::{Duration, Instant};
+
+use nalgebra::{Rotation3, Vector3};
+use serde::Serialize;
+
+use super::study::{Mark, Panel, Series, Stroke, Study};
+use crate::equilibrium::{Discretisation, Interaction, Method, Settings};
+use crate::error::Error;
+use crate::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
+
+/// Fields by name, as scenes state them: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
+const FIELDS: [(&str, &str); 3] = [
+    ("uniform 90 deg", "[field]\nuniform_mt = [0, 10, 0]"),
+    ("uniform 150 deg", "[field]\nuniform_mt = [0, 5, -8.660254038]"),
+    ("pair", "[magnet]\norientation_wxyz = [0, 1, 0, 0]"),
+];
+
+const SEGMENTS: [usize; 3] = [1, 3, 9];
+
+const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
+
+/// What is drawn: the paper's device beside its magnet.
+const DRAWN: (&str, usize, &str, &str) = ("pair", 9, "rings", "warm");
+
+/// One warm step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm.
+const TURN_DEG: f64 = 0.1;
+const PASSAGE: f64 = 1e-4;
+
+/// Centreline points of the outputs, as many as the FMU has by default.
+const SHAPE_POINTS: usize = 21;
+
+/// Every time is the least of at least so many solves, and of more until so much time has passed: whatever else the machine
+/// does only adds.
+const LEAST_SOLVES: usize = 3;
+const MOST_SOLVES: usize = 101;
+const BUDGET: Duration = Duration::from_millis(20);
+
+/// The reference: highest degree and finest quadrature; the same one step coarser tells how well it is known.
+const REFERENCE: (usize, f64) = (8, 1e-9);
+const COARSER: (usize, f64) = (7, 1e-8);
+
+/// Where other methods reach, collocation at this residual must confirm the reference, too.
+const CONFIRMING_RESIDUAL: f64 = 1e-6;
+
+/// Tips so far apart over the length are those of two equilibria, of which collocation, blind to stability, may find either.
+const ANOTHER_SHAPE: f64 = 1e-2;
+
+/// One way to solve one scene, its time and its errors.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Point {
+    /// The field.
+    pub field: &'static str,
+    /// Number of segments.
+    pub segments: usize,
+    /// Level of interaction of the reference.
+    pub interaction: &'static str,
+    /// `cold` from the straight shape or `warm` after a small step of the inputs.
+    pub start: &'static str,
+    /// The method, or the level of interaction if that is another one than the reference's.
+    pub name: &'static str,
+    /// How finely it resolves.
+    pub resolution: String,
+    /// Least time of a solve with all outputs, microseconds; `None` where it has not solved.
+    pub time_us: Option<f64>,
+    /// Error of the tip's position over the length.
+    pub tip_over_length: Option<f64>,
+    /// Error of the tip's angle, deg.
+    pub angle_deg: Option<f64>,
+    /// Error of magnetic force and torque (over the length), relative to both.
+    pub wrench_relative: Option<f64>,
+    /// How well the reference's tip position is known, over the length.
+    pub reference_over_length: Option<f64>,
+}
+
+impl Point {
+    /// Time and error of the tip's position, no smaller than the reference is known; `None` where it has not solved.
+    #[must_use]
+    pub fn place(&self) -> Option<[f64; 2]> {
+        Some([self.time_us?, self.tip_over_length?.max(self.reference_over_length?)])
+    }
+
+    /// Whether both solve the same scene from the same start.
+    #[must_use]
+    pub fn beside(&self, other: &Self) -> bool {
+        let case = |point: &Self| (point.field, point.segments, point.interaction, point.start);
+        case(self) == case(other)
+    }
+}
+
+/// Those of points of one scene and start that no other one beats in time and error, fastest first.
+#[must_use]
+pub fn front<'a>(points: impl IntoIterator<Item = &'a Point>) -> Vec<&'a Point> {
+    let mut solved: Vec<(&Point, [f64; 2])> =
+        points.into_iter().filter_map(|point| Some((point, point.place()?))).collect();
+    solved.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+    let mut best = f64::INFINITY;
+    solved.retain(|(_, [_, error])| {
+        let better = *error < best;
+        best = best.min(*error);
+        better
+    });
+    solved.into_iter().map(|(point, _)| point).collect()
+}
+
+/// One way to solve a scene.
+struct Trial {
+    name: &'static str,
+    resolution: String,
+    settings: Settings,
+}
+
+/// A scene with its second inputs, one step away.
+struct Case {
+    field: &'static str,
+    segments: usize,
+    scene: Scene,
+    moved: Inputs,
+    length: f64,
+}
+
+/// All points, every case calling `done` once: 27 cases of cold and warm solves, one thread. A case without a reference, as
+/// where the rings snap together, has one point, without numbers.
+///
+/// # Errors
+/// None for these scenes; those of the solves are passed on.
+pub fn accuracy(done: impl Fn()) -> Result<Vec<Point>, Error> {
+    let mut points = Vec::new();
+    for (field, table) in FIELDS {
+        for segments in SEGMENTS {
+            for level in LEVELS {
+                points.extend(Case::new(field, table, segments, level)?.points()?);
+                done();
+            }
+        }
+    }
+    Ok(points)
+}
+
+impl Case {
+    /// How many there are.
+    const COUNT: usize = FIELDS.len() * SEGMENTS.len() * LEVELS.len();
+
+    fn new(field: &'static str, table: &str, segments: usize, level: Interaction) -> Result<Self, Error> {
+        let model = format!("[model]\ninteraction = \"{}\"", level.name());
+        let scene = Scene::parse(&format!("{table}\n[design]\nsegments = {segments}\n{model}"), field)?;
+        let mut moved = scene.inputs.clone();
+        let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), TURN_DEG.to_radians());
+        moved.uniform_field = turn * moved.uniform_field;
+        moved.magnet.position.z += PASSAGE;
+        let length = scene.design()?.length();
+        Ok(Self { field, segments, scene, moved, length })
+    }
+
+    fn points(&self) -> Result<Vec<Point>, Error> {
+        let base = self.scene.settings;
+        let fine = |(degree, pair_accuracy)| Settings { degree, pair_accuracy, ..base };
+        let (Some(reference), Some(coarser)) =
+            (self.reference(fine(REFERENCE))?, self.reference(fine(COARSER))?)
+        else {
+            return Ok(vec![self.empty("reference", "not solved", "cold")]);
+        };
+        let mut doubt = self.tip_error(&coarser, &reference);
+        if Method::Collocation.supports(base.interaction) {
+            let discretisation = Discretisation {
+                mesh_tolerance: CONFIRMING_RESIDUAL,
+                tolerance: 1e-11,
+                ..Discretisation::default()
+            };
+            let confirming = Settings { method: Method::Collocation, discretisation, ..fine(REFERENCE) };
+            let mut manipulator = self.manipulator(confirming)?;
+            let outputs = manipulator.solve(&self.scene.inputs)?;
+            let apart = self.tip_error(outputs, &reference);
+            if outputs.status != Status::NotSolved && apart < ANOTHER_SHAPE {
+                doubt = doubt.max(apart);
+            }
+        }
+        let mut points = Vec::new();
+        for trial in trials(base) {
+            for start in ["cold", "warm"] {
+                points.push(self.point(&trial, start, &reference, doubt)?);
+            }
+        }
+        Ok(points)
+    }
+
+    fn manipulator(&self, settings: Settings) -> Result<Manipulator, Error> {
+        Scene { settings, ..self.scene.clone() }.manipulator(SHAPE_POINTS)
+    }
+
+    fn reference(&self, settings: Settings) -> Result<Option<Outputs>, Error> {
+        let mut manipulator = self.manipulator(settings)?;
+        let outputs = manipulator.solve(&self.scene.inputs)?;
+        Ok((outputs.status != Status::NotSolved).then(|| outputs.clone()))
+    }
+
+    /// A point without numbers.
+    fn empty(&self, name: &'static str, resolution: &str, start: &'static str) -> Point {
+        Point {
+            field: self.field,
+            segments: self.segments,
+            interaction: self.scene.settings.interaction.name(),
+            start,
+            name,
+            resolution: resolution.into(),
+            time_us: None,
+            tip_over_length: None,
+            angle_deg: None,
+            wrench_relative: None,
+            reference_over_length: None,
+        }
+    }
+
+    fn tip_error(&self, outputs: &Outputs, reference: &Outputs) -> f64 {
+        (outputs.tip.position - reference.tip.position).norm() / self.length
+    }
+
+    fn point(
+        &self,
+        trial: &Trial,
+        start: &'static str,
+        reference: &Outputs,
+        doubt: f64,
+    ) -> Result<Point, Error> {
+        let mut manipulator = self.manipulator(trial.settings)?;
+        let mut solved = true;
+        let mut solve = |inputs: &Inputs, cold: bool| {
+            if cold {
+                manipulator.reset();
+            }
+            let begin = Instant::now();
+            solved &= manipulator.solve(inputs)?.status != Status::NotSolved;
+            Ok::<f64, Error>(begin.elapsed().as_secs_f64())
+        };
+        let (begin, mut count, mut time) = (Instant::now(), 0, f64::INFINITY);
+        if start == "warm" {
+            solve(&self.scene.inputs, true)?;
+        }
+        while count < LEAST_SOLVES || (count < MOST_SOLVES && begin.elapsed() < BUDGET) {
+            let next = if start == "warm" {
+                0.5 * (solve(&self.moved, false)? + solve(&self.scene.inputs, false)?) // forth and back
+            } else {
+                solve(&self.scene.inputs, true)?
+            };
+            (count, time) = (count + 1, time.min(next));
+        }
+        let outputs = manipulator.outputs();
+        let point = self.empty(trial.name, &trial.resolution, start);
+        if !solved {
+            return Ok(Point { reference_over_length: Some(doubt), ..point });
+        }
+        let wrench = |a: &Outputs, b: Option<&Outputs>| {
+            let other = |pick: fn(&Outputs) -> Vector3<f64>| b.map_or_else(Vector3::zeros, pick);
+            (a.magnetic_force - other(|o| o.magnetic_force)).norm()
+                + (a.magnetic_torque - other(|o| o.magnetic_torque)).norm() / self.length
+        };
+        Ok(Point {
+            time_us: Some(1e6 * time),
+            tip_over_length: Some(self.tip_error(outputs, reference)),
+            angle_deg: Some((outputs.tip_angle - reference.tip_angle).abs().to_degrees()),
+            wrench_relative: Some(wrench(outputs, Some(reference)) / wrench(reference, None)),
+            reference_over_length: Some(doubt),
+            ..point
+        })
+    }
+}
+
+/// All ways to solve a scene with the level of interaction of `base`.
+fn trials(base: Settings) -> Vec<Trial> {
+    let level = base.interaction;
+    let mut out = Vec::new();
+    let mut add = |name, resolution: String, settings| out.push(Trial { name, resolution, settings });
+    // Without pairs there is nothing to be more or less accurate but the rings in the magnet's field.
+    let every = [1e-2, 1e-3, 1e-5, 1e-7];
+    let own = [base.pair_accuracy];
+    let accuracies = if level == Interaction::None { &own[..] } else { &every };
+    for degree in [0, 2, 4, 6] {
+        for &pair_accuracy in accuracies {
+            let resolution = format!("degree {degree}, pairs {pair_accuracy:.0e}");
+            add("potential", resolution, Settings { degree, pair_accuracy, ..base });
+        }
+    }
+    for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(level)) {
+        let with = |discretisation| Settings { method: *method, discretisation, ..base };
+        let default = Discretisation::default();
+        match method {
+            Method::Potential => {}
+            Method::ConstantCurvature => add(name, "one arc a core".into(), with(default)),
+            Method::Collocation => {
+                for mesh_tolerance in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
+                    let resolution = format!("residual {mesh_tolerance:.0e}");
+                    add(name, resolution, with(Discretisation { mesh_tolerance, ..default }));
+                }
+            }
+            _ => {
+                for steps in [2, 4, 8, 16, 32] {
+                    add(name, format!("{steps} steps a core"), with(Discretisation { steps, ..default }));
+                }
+            }
+        }
+    }
+    if level == Interaction::Full {
+        for (name, interaction) in [("level none", Interaction::None), ("level rings", Interaction::Rings)] {
+            add(name, "degree 2".into(), Settings { interaction, ..base });
+        }
+    }
+    out
+}
+
+/// How many times [`accuracy`] calls.
+#[must_use]
+pub fn accuracy_cases() -> usize {
+    Case::COUNT
+}
+
+/// The picture: nine segments beside the magnet pair, and what others (label, colour, time in microseconds and error of the
+/// angle in rad) reach on a dipole at the tip of one core.
+#[must_use]
+pub fn accuracy_picture(points: &[Point], peers: Vec<Series>) -> Study {
+    let (field, segments, level, start) = DRAWN;
+    let drawn: Vec<&Point> = points
+        .iter()
+        .filter(|p| (p.field, p.segments, p.interaction, p.start) == (field, segments, level, start))
+        .collect();
+    let mut series: Vec<Series> = Vec::new();
+    for (name, colour, stroke) in [
+        ("potential", 0, Stroke::Dots),
+        ("collocation", 2, Stroke::Solid),
+        ("multiple-shooting", 3, Stroke::Solid),
+        ("shooting", 1, Stroke::Solid),
+        ("shooting-fd", 1, Stroke::Dashed),
+        ("planar", 4, Stroke::Solid),
+        ("constant-curvature", 5, Stroke::Dots),
+    ] {
+        let places = drawn.iter().filter(|p| p.name == name).filter_map(|p| p.place()).collect();
+        series.push(Series { label: name.into(), colour, stroke, places });
+    }
+    let known = drawn.first().and_then(|p| p.reference_over_length);
+    let known = known.map(|error| Mark::Level("as well as it is known".into(), error));
+    let best = front(drawn.iter().copied()).into_iter().filter_map(Point::place).enumerate();
+    let label = |i: usize| if i == 0 { "nobody is faster and better".into() } else { String::new() };
+    let mut panels = vec![Panel::Places {
+        title: "nine segments beside the magnet pair, rings".into(),
+        x: "time of a warm solve (us)".into(),
+        y: "error of the tip over the length".into(),
+        series,
+        marks: best.map(|(i, place)| Mark::Point(label(i), place)).chain(known).collect(),
+    }];
+    if !peers.is_empty() {
+        panels.push(Panel::Places {
+            title: "one core with a dipole at its tip".into(),
+            x: "time of a solve (us)".into(),
+            y: "error of the angle (rad)".into(),
+            series: peers,
+            marks: Vec::new(),
+        });
+    }
+    Study {
+        title: "Error against time: left and below is better",
+        columns: vec![],
+        panels,
+        comparison: vec![],
+    }
+}
