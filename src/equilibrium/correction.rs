@@ -220,7 +220,9 @@ impl Walk<'_> {
         }
         if let Some(last) = earlier.last() {
             let stretch = 1.0 / (1.0 - along(last, step));
-            step.iter_mut().for_each(|z| *z *= stretch);
+            for z in &mut *step {
+                *z *= stretch;
+            }
         }
         let length = norm(metric, step) / self.scene.chain.unit();
         self.scratch.steps = steps;

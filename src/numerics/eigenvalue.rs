@@ -52,7 +52,9 @@ impl Lanczos {
         let most = search.vectors.min(size);
         if basis.len() < most || image.len() != size {
             basis.resize(most, Vec::new());
-            basis.iter_mut().for_each(|vector| vector.resize(size, 0.0));
+            for vector in basis.iter_mut() {
+                vector.resize(size, 0.0);
+            }
             image.resize(size, 0.0);
         }
         image.copy_from_slice(vector);

@@ -102,11 +102,11 @@ fn solve(criterion: &mut Criterion<CpuTime>) {
 /// What a control loop may ask for: a setting for it, its worst error along the walk, and its time.
 fn targets(criterion: &mut Criterion<CpuTime>) {
     let uniform_scene = scene(1, "rings", "[field]");
-    target(criterion, "S=1 rings uniform, 0.1 mm", uniform_scene.clone(), &uniform(&uniform_scene), COARSE);
+    target(criterion, "S=1 rings uniform, 0.1 mm", &uniform_scene, &uniform(&uniform_scene), COARSE);
     let passed = scene(9, "rings", PAIR);
-    target(criterion, "S=9 rings pair, 0.1 mm", passed.clone(), &passing(&passed), COARSE);
+    target(criterion, "S=9 rings pair, 0.1 mm", &passed, &passing(&passed), COARSE);
     let passed = scene(9, "full", PAIR);
-    target(criterion, "S=9 full pair, 1 um", passed.clone(), &passing(&passed), MICROMETRE);
+    target(criterion, "S=9 full pair, 1 um", &passed, &passing(&passed), MICROMETRE);
 }
 
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
@@ -125,7 +125,7 @@ const RICHEST: fn(&mut Settings) = |settings| {
 fn target(
     criterion: &mut Criterion<CpuTime>,
     name: &str,
-    scene: Scene,
+    scene: &Scene,
     path: &[Inputs],
     set: fn(&mut Settings),
 ) {

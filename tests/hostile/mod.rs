@@ -1,5 +1,5 @@
 //! The C interface in hostile hands: what the property test here does for a moment, `record.rs` does for long and the
-//! fuzz target in `fuzz/` under AddressSanitizer, led by coverage.
+//! fuzz target in `fuzz/` under a sanitizer, led by coverage.
 #![allow(unsafe_code, reason = "the functions under test take raw pointers")]
 
 pub(crate) mod host;

@@ -8,6 +8,7 @@
 #![allow(unsafe_code, reason = "the functions under test take raw pointers")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a broken promise stops the run")]
 #![allow(clippy::print_stdout, reason = "tells what it measured")]
+#![allow(clippy::wildcard_imports, reason = "types and functions of the standard, named by its prefix")]
 #![allow(missing_docs, reason = "a program")]
 
 mod host;
@@ -42,7 +43,7 @@ fn main() -> ExitCode {
     let number = |at: usize| arguments.get(at).and_then(|text| text.parse::<u64>().ok());
     match (arguments.first().map(String::as_str), number(1)) {
         (Some("calls"), Some(count)) => {
-            calls(count, number(2).unwrap_or(0), Duration::from_secs(number(3).unwrap_or(1)))
+            calls(count, number(2).unwrap_or(0), Duration::from_secs(number(3).unwrap_or(1)));
         }
         (Some("cycles"), Some(count)) => cycles(count),
         (Some("steps"), Some(count)) => steps(count),

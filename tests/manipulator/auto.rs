@@ -113,7 +113,8 @@ fn is_within_its_tolerance_of_the_richest_model() {
                 .then(|| (number, parts(&scene.auto, own, judge), own.interaction, own.error_estimate > 0.0))
         })
         .collect();
-    let share = |holds: &dyn Fn(&(u64, f64, Interaction, bool)) -> bool| {
+    type Compared = (u64, f64, Interaction, bool);
+    let share = |holds: &dyn Fn(&Compared) -> bool| {
         compared.iter().filter(|row| holds(row)).count() as f64 / compared.len() as f64
     };
     for (level, name, _) in Interaction::ALL {

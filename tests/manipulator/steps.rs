@@ -55,7 +55,9 @@ fn a_warm_step_allocates_nothing() {
         // The first steps fill the storage.
         let path: Vec<Inputs> = (0..STEPS).map(|step| at(&scene, motion, step)).collect();
         let (first, rest) = path.split_at(10);
-        first.iter().for_each(|inputs| solved(&mut manipulator, inputs));
+        for inputs in first {
+            solved(&mut manipulator, inputs);
+        }
         let mut margins = Vec::with_capacity(rest.len());
         let allocated = measure(|| {
             for inputs in rest {

@@ -44,12 +44,12 @@ impl Host<'_> {
         }
         let sound = (name, kind, guid) == (NAME.as_ptr(), CO_SIMULATION, self.designs[design].guid.as_ptr())
             && location == self.designs[design].location.as_ptr();
-        let start = processor_time();
+        let start = ThreadTime::now();
         // SAFETY: texts are null or zero-terminated, `callbacks` is null or points to callbacks.
         let handle = unsafe {
             fmi2Instantiate(name, kind, guid, location, callbacks, 0, i32::from(self.draw.byte() & 1))
         };
-        self.count("fmi2Instantiate", processor_time() - start);
+        self.count("fmi2Instantiate", start.elapsed());
         let said = logger::take(environment);
         assert_eq!(!handle.is_null(), sound, "{said:?}");
         assert!(sound || callbacks.is_null() || said.len() == 1, "an instantiation was refused in silence");
@@ -70,9 +70,9 @@ impl Host<'_> {
     }
 
     pub(super) fn free(&mut self, guest: &Guest) {
-        let start = processor_time();
+        let start = ThreadTime::now();
         fmi2FreeInstance(guest.handle);
-        self.count("fmi2FreeInstance", processor_time() - start);
+        self.count("fmi2FreeInstance", start.elapsed());
         assert!(logger::take(guest.environment).is_empty());
     }
 

@@ -1,6 +1,7 @@
 //! A host without manners: bytes become calls of the C interface, and after each call it checks what the FMU promises.
 //!
 //! The property test, the recorded run and the fuzz target share it.
+#![allow(clippy::wildcard_imports, reason = "types and functions of the standard, named by its prefix")]
 
 mod design;
 
@@ -19,6 +20,7 @@ mod values;
 use std::sync::atomic::AtomicUsize;
 use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use mcm::fmi::bindings::*;
 
 pub(crate) use design::Design;
@@ -142,9 +144,9 @@ impl<'a> Host<'a> {
         name: &'static str,
         work: impl FnOnce(fmi2Component) -> fmi2Status,
     ) -> fmi2Status {
-        let start = processor_time();
+        let start = ThreadTime::now(); // on a busy machine, waiting is no fault of the FMU
         let status = work(guest.handle);
-        let took = processor_time() - start;
+        let took = start.elapsed();
         self.count(name, took);
         self.tally.endings[status.0 as usize] += 1; // out of range: no status of the standard for a finished call
         let said = logger::take(guest.environment);
@@ -179,12 +181,4 @@ impl<'a> Host<'a> {
             assert!(!message.contains("internal failure"), "{name}: {message}");
         }
     }
-}
-
-/// Time that this thread has worked: on a busy machine, waiting is no fault of the FMU.
-fn processor_time() -> Duration {
-    let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
-    // SAFETY: one value is written.
-    unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut time) };
-    Duration::new(time.tv_sec.unsigned_abs(), u32::try_from(time.tv_nsec).unwrap_or_default())
 }

@@ -29,19 +29,7 @@ impl Host<'_> {
         let to = if self.draw.once_in(16) { ptr::null_mut() } else { &raw mut state };
         // SAFETY: null, or one handle.
         let status = self.call(guest, "fmi2GetFMUstate", |it| unsafe { fmi2GetFMUstate(it, to) });
-        self.keep(guest, status, before, state);
-    }
-
-    /// Notes a state that the FMU has given.
-    fn keep(&mut self, guest: &mut Guest, status: fmi2Status, before: fmi2FMUstate, now: fmi2FMUstate) {
-        if status != OK {
-            assert_eq!(now, before, "refused, and written");
-        } else if before.is_null() {
-            assert!(!now.is_null() && !guest.states.contains(&now), "a state of its own");
-            guest.states.push(now);
-        } else {
-            assert_eq!(now, before);
-        }
+        guest.keep(status, before, state);
     }
 
     pub(super) fn restore(&mut self, guest: &mut Guest) {
@@ -120,6 +108,20 @@ impl Host<'_> {
             unsafe { fmi2DeSerializeFMUstate(it, from.cast(), length, to) }
         });
         assert!(status != OK || self.blobs.contains(&blob), "a state that was altered is taken");
-        self.keep(guest, status, before, state);
+        guest.keep(status, before, state);
+    }
+}
+
+impl Guest {
+    /// Notes a state that the FMU has given.
+    fn keep(&mut self, status: fmi2Status, before: fmi2FMUstate, now: fmi2FMUstate) {
+        if status != OK {
+            assert_eq!(now, before, "refused, and written");
+        } else if before.is_null() {
+            assert!(!now.is_null() && !self.states.contains(&now), "a state of its own");
+            self.states.push(now);
+        } else {
+            assert_eq!(now, before);
+        }
     }
 }
