@@ -99,6 +99,9 @@ fn parts(settings: &Settings, a: &Outputs, b: &Outputs) -> f64 {
     (gap.distance / settings.tolerance_position).max(gap.angle / settings.tolerance_angle)
 }
 
+/// Seed, loss in parts of the tolerance, level, and whether another level was asked.
+type Compared = (u64, f64, Interaction, bool);
+
 #[test]
 fn is_within_its_tolerance_of_the_richest_model() {
     let compared: Vec<(u64, f64, Interaction, bool)> = (0..SCENES)
@@ -113,7 +116,6 @@ fn is_within_its_tolerance_of_the_richest_model() {
                 .then(|| (number, parts(&scene.auto, own, judge), own.interaction, own.error_estimate > 0.0))
         })
         .collect();
-    type Compared = (u64, f64, Interaction, bool);
     let share = |holds: &dyn Fn(&Compared) -> bool| {
         compared.iter().filter(|row| holds(row)).count() as f64 / compared.len() as f64
     };
