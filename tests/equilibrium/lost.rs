@@ -1,6 +1,7 @@
 //! The rows of `statics_dev.json` that are expected failures: their branch folds before the inputs are reached.
 
 use mcm::equilibrium::{Equilibrium, Inputs, Report};
+use mcm::manipulator::{Scene, Status};
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::rows::{Row, list, number, row, rows, vector};
@@ -151,4 +152,14 @@ fn smallest_eigenvalue(equilibrium: &mut Equilibrium, inputs: &Inputs) -> f64 {
             .for_each(|(e, (v, k))| *e = v * k.sqrt());
     }
     1.0 / SymmetricEigen::new((&inverse + inverse.transpose()) * 0.5).eigenvalues.max()
+}
+
+#[test]
+fn a_solve_ends_with_its_budget() {
+    let mut scene =
+        Scene::parse("[design]\nsegments = 3\n[field]\nuniform_mt = [0.0, 20.0, 0.0]", "bent").unwrap();
+    let status = |scene: &Scene| scene.manipulator(2).unwrap().solve(&scene.inputs).unwrap().status;
+    assert_eq!(status(&scene), Status::Solved);
+    scene.settings.iterations = 1;
+    assert_eq!(status(&scene), Status::NotSolved);
 }

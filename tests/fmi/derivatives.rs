@@ -188,3 +188,12 @@ fn at_a_fold_there_are_no_derivatives_and_the_log_says_so() {
     });
     assert!(found && (high / euler - 1.0).abs() < 0.01, "{low} {high} {euler}");
 }
+
+#[test]
+fn derivatives_beyond_all_numbers_are_refused() {
+    let (mut instance, table, told) = initialised(BENT);
+    let (angle, field) = (reference(&table, "tip.angle"), reference(&table, "field.uniform[2]"));
+    assert_eq!(instance.directional_derivative(&[angle], &[field], &[f64::MAX]), Err(Ending::Error));
+    assert!(last(&told).contains("too large"), "{}", last(&told));
+    assert!(instance.directional_derivative(&[angle], &[field], &[1.0]).unwrap()[0] > 1.0);
+}

@@ -195,3 +195,14 @@ fn log_categories_are_those_declared() {
     assert_eq!(instance.set_debug_logging(true, &["logNothing"]), Ending::Error);
     assert!(last(&told).contains("logNothing"));
 }
+
+#[test]
+fn a_step_that_ends_nowhere_is_refused() {
+    let (mut instance, _, told) = initialised(BENT);
+    for (time, step) in [(1e308, 1e308), (0.0, f64::INFINITY), (f64::NAN, 0.1), (0.0, -0.1)] {
+        assert_eq!(instance.do_step(time, step), Ending::Error);
+        assert!(last(&told).ends_with("is none"), "{}", last(&told));
+    }
+    assert_eq!(instance.time().to_bits(), 0);
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+}

@@ -13,9 +13,6 @@ use rayon::prelude::*;
 
 use crate::equilibrium::rows::pair;
 
-/// Number of a scene, error over the tolerance, level that answered, whether that was a cheaper one.
-type Compared = (u64, f64, Interaction, bool);
-
 const SCENES: u64 = 300;
 
 /// A design, what acts on it, and tolerances.
