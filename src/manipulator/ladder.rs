@@ -97,7 +97,11 @@ impl Ladder {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let rungs = rungs(&settings, design.rings().next().is_some());
+        let rungs = if settings.interaction == Interaction::Auto {
+            models_of_auto(&settings, design.rings().next().is_some())
+        } else {
+            vec![settings]
+        };
         let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
         Ok(Self {
             rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
@@ -292,11 +296,9 @@ impl Ladder {
     }
 }
 
-/// Settings of the rungs, cheapest first, the user's own last.
-fn rungs(settings: &Settings, has_rings: bool) -> Vec<Settings> {
-    if settings.interaction != Interaction::Auto {
-        return vec![*settings];
-    }
+/// Settings of the models that the level `auto` chooses from, cheapest first, for a design with free rings or without.
+#[must_use]
+pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
     let coarse = settings.pair_accuracy.max(COARSE);
     let iterations = settings.iterations.min(CHEAP);
     let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };

@@ -10,5 +10,6 @@ mod solver;
 pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use branch::{Branch, Fold};
 pub use device::{Manipulator, Snapshot};
+pub use ladder::models_of_auto;
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};

@@ -3,6 +3,7 @@
 mod accuracy;
 mod comparison;
 mod failure;
+mod fidelity;
 mod field;
 mod files;
 mod pack;

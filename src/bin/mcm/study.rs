@@ -9,16 +9,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 use mcm::error::Error;
 use mcm::studies;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, comparison, picture};
+use super::{accuracy, comparison, fidelity, picture};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
     after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` \
-measures times, which differ from run to run, and is no part of it.\n\n\
+and `fidelity` measure times, which differ from run to run, and are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -57,12 +58,14 @@ enum Name {
     Hysteresis,
     /// Error against time of all methods, and who is on the front
     Accuracy,
+    /// What the level auto saves, by tolerance
+    Fidelity,
     /// Every figure
     All,
 }
 
 impl Name {
-    /// The study of this name; `None` for all, and for that of times.
+    /// The study of this name; `None` for all, and for those of times.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -74,7 +77,7 @@ impl Name {
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
-            Self::Accuracy | Self::All => None,
+            Self::Accuracy | Self::Fidelity | Self::All => None,
         }
     }
 
@@ -91,6 +94,9 @@ impl Study {
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
         if self.name == Name::Accuracy {
             return accuracy::run(&self.out, self.peers.as_deref());
+        }
+        if self.name == Name::Fidelity {
+            return fidelity::run(&self.out);
         }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
@@ -131,6 +137,24 @@ fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
     }
     table.flush()?;
     Ok(())
+}
+
+/// Leaves rows, picture and a Markdown table as NAME.csv, NAME.png and NAME.md in `out`, and prints the last.
+pub(super) fn leave(
+    out: &Path,
+    name: &str,
+    rows: &[impl Serialize],
+    picture: &studies::Study,
+    markdown: &str,
+) -> Result<ExitCode, Failure> {
+    let file = |ending: &str| out.join(name).with_extension(ending);
+    let mut table = create_table(&file("csv"))?;
+    rows.iter().try_for_each(|row| table.serialize(row))?;
+    table.flush()?;
+    picture::write(picture, &file("png"))?;
+    std::fs::write(file("md"), markdown)?;
+    std::io::stdout().write_all(markdown.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Hidden when standard error is no terminal.
