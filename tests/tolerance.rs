@@ -242,6 +242,12 @@ pub(crate) const METHOD_BALANCE: f64 = 5e-4;
 /// Bending moment of spans on spans, which no level counts, over the elastic one: an estimate by slices (0.094 to 0.107).
 pub(crate) const SPANS_AMONG_THEMSELVES: f64 = 0.01;
 
+/// Equations of order one that Newton's method has solved until a correction is 1e-8, the next one its square.
+pub(crate) const ON_BRANCH: f64 = 1e-14;
+
+/// Parameter at singular points, of order one: located until what vanishes there is 1e-10.
+pub(crate) const SINGULAR: f64 = 1e-9;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)
