@@ -32,10 +32,13 @@ const GROW: f64 = 1.6;
 const FIRST: f64 = 0.1;
 const SHORTEST: f64 = 1e-6;
 
-/// A singular point is found when what vanishes there is this small, or its interval this part of the step.
+/// A singular point is located until what vanishes there is this small, or its interval this part of the step.
 const VANISHED: f64 = 1e-10;
 
-/// Halvings and secants at most on the way there.
+/// What does not vanish to this has jumped: the step has led to another branch.
+const JUMPED: f64 = 1e-6;
+
+/// Secants at most on the way to a singular point.
 const SECANTS: u32 = 60;
 
 /// A potential that depends on one parameter, in variables that are scaled to order one.
@@ -244,7 +247,8 @@ fn bordered(local: &Local, normal: &DVector<f64>) -> DMatrix<f64> {
     out
 }
 
-/// The singular point within a step, if there is one; `None` if there are several, which a shorter step tells apart.
+/// The singular point within a step, if there is one; `None` if there are several, or none where there should be one
+/// because the step has led to another branch: a shorter one tells.
 fn between(
     family: &mut impl Family,
     here: &Point,
@@ -285,7 +289,7 @@ fn locate(
         let guess = here.place() + &here.tangent * middle;
         let Some((point, _)) = correct(family, guess, &here.tangent)? else { break };
         let value = measure(&point);
-        found = Some(Point { kind, ..point });
+        found = (value.abs() <= JUMPED).then_some(Point { kind, ..point });
         if value.abs() <= VANISHED || (high - low).abs() <= VANISHED * step {
             break;
         }

@@ -28,23 +28,60 @@ fn explore() {
     for s in &diagram.shapes {
         println!("{:.8} {:.4} {:.2e} {} {:?}", s.value, bent(s), s.margin, s.unstable, s.kind);
     }
-    for (segments, level) in [(1, Interaction::Full), (3, Interaction::Full), (3, Interaction::Rings)] {
-        let design = Design::new(Specification::paper(segments)).unwrap();
+}
+
+#[test]
+fn explore_magnet() {
+    use crate::equilibrium::rows::pair;
+    use mcm::geometry::Pose;
+    use mcm::manipulator::{Branch, Manipulator};
+    let design = Design::new(Specification::paper(9)).unwrap();
+    for level in [Interaction::None, Interaction::Rings] {
         let settings = Settings { interaction: level, ..Settings::default() };
-        let mut equilibrium = Equilibrium::new(&design, None, settings, 2).unwrap();
-        let inputs = |b: f64| Ok(field(segments + 1, b, 90.0));
-        let turned = |b: f64| Ok(field(segments + 1, 0.02, b));
-        equilibrium.solve(&inputs(0.0).unwrap()).unwrap();
-        let walk = Walk { from: 0.0, upwards: true, range: [0.0, 0.04], longest_step: 0.1, points: 60 };
-        let clock = std::time::Instant::now();
-        let diagram = if level == Interaction::Full {
-            equilibrium.trace(inputs, &walk).unwrap()
-        } else {
-            equilibrium.trace(turned, &Walk { range: [0.0, 180.0], ..walk }).unwrap()
-        };
-        println!("{segments} {level:?} {} {:?} {:?}", diagram.shapes.len(), diagram.end, clock.elapsed());
-        for s in &diagram.shapes {
-            println!("{:.8} {:.4} {:.2e} {} {:?}", s.value, bent(s), s.margin, s.unstable, s.kind);
+        let flip = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+        type Way = (&'static str, Box<dyn Fn(f64) -> Pose>, f64, [f64; 2]);
+        let ways: Vec<Way> = vec![(
+            "approach +z at 0",
+            Box::new(move |p: f64| Pose::new([0.0, -1e-3 * p, 0.0], flip[0]).unwrap()),
+            300.0,
+            [130.0, 300.0],
+        )];
+        for (name, pose, from, range) in ways {
+            let inputs =
+                |p: f64| Ok(Inputs { magnet: pose(p), magnet_strength: 1.0, ..Inputs::unloaded(10) });
+            let mut equilibrium = Equilibrium::new(&design, Some(&pair()), settings, 2).unwrap();
+            let clock = std::time::Instant::now();
+            let report = equilibrium.solve(&inputs(from).unwrap()).unwrap();
+            println!("{level:?} {name}: {report:?}");
+            let walk = Walk { from, upwards: from == range[0], range, longest_step: 0.2, points: 150 };
+            let diagram = equilibrium.trace(inputs, &walk).unwrap();
+            println!("{} {:?} {:?}", diagram.shapes.len(), diagram.end, clock.elapsed());
+            for (i, s) in diagram
+                .shapes
+                .iter()
+                .enumerate()
+                .filter(|(i, s)| i % 4 == 0 || s.kind != mcm::numerics::continuation::Kind::Regular)
+            {
+                println!("{i} {:.6} {:.4} {:.2e} {} {:?}", s.value, bent(s), s.margin, s.unstable, s.kind);
+            }
+            let m = Manipulator::new(&design, Some(&pair()), settings, 2).unwrap();
+            let span = range[1] - range[0];
+            let mut branch = Branch::new(m, inputs, span, span / 50.0).unwrap();
+            let other = if from == range[0] { range[1] } else { range[0] };
+            let clock = std::time::Instant::now();
+            branch.to(from).unwrap();
+            branch.to(other).unwrap();
+            branch.to(from).unwrap();
+            for f in branch.folds() {
+                println!(
+                    "branch {} {} {:?} -> {:?}",
+                    f.value,
+                    f.upwards,
+                    f.before.tip_angle,
+                    f.after.as_ref().map(|a| a.1.tip_angle)
+                );
+            }
+            println!("{:?}", clock.elapsed());
         }
     }
 }

@@ -52,7 +52,9 @@ fn the_cusp_is_followed_through_both_folds_and_the_crossing() {
         assert!(error <= SINGULAR, "{kind:?} at {}, expected {parameter}: {error:e}", point.parameter);
     }
     let at = |x: f64, upper: f64| {
-        let near = |point: &&mcm::numerics::continuation::Point| (point.x[0] - x).abs() < 0.1 && point.parameter.signum() == upper;
+        let near = |point: &&mcm::numerics::continuation::Point| {
+            (point.x[0] - x).abs() < 0.1 && point.parameter.signum() == upper
+        };
         points.iter().find(near).unwrap().negative()
     };
     assert_eq!([at(-1.2, -1.0), at(-0.3, 1.0), at(0.3, -1.0)], [0, 2, 1]);
