@@ -248,6 +248,15 @@ pub(crate) const ON_BRANCH: f64 = 1e-14;
 /// Parameter at singular points, of order one: located until what vanishes there is 1e-10.
 pub(crate) const SINGULAR: f64 = 1e-9;
 
+/// Folds of a dipole on a core beside closed forms, which leave out nothing.
+pub(crate) const CLOSED_FORM_OF_FOLDS: f64 = 1e-7;
+
+/// A snap predicted 5 % of the way before it, relative to the distance.
+pub(crate) const PREDICTED_FAR: f64 = 0.35;
+
+/// The same 0.1 % before it.
+pub(crate) const PREDICTED_CLOSE: f64 = 0.1;
+
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
     got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)

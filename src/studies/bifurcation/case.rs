@@ -9,7 +9,7 @@ use crate::manipulator::{Branch, Fold, Manipulator, Status};
 use crate::numerics::continuation::Walk;
 
 /// Steps of slow loading along the whole path.
-const STEPS: f64 = 48.0;
+const STEPS: u32 = 24;
 
 /// Longest step along a branch, in turns of one segment by a radian.
 const LONGEST_STEP: f64 = 0.2;
@@ -76,14 +76,14 @@ impl Case {
 
     fn branch(&self) -> Result<Branch<impl Fn(f64) -> Result<Inputs, Error> + Clone + '_>, Error> {
         let manipulator = Manipulator::new(&self.design, self.magnet.as_ref(), self.settings, 2)?;
-        Branch::new(manipulator, |value| Ok((self.way)(value)), self.span(), self.span() / STEPS)
+        Branch::new(manipulator, |value| Ok((self.way)(value)), self.span(), self.span() / f64::from(STEPS))
     }
 
     /// Slow loading along the path, and back.
     pub(super) fn load(&self, back: bool) -> Result<Loading, Error> {
         let [first, end] = self.path;
         let mut branch = self.branch()?;
-        let forth = (0..=STEPS as u32).map(|i| first + (end - first) * f64::from(i) / STEPS);
+        let forth = (0..=STEPS).map(|i| first + (end - first) * f64::from(i) / f64::from(STEPS));
         let mut values: Vec<f64> = forth.collect();
         if back {
             values.extend(values.clone().into_iter().rev().skip(1));
@@ -97,21 +97,27 @@ impl Case {
         Ok(Loading { shapes, folds: branch.folds().to_vec() })
     }
 
-    /// Errors of the snap that is predicted at each of these distances before it, relative to the distance: positive, if it
-    /// comes later than predicted. Distances are relative to the way up to there.
-    pub(super) fn predict(&self, fold: &Fold, distances: &[f64]) -> Result<Vec<Option<f64>>, Error> {
+    /// Errors of predictions of the snap at a value, on the way forth or back, at each of these distances before it.
+    ///
+    /// Distances are relative to the way up to there, errors to the distance: positive, if the prediction is too early.
+    pub(super) fn predict(
+        &self,
+        snap: f64,
+        forth: bool,
+        distances: &[f64],
+    ) -> Result<Vec<Option<f64>>, Error> {
         let [first, end] = self.path;
         let mut branch = self.branch()?;
         branch.to(first)?;
-        let start = if fold.upwards == (end > first) { first } else { end };
+        let start = if forth { first } else { end };
         branch.to(start)?;
-        let way = fold.value - start;
         let mut errors = Vec::new();
         for distance in distances {
-            let mut branch = branch.clone();
-            branch.to(fold.value - 2.0 * distance * way)?;
-            branch.to(fold.value - distance * way)?;
-            errors.push(branch.predicted_fold().map(|predicted| (fold.value - predicted) / (distance * way)));
+            let (mut branch, ahead) = (branch.clone(), distance * (snap - start));
+            for steps in [3.0, 2.0, 1.0] {
+                branch.to(snap - steps * ahead)?;
+            }
+            errors.push(branch.predicted_fold().map(|predicted| (snap - predicted) / ahead));
         }
         Ok(errors)
     }
