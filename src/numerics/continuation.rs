@@ -166,7 +166,7 @@ pub fn follow(family: &mut impl Family, x: &DVector<f64>, walk: &Walk) -> Result
             step *= SHRINK;
             continue;
         };
-        points.extend(singular.filter(|point| low <= point.parameter && point.parameter <= high));
+        points.extend(singular.into_iter().filter(|point| (low..=high).contains(&point.parameter)));
         if next.parameter <= low || next.parameter >= high {
             points.extend(at_limit(family, &here, &next, next.parameter.clamp(low, high))?);
             return Ok((points, End::Range));
@@ -247,19 +247,19 @@ fn bordered(local: &Local, normal: &DVector<f64>) -> DMatrix<f64> {
     out
 }
 
-/// The singular point within a step, if there is one; `None` if there are several, or none where there should be one
+/// The singular point within a step, if it has one; `None` if there are several, or none where there should be one
 /// because the step has led to another branch: a shorter one tells.
 fn between(
     family: &mut impl Family,
     here: &Point,
     next: &Point,
     step: f64,
-) -> Result<Option<Option<Point>>, Error> {
+) -> Result<Option<Vec<Point>>, Error> {
     let (before, after) = (here.negative(), next.negative());
     let changed = before.abs_diff(after);
     let folds = here.slope() * next.slope() < 0.0;
     let found = match (folds, changed) {
-        (false, 0) => return Ok(Some(None)),
+        (false, 0) => return Ok(Some(Vec::new())),
         (true, 1) => locate(family, here, next, step, Kind::Fold, Point::slope)?,
         (true, _) => None,
         (false, _) => {
@@ -268,7 +268,7 @@ fn between(
             locate(family, here, next, step, kind, |point| point.eigenvalues[crossing])?
         }
     };
-    Ok(found.map(Some))
+    Ok(found.map(|point| vec![point]))
 }
 
 /// Finds where `measure` vanishes within a step: by secants that keep the zero between them (the Illinois rule: M. Dowell

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use self::canvas::{Canvas, Drawing};
-use self::case::{Case, Loading, turned};
+use self::case::{Case, turned};
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::study::Study;
 use crate::design::{Design, Specification};
@@ -102,19 +102,16 @@ fn turning() -> Result<Found, Error> {
     found.canvas.draw_loading(&loading);
     let plane = dipole::fold_of_turning();
     for shape in diagram.shapes.iter().filter(|shape| shape.kind != Kind::Regular) {
-        let near = shape.tip.axis().y > 0.0;
-        match (shape.kind, near) {
-            (Kind::Fold, true) => found.place("dipole turned: folds in the plane (deg)", shape, plane),
-            (Kind::Fold, false) => {
-                found.place("dipole turned: the far side folds (deg)", shape, 360.0 - plane)
-            }
-            (_, true) => {
-                found.snap(&case, "dipole turned: swings out of the plane (deg)", shape, &loading, 0)?
-            }
-            (_, false) => found.snap(&case, "dipole turned back: swings out (deg)", shape, &loading, 1)?,
-        }
-        if let (Some(place), false) = (found.places.last_mut(), shape.kind == Kind::Fold) {
-            place.closed_form = Some(180.0);
+        let (what, closed_form, snap) = match (shape.kind, shape.tip.axis().y > 0.0) {
+            (Kind::Fold, true) => ("dipole turned: folds in the plane (deg)", plane, None),
+            (Kind::Fold, false) => ("dipole turned: the far side folds (deg)", 360.0 - plane, None),
+            (_, true) => ("dipole turned: swings out of the plane (deg)", 180.0, Some(0)),
+            (_, false) => ("dipole turned back: swings out (deg)", 180.0, Some(1)),
+        };
+        let bisection = snap.and_then(|snap: usize| loading.snaps.get(snap).copied());
+        found.add(what, shape, bisection, Some(closed_form));
+        if let Some(snap) = snap {
+            found.predict(&case, what, shape, snap == 0)?;
         }
     }
     Ok(found)
@@ -141,11 +138,14 @@ fn growing() -> Result<Found, Error> {
         found.canvas.draw(branch, case, diagram);
     }
     found.canvas.draw_loading(&aside.load(false)?);
-    let buckled = perfect.shapes.iter().find(|shape| shape.kind != Kind::Regular);
     let critical = dipole::critical_field()?;
-    buckled.into_iter().for_each(|shape| found.place("dipole, antiparallel: buckles (mT)", shape, critical));
+    for shape in perfect.shapes.iter().filter(|shape| shape.kind != Kind::Regular) {
+        found.add("dipole, antiparallel: buckles (mT)", shape, None, Some(critical));
+    }
     let least = dipole::fold_aside()?;
-    far.folds().for_each(|shape| found.place("dipole, 1 deg aside: the far side folds (mT)", shape, least));
+    for shape in far.folds() {
+        found.add("dipole, 1 deg aside: the far side folds (mT)", shape, None, Some(least));
+    }
     Ok(found)
 }
 
@@ -184,7 +184,8 @@ fn nearing() -> Result<Found, Error> {
         let diagram = case.trace(case.path[number])?;
         found.canvas.draw(0, &case, &diagram);
         if let Some(shape) = diagram.folds().next() {
-            found.snap(&case, what, shape, &loading, number)?;
+            found.add(what, shape, loading.snaps.get(number).copied(), None);
+            found.predict(&case, what, shape, number == 0)?;
         }
     }
     Ok(found)
@@ -216,7 +217,8 @@ fn pulling() -> Result<Found, Error> {
         found.canvas.draw(branch, &case, &diagram);
         found.canvas.draw_loading(&loading);
         if let Some(shape) = diagram.folds().next() {
-            found.snap(&case, what, shape, &loading, 0)?;
+            found.add(what, shape, loading.snaps.first().copied(), None);
+            found.predict(&case, what, shape, true)?;
         }
     }
     Ok(found)
@@ -227,27 +229,15 @@ impl Found {
         Self { canvas: Canvas::new(drawing), places: Vec::new(), predictions: Vec::new() }
     }
 
-    /// Adds a place that slow loading does not come to.
-    fn place(&mut self, what: &str, shape: &Shape, closed_form: f64) {
-        let closed_form = Some(closed_form);
-        let place = Place { what: what.into(), continuation: shape.value, bisection: None, closed_form };
-        self.places.push(place);
+    /// Adds a place that continuation has found at `shape`.
+    fn add(&mut self, what: &str, shape: &Shape, bisection: Option<f64>, closed_form: Option<f64>) {
+        self.places.push(Place { what: what.into(), continuation: shape.value, bisection, closed_form });
     }
 
-    /// Adds the snap of that number (0: on the way forth) of slow loading, which happens at `shape`.
-    fn snap(
-        &mut self,
-        case: &Case,
-        what: &str,
-        shape: &Shape,
-        loading: &Loading,
-        number: usize,
-    ) -> Result<(), Error> {
-        let bisection = loading.folds.get(number).map(|fold| fold.value);
-        let (what, closed_form) = (what.to_owned(), None);
-        let errors = case.predict(shape.value, number == 0, &DISTANCES)?;
-        self.predictions.push(Prediction { what: what.clone(), errors });
-        self.places.push(Place { what, continuation: shape.value, bisection, closed_form });
+    /// Adds predictions of the snap at `shape`, on the way forth or back.
+    fn predict(&mut self, case: &Case, what: &str, shape: &Shape, forth: bool) -> Result<(), Error> {
+        let errors = case.predict(shape.value, forth, &DISTANCES)?;
+        self.predictions.push(Prediction { what: what.into(), errors });
         Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! Continuation of stationary points: folds and branching points that are known in closed form.
 
+use core::ops::Range;
+
 use mcm::error::Error;
 use mcm::numerics::continuation::{End, Family, Kind, Local, Walk, follow};
 use nalgebra::{DMatrix, DVector};
@@ -51,13 +53,14 @@ fn the_cusp_is_followed_through_both_folds_and_the_crossing() {
         let error = (point.parameter - parameter).abs();
         assert!(error <= SINGULAR, "{kind:?} at {}, expected {parameter}: {error:e}", point.parameter);
     }
-    let at = |x: f64, upper: f64| {
-        let near = |point: &&mcm::numerics::continuation::Point| {
-            (point.x[0] - x).abs() < 0.1 && point.parameter.signum() == upper
-        };
-        points.iter().find(near).unwrap().negative()
+    let near = |x: f64, parameter: Range<f64>| {
+        let mut points = points.iter();
+        points
+            .find(|point| (point.x[0] - x).abs() < 0.1 && parameter.contains(&point.parameter))
+            .unwrap()
+            .negative()
     };
-    assert_eq!([at(-1.2, -1.0), at(-0.3, 1.0), at(0.3, -1.0)], [0, 2, 1]);
+    assert_eq!([near(-1.2, -1.0..0.0), near(-0.3, 0.2..1.0), near(0.3, -1.0..0.0)], [0, 2, 1]);
 }
 
 #[test]

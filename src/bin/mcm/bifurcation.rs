@@ -26,7 +26,7 @@ pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
 fn table_of_places(places: &[Place]) -> String {
     let mut out =
         "| what happens | continuation | bisection | closed form |\n| --- | --- | --- | --- |\n".to_owned();
-    for Place { what, continuation, bisection, closed_form, .. } in places {
+    for Place { what, continuation, bisection, closed_form } in places {
         let number =
             |value: &Option<f64>, digits| value.map_or_else(String::new, |value| format!("{value:.digits$}"));
         let (bisection, closed_form) = (number(bisection, 3), number(closed_form, 6));
@@ -36,14 +36,15 @@ fn table_of_places(places: &[Place]) -> String {
 }
 
 fn table_of_predictions(predictions: &[Prediction]) -> String {
-    let heads: String = DISTANCES.iter().map(|distance| format!(" {} % |", 100.0 * distance)).collect();
-    let rule = " --- |".repeat(DISTANCES.len());
-    let mut out = format!("| snap, and distance before it |{heads}\n| --- |{rule}\n");
+    let row = |first: &str, cells: &[String]| format!("| {first} | {} |\n", cells.join(" | "));
+    let mut out =
+        row("snap, and distance before it", &DISTANCES.map(|distance| format!("{} %", 100.0 * distance)));
+    out += &row("---", &DISTANCES.map(|_| "---".to_owned()));
     for Prediction { what, errors } in predictions {
         let cell = |error: &Option<f64>| {
-            error.map_or_else(|| " none |".into(), |error| format!(" {:+.1} % |", 100.0 * error))
+            error.map_or_else(|| "none".into(), |error| format!("{:+.1} %", 100.0 * error))
         };
-        let _ = writeln!(out, "| {what} |{}", errors.iter().map(cell).collect::<String>());
+        out += &row(what, &errors.iter().map(cell).collect::<Vec<_>>());
     }
     out
 }

@@ -5,7 +5,7 @@ use crate::equilibrium::{Diagram, Equilibrium, Inputs, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::Assembly;
-use crate::manipulator::{Branch, Fold, Manipulator, Status};
+use crate::manipulator::{Branch, Manipulator, Status};
 use crate::numerics::continuation::Walk;
 
 /// Steps of slow loading along the whole path.
@@ -35,7 +35,8 @@ pub(super) struct Case {
 pub(super) struct Loading {
     /// Value and angle (deg); the angle is NaN where no shape was found.
     pub(super) shapes: Vec<[f64; 2]>,
-    pub(super) folds: Vec<Fold>,
+    /// Values at which it snaps, or ends.
+    pub(super) snaps: Vec<f64>,
 }
 
 /// The tip's angle with the base's axis, deg.
@@ -61,12 +62,13 @@ impl Case {
         self.trace_from(&model, from)
     }
 
-    /// The branch through the present shape of a model: from the path's beginning forth, from elsewhere back.
+    /// The branch through the present shape of a model: from the path's beginning forth, from its end back.
     pub(super) fn trace_from(&self, model: &Equilibrium, from: f64) -> Result<Diagram, Error> {
         let [first, end] = self.path;
+        let forth = (from - first).abs() < (from - end).abs();
         let walk = Walk {
             from,
-            upwards: (from == first) == (end > first),
+            upwards: forth == (end > first),
             range: [first.min(end), first.max(end)],
             longest_step: LONGEST_STEP,
             points: self.points,
@@ -94,7 +96,8 @@ impl Case {
             let lost = outputs.status == Status::NotSolved;
             shapes.push([value, if lost { f64::NAN } else { (self.angle)(&outputs.tip) }]);
         }
-        Ok(Loading { shapes, folds: branch.folds().to_vec() })
+        let snaps = branch.folds().iter().map(|fold| fold.value).collect();
+        Ok(Loading { shapes, snaps })
     }
 
     /// Errors of predictions of the snap at a value, on the way forth or back, at each of these distances before it.

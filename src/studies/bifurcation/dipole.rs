@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 use super::case::{Case, turned_in_plane};
-use crate::design::{Design, Segmented, Specification};
+use crate::design::{Design, Ring, Segmented, Specification};
 use crate::equilibrium::{Inputs, Interaction, Settings};
 use crate::error::Error;
 
@@ -31,7 +31,7 @@ fn device() -> Result<(f64, Design), Error> {
     let design = Design::new(Specification::Segmented(bare))?;
     let spans = design.segments().iter().flat_map(|segment| &segment.spans);
     let compliance: f64 = spans.map(|span| span.length / span.stiffness.bending).sum();
-    let moment: f64 = design.rings().map(|ring| ring.moment()).sum();
+    let moment: f64 = design.rings().map(Ring::moment).sum();
     Ok((1.0 / (moment * compliance), design))
 }
 
