@@ -86,6 +86,7 @@ impl Equilibrium {
     ) -> Result<Diagram, Error> {
         let [low, high] = walk.range;
         let span = check("span of the path", high - low, |v| v > 0.0, "> 0")?;
+        check("first value of the walk", walk.from, |v| low <= v && v <= high, "within its range")?;
         let unit = self.chain.unit();
         let scale = DVector::from_iterator(self.freedoms(), self.metric().iter().map(|k| unit / k.sqrt()));
         let start = DVector::from_column_slice(self.unknowns()).component_div(&scale);

@@ -14,7 +14,7 @@ const HALVINGS: u32 = 40;
 
 /// The value at which the margin is zero, from the values and margins of shapes on the way there, the last one last.
 ///
-/// Two tell as much as for a fold, three also the power within [`POWERS`]. `None` where the margin grows or is too large.
+/// Two tell as much as for a fold, three on one way also the power within [`POWERS`]. `None` where the margin grows or is too large.
 pub(super) fn predicted(shapes: &[(f64, f64)]) -> Option<f64> {
     let [earlier @ .., (before, first), (here, last)] = shapes else { return None };
     if !(last < first && *last < LARGEST_MARGIN) {
@@ -25,7 +25,8 @@ pub(super) fn predicted(shapes: &[(f64, f64)]) -> Option<f64> {
         here + (here - before) * rest / (1.0 - rest)
     };
     let [mut low, mut high] = POWERS;
-    let Some((value, margin)) = earlier.last() else { return Some(at(low)) };
+    let earlier = earlier.last().filter(|(value, _)| (before - value) * (here - before) > 0.0);
+    let Some((value, margin)) = earlier else { return Some(at(low)) };
     // The larger the power, the larger was the margin.
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

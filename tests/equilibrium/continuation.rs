@@ -189,6 +189,8 @@ fn what_has_no_potential_or_no_range_is_refused() {
     let refused = |walk: Walk| equilibrium.trace(growing, &walk).unwrap_err().to_string();
     assert!(refused(walk([0.0, 0.01], 0.1, 9)).contains("not at the level `preceding`"));
     assert!(refused(walk([0.01, 0.01], 0.1, 9)).starts_with("span of the path"));
+    let outside = Walk { from: 0.02, ..walk([0.0, 0.01], 0.1, 9) };
+    assert!(refused(outside).starts_with("first value of the walk = 0.02 is not allowed"));
     let wrong = |_: f64| Ok(Inputs::unloaded(9));
     assert!(
         equilibrium.trace(wrong, &walk([0.0, 1.0], 0.1, 9)).unwrap_err().to_string().contains("ring forces")
