@@ -30,6 +30,9 @@ const MOVED: f64 = 0.02;
 /// Most judgements that pass between two trials of a cheaper rung: each failed one doubles their number.
 const PATIENCE: u32 = 16;
 
+/// Iterations that a cheaper model may take for one solve: more would not be cheap.
+const CHEAP: u32 = 100;
+
 /// Accuracy of the pairs on the coarse rungs.
 const COARSE: f64 = 1e-3;
 
@@ -152,11 +155,13 @@ impl Ladder {
         if let Some((before, shape)) = way_back
             && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
         {
-            return self.ascend(from + 1, inputs, |models, rung| {
+            let next = if report.solved { from + 1 } else { last };
+            return self.ascend(next, inputs, |models, rung| {
                 let (lower, upper) = models.split_at_mut(rung);
                 upper[0].adopt(&lower[from], &shape, &before);
                 let settled = upper[0].solve(&before)?;
-                let report = upper[0].solve(inputs)?;
+                let left = upper[0].settings().iterations.saturating_sub(settled.iterations);
+                let report = upper[0].solve_within(inputs, left)?;
                 let (iterations, snaps) =
                     (settled.iterations + report.iterations, settled.snaps + report.snaps);
                 Ok(Report { iterations, snaps, ..report })
@@ -174,7 +179,8 @@ impl Ladder {
         Ok(report)
     }
 
-    /// From rung `first` up to one that is good enough, each solved by `solve`.
+    /// From rung `first` up to one that is good enough, each solved by `solve`. Where a cheaper one finds nothing, the
+    /// richest is asked.
     fn ascend(
         &mut self,
         first: usize,
@@ -193,7 +199,7 @@ impl Ladder {
             if richest || (self.is_sound(&report) && self.judge(inputs, CLIMB)) {
                 return Ok(Report { iterations, ..report });
             }
-            self.present += 1;
+            self.present = if report.solved { self.present + 1 } else { self.last() };
         }
     }
 
@@ -292,13 +298,14 @@ fn rungs(settings: &Settings, has_rings: bool) -> Vec<Settings> {
         return vec![*settings];
     }
     let coarse = settings.pair_accuracy.max(COARSE);
-    let cheap = |interaction| Settings { interaction, bending_stop: false, ..*settings };
+    let iterations = settings.iterations.min(CHEAP);
+    let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };
     let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
     let mut out = vec![Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::None) }];
     if has_rings {
         out.push(Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::Rings) });
         out.push(cheap(Interaction::Rings));
-        out.push(Settings { degree: 0, pair_accuracy: coarse, ..richest });
+        out.push(Settings { degree: 0, pair_accuracy: coarse, iterations, ..richest });
     }
     out.push(richest);
     out

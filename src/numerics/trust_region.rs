@@ -51,6 +51,9 @@ pub struct Minimum {
 /// Smallest radius, relative to the first, before the search is given up.
 const SMALLEST: f64 = 1e-10;
 
+/// Change of the value, relative to it, of which its rounding leaves nothing to compare.
+const ROUNDING: f64 = 1e-12;
+
 /// Width of the bracket of the shift, relative to it, at which a step that is still inside the region is the hard case.
 const HARD: f64 = 1e-3;
 
@@ -92,7 +95,7 @@ pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) 
         }
         let gain = objective.value(&trial).map(|next| (value - next) / predicted);
         // Below the rounding of the value the ratio says nothing; the model is then trusted.
-        let rounding = predicted.abs() <= 1e-13 * value.abs();
+        let rounding = predicted.abs() <= ROUNDING * value.abs();
         match gain {
             Some(ratio) if ratio > 0.05 || (rounding && definite) => {
                 x.copy_from_slice(&trial);
