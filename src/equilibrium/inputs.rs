@@ -122,7 +122,7 @@ impl Inputs {
             self.tip_moment.as_slice(),
             self.gravity.as_slice(),
         ];
-        numbers.into_iter().chain(self.ring_forces.iter().map(|force| force.as_slice()))
+        numbers.into_iter().chain(self.ring_forces.iter().map(Vector3::as_slice))
     }
 
     /// Checks that every number is finite and that there is one force for each of `rings` rings.
