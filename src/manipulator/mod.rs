@@ -4,6 +4,7 @@ mod branch;
 mod device;
 mod ladder;
 mod outputs;
+mod prediction;
 mod scene;
 mod solver;
 

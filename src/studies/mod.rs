@@ -1,10 +1,12 @@
 //! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
 //!
 //! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
-//! points, which [`accuracy_picture`] draws, and so does [`fidelity()`]. Nothing is printed or written here.
+//! points, which [`accuracy_picture`] draws, and so does [`fidelity()`]; [`bifurcation()`] has tables beside its diagrams.
+//! Nothing is printed or written here.
 
 mod accuracy;
 mod bending;
+mod bifurcation;
 mod experiment;
 mod fidelity;
 mod field_ring;
@@ -19,6 +21,7 @@ mod hysteresis;
 mod study;
 
 pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use fidelity::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};
 pub use field_ring::field_ring;
 pub use fig4::fig4;

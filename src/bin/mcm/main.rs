@@ -1,6 +1,7 @@
 //! The command line.
 
 mod accuracy;
+mod bifurcation;
 mod comparison;
 mod failure;
 mod fidelity;

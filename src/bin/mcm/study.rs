@@ -13,13 +13,13 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, comparison, fidelity, picture};
+use super::{accuracy, bifurcation, comparison, fidelity, picture};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
-    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` \
-and `fidelity` measure times, which differ from run to run, and are no part of it.\n\n\
+    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` and \
+`fidelity`, which measure times, and `bifurcation`, which takes its time, are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -60,12 +60,14 @@ enum Name {
     Accuracy,
     /// What the level auto saves, by tolerance
     Fidelity,
+    /// All equilibria, stable or not, where they fold, and how early a snap is seen coming
+    Bifurcation,
     /// Every figure
     All,
 }
 
 impl Name {
-    /// The study of this name; `None` for all, and for those of times.
+    /// The study of this name; `None` for all, and for those that have tables of their own.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -77,7 +79,7 @@ impl Name {
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
-            Self::Accuracy | Self::Fidelity | Self::All => None,
+            Self::Accuracy | Self::Fidelity | Self::Bifurcation | Self::All => None,
         }
     }
 
@@ -92,11 +94,11 @@ impl Study {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
-        if self.name == Name::Accuracy {
-            return accuracy::run(&self.out, self.peers.as_deref());
-        }
-        if self.name == Name::Fidelity {
-            return fidelity::run(&self.out);
+        match self.name {
+            Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
+            Name::Fidelity => return fidelity::run(&self.out),
+            Name::Bifurcation => return bifurcation::run(&self.out),
+            _ => {}
         }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
@@ -127,7 +129,7 @@ impl Study {
 }
 
 /// Writes a study's columns; an empty cell is a value that does not exist.
-fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
+pub(super) fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
     let mut table = create_table(path)?;
     table.write_record(study.columns.iter().map(|column| &column.name))?;
     let rows = study.columns.first().map_or(0, |column| column.values.len());
