@@ -130,7 +130,7 @@ pub(crate) const SLOPE_DIFFERENCE: f64 = 5e-7;
 /// Slope of the gradient by the same.
 pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 
-/// Derivatives of all outputs by differences of fourth order of solves that each end at a residual of 1e-12, relative
+/// Derivatives of all outputs by differences of fourth order of solves that each end at a residual of 1e-13, relative
 /// to the largest effect that an input of usual size has on that output.
 pub(crate) const JACOBIAN: f64 = 1e-6;
 

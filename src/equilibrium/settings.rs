@@ -79,7 +79,8 @@ pub struct Settings {
     /// rings, relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Thirteen nodes are the most:
     /// rings closer than 5 mm (the paper's) are good to 4e-6 of their force, those about to snap to 1e-3.
     pub pair_accuracy: f64,
-    /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11.
+    /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11. The cheaper models of the
+    /// level `auto` end at up to 1e4 times as much, as their errors allow.
     pub tolerance: f64,
     /// Largest first Newton step when a branch is followed, in the same measure; default 0.5.
     pub follow_step: f64,

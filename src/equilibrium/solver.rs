@@ -104,6 +104,11 @@ impl Equilibrium {
         &self.settings
     }
 
+    /// Sets the residual at which a solve ends.
+    pub(crate) fn set_tolerance(&mut self, tolerance: f64) {
+        self.settings.tolerance = tolerance;
+    }
+
     /// Follows the branch to `inputs`.
     ///
     /// # Errors

@@ -66,6 +66,11 @@ impl Gap {
         Self { distance: (a.position - b.position).norm(), angle }
     }
 
+    /// How many times `gap` fits into that part of this one.
+    pub(crate) fn room(&self, gap: &Self, part: f64) -> f64 {
+        part * (self.distance / gap.distance).min(self.angle / gap.angle)
+    }
+
     fn is_finite(&self) -> bool {
         self.distance.is_finite() && self.angle.is_finite()
     }

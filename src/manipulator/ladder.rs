@@ -27,6 +27,14 @@ const CHANGED: f64 = 0.02;
 /// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a rung is judged again.
 const MOVED: f64 = 0.02;
 
+/// How many times as long a rung stands that is as much better than needed.
+const STANDING: f64 = 5.0;
+
+/// Residual of a cheaper model over the tolerances, lengths in those of the manipulator; and the most over the residual that
+/// is asked for.
+const RESIDUAL: f64 = 1e-2;
+const RELAXED: f64 = 1e4;
+
 /// Most judgements that pass between two trials of a cheaper rung: each failed one doubles their number.
 const PATIENCE: u32 = 16;
 
@@ -47,6 +55,8 @@ pub(super) struct Ladder {
     fold_margin: f64,
     /// Largest error of the tip: position (m) and angle (rad).
     tolerance: Gap,
+    /// The residual that is asked for of the richest model.
+    residual: f64,
 }
 
 /// When a rung was judged last.
@@ -103,7 +113,7 @@ impl Ladder {
             vec![settings]
         };
         let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
-        Ok(Self {
+        let mut out = Self {
             rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
             present: 0,
             judged: None,
@@ -111,7 +121,19 @@ impl Ladder {
             length: design.length(),
             fold_margin: settings.fold_margin,
             tolerance: Gap { distance: settings.tolerance_position, angle: settings.tolerance_angle },
-        })
+            residual: settings.tolerance,
+        };
+        out.relax();
+        Ok(out)
+    }
+
+    /// Lets the cheaper models end as soon as their residual is small beside the tolerances.
+    fn relax(&mut self) {
+        let Gap { distance, angle } = self.tolerance;
+        let residual = RESIDUAL * (distance / self.length).min(angle);
+        let residual = residual.clamp(self.residual, RELAXED * self.residual);
+        let last = self.last();
+        self.rungs[..last].iter_mut().for_each(|rung| rung.set_tolerance(residual));
     }
 
     /// The model that answers.
@@ -128,6 +150,7 @@ impl Ladder {
     pub(super) fn set_tolerance(&mut self, tolerance: Gap) {
         if self.tolerance != tolerance {
             (self.tolerance, self.judged) = (tolerance, None);
+            self.relax();
         }
     }
 
@@ -248,7 +271,7 @@ impl Ladder {
         let (cheaper, judge) = self.rungs.split_at_mut(last);
         let Some(gap) = judge[0].gap(&cheaper[self.present]) else { return false };
         self.note(inputs, gap);
-        gap.distance <= part * self.tolerance.distance && gap.angle <= part * self.tolerance.angle
+        self.tolerance.room(&gap, part) >= 1.0
     }
 
     fn note(&mut self, inputs: &Inputs, gap: Gap) {
@@ -257,18 +280,20 @@ impl Ladder {
         self.judged = Some(Judged { inputs: inputs.clone(), tip, field, gap });
     }
 
-    /// Whether enough has changed since the last judgement to judge again.
+    /// Whether enough has changed since the last judgement to judge again: the better the rung was, the more may.
     fn changed(&self, inputs: &Inputs) -> bool {
         let Some(judged) = &self.judged else { return true };
+        let room = self.tolerance.room(&judged.gap, CLIMB).clamp(1.0, STANDING);
         let (tip, then) = (self.present().tip(), &judged.inputs);
         let field = self.present().field_at(inputs, &tip.position).unwrap_or_default();
-        let other = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).norm() > CHANGED * a.norm().max(b.norm());
+        let far = |change: f64, a: f64, b: f64| change > room * CHANGED * a.max(b);
+        let other = |a: &Vector3<f64>, b: &Vector3<f64>| far((a - b).norm(), a.norm(), b.norm());
         let moved = Gap::between(&tip, &judged.tip);
         let [gradient, before] = [inputs, then].map(|i| nalgebra::SVector::from(i.field_gradient));
-        moved.distance > MOVED * self.length
-            || moved.angle > MOVED
+        moved.distance > room * MOVED * self.length
+            || moved.angle > room * MOVED
             || other(&field, &judged.field)
-            || (gradient - before).norm() > CHANGED * gradient.norm().max(before.norm())
+            || far((gradient - before).norm(), gradient.norm(), before.norm())
             || other(&inputs.tip_force, &then.tip_force)
             || other(&inputs.tip_moment, &then.tip_moment)
             || other(&inputs.gravity, &then.gravity)

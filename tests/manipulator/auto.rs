@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::equilibrium::rows::pair;
 
-const SCENES: u64 = 300;
+const SCENES: u64 = 2000;
 
 /// A design, what acts on it, and tolerances.
 struct Scene {

@@ -182,7 +182,7 @@ fn rod() -> Design {
 }
 
 fn settings(interaction: Interaction) -> Settings {
-    Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-12, ..Settings::default() }
+    Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-13, ..Settings::default() }
 }
 
 fn ready(design: &Design, interaction: Interaction, inputs: &Inputs) -> Manipulator {
