@@ -172,13 +172,18 @@ impl Walk {
     }
 }
 
+/// `None` where the richest model has answered every step itself.
+fn error_over_tolerance(row: &Fidelity) -> Option<f64> {
+    row.tolerance.filter(|_| row.by_richest < 0.999).map(|tolerance| row.tip_over_length / tolerance)
+}
+
 /// The picture: what a step takes beside one of the richest model, and how the error keeps to the tolerance.
 #[must_use]
 pub fn fidelity_picture(rows: &[Fidelity]) -> Study {
-    let series = |value: fn(&Fidelity) -> f64| {
+    let series = |value: fn(&Fidelity) -> Option<f64>| {
         let places = |scene: &str| {
             let own = rows.iter().filter(|row| row.scene == scene);
-            own.filter_map(|row| Some([row.tolerance?, value(row)])).collect()
+            own.filter_map(|row| Some([row.tolerance?, value(row)?])).collect()
         };
         SCENES
             .iter()
@@ -205,13 +210,13 @@ pub fn fidelity_picture(rows: &[Fidelity]) -> Study {
             panel(
                 "time of a step at 1 kHz",
                 "over that of the richest model",
-                series(|row| row.time_relative),
+                series(|row| Some(row.time_relative)),
                 "the richest model alone",
             ),
             panel(
                 "largest error against the richest model",
                 "over the tolerance",
-                series(|row| row.tip_over_length / row.tolerance.unwrap_or(1.0)),
+                series(error_over_tolerance),
                 "the tolerance",
             ),
         ],

@@ -131,3 +131,48 @@ fn is_within_its_tolerance_of_the_richest_model() {
     assert!(share(&|row| row.1 <= 1.0) >= 0.999, "{bad:?}");
     assert!(share(&|row| row.1 <= 2.0) >= 1.0, "{bad:?}");
 }
+
+#[test]
+fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump() {
+    // Not the helix, which its rings bend by some degrees also without a field.
+    let mut round = Segmented::paper(3);
+    round.spiral = SpiralKind::Axisymmetric;
+    let design = Design::new(Specification::Segmented(round)).unwrap();
+    let length = design.length();
+    let mut inputs = Inputs::unloaded(design.rings().count());
+    inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
+    inputs.magnet_strength = 1.0;
+    let mut changed = 0;
+    for tolerance in [1e-2, 1e-3, 5e-4, 2e-4] {
+        let auto = Settings {
+            interaction: Interaction::Auto,
+            tolerance_position: tolerance * length,
+            tolerance_angle: tolerance,
+            ..Settings::default()
+        };
+        let manipulator = |settings| Manipulator::new(&design, Some(&pair()), settings, 2).unwrap();
+        let (mut own, mut judge) = (manipulator(auto), manipulator(richest(auto)));
+        let (mut before, mut changes, mut worst) = (None::<(Outputs, Outputs)>, 0, 0.0_f64);
+        // The magnet comes from far and goes again, 2 mm in a step.
+        for step in (0..=90).chain((0..90).rev()) {
+            inputs.magnet.position = Vector3::new(0.0, -0.3 + 0.002 * f64::from(step), 0.01);
+            let a = own.solve(&inputs).unwrap().clone();
+            let b = judge.solve(&inputs).unwrap().clone();
+            assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");
+            worst = worst.max(parts(&auto, &a, &b));
+            if let Some((old_a, old_b)) = &before
+                && (old_a.interaction, old_a.error_estimate > 0.0) != (a.interaction, a.error_estimate > 0.0)
+            {
+                changes += 1;
+                let moved = |new: &Outputs, old: &Outputs| new.tip.position - old.tip.position;
+                let jump = (moved(&a, old_a) - moved(&b, old_b)).norm() / auto.tolerance_position;
+                assert!(jump <= 1.0, "tolerance {tolerance}, step {step}: {jump} of it");
+            }
+            before = Some((a, b));
+        }
+        println!("tolerance {tolerance}: {changes} changes, error at most {worst:.2} of it");
+        assert!(worst <= 1.0, "tolerance {tolerance}: {worst} of it");
+        changed += changes;
+    }
+    assert!(changed >= 4, "{changed} changes");
+}
