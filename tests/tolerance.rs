@@ -283,3 +283,9 @@ pub(crate) const KEPT_MARGIN: f64 = 0.05;
 
 /// Tip on two ways to the same inputs over the length: the residual, 1e-11, times a compliance of order ten.
 pub(crate) const WAY: f64 = 1e-9;
+
+/// Slope of the energy at a solved shape by differences with steps of 1e-3, in turns of one element by a radian.
+pub(crate) const BALANCED: f64 = 1e-5;
+
+/// Smallest eigenvalue, over the elastic one, of a shape that may turn freely, by differences of gradients with steps of 1e-5.
+pub(crate) const NEUTRAL_SHAPE: f64 = 1e-6;

@@ -10,6 +10,7 @@ mod field_rates;
 mod follow;
 mod inputs;
 mod internal;
+mod interpolation;
 mod jacobian;
 mod methods;
 mod pair;

@@ -1,10 +1,12 @@
 //! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
 //!
-//! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
-//! points, which [`accuracy_picture`] draws. Nothing is printed or written here.
+//! Every study is a function without arguments that returns a [`Study`]. Two that take minutes return what they have found:
+//! [`accuracy()`] points, which [`accuracy_picture`] draws, and [`stability_rays`] attempts, which [`stability_picture`] draws.
+//! Nothing is printed or written here.
 
 mod accuracy;
 mod bending;
+mod communication_step;
 mod experiment;
 mod field_ring;
 mod fig4;
@@ -15,9 +17,11 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod stability;
 mod study;
 
 pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use communication_step::communication_step;
 pub use field_ring::field_ring;
 pub use fig4::fig4;
 pub use fig5::fig5;
@@ -27,4 +31,5 @@ pub use fig7c::fig7c;
 pub use fig7d::fig7d;
 pub use fig8::fig8;
 pub use hysteresis::hysteresis;
-pub use study::{Column, Comparison, Curve, Mark, Panel, Series, Stroke, Study, Value};
+pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
+pub use study::{AtlasRow, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value};

@@ -12,13 +12,13 @@ use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, comparison, picture};
+use super::{accuracy, comparison, picture, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
-    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` \
-measures times, which differ from run to run, and is no part of it.\n\n\
+    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy`, \
+which measures times, and `stability` take minutes and are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -55,14 +55,19 @@ enum Name {
     Fig8,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
+    /// The same way of the magnet in few communication steps and in many
+    #[value(name = "communication-step")]
+    CommunicationStep,
     /// Error against time of all methods, and who is on the front
     Accuracy,
+    /// Where methods fail: over field strength and direction, cold and warm
+    Stability,
     /// Every figure
     All,
 }
 
 impl Name {
-    /// The study of this name; `None` for all, and for that of times.
+    /// The study of this name; `None` for all, and for those that take minutes.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -74,7 +79,8 @@ impl Name {
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
-            Self::Accuracy | Self::All => None,
+            Self::CommunicationStep => Some(studies::communication_step),
+            Self::Accuracy | Self::Stability | Self::All => None,
         }
     }
 
@@ -91,6 +97,9 @@ impl Study {
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
         if self.name == Name::Accuracy {
             return accuracy::run(&self.out, self.peers.as_deref());
+        }
+        if self.name == Name::Stability {
+            return stability::run(&self.out);
         }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
