@@ -102,10 +102,10 @@ impl Cell {
     }
 }
 
-/// Roots of the metric, and the largest: what turns one element by a radian.
+/// Roots of the metric, and the first: what turns one element by a radian.
 fn weights(equilibrium: &Equilibrium) -> (Vec<f64>, f64) {
     let roots: Vec<f64> = equilibrium.metric().iter().map(|k| k.sqrt()).collect();
-    let unit = roots.iter().copied().fold(0.0, f64::max);
+    let unit = roots[0];
     (roots, unit)
 }
 

@@ -101,9 +101,9 @@ impl Judge {
 
     /// Newton's method from `start` to any equilibrium.
     fn polished(&mut self, inputs: &Inputs, start: &[f64]) -> Option<Known> {
-        // Weighted by the root of the metric all amplitudes have one size.
+        // Weighted by the root of the metric all amplitudes have one size; the first is a turn of an element.
         let roots = DVector::from_iterator(start.len(), self.fine.metric().iter().map(|k| k.sqrt()));
-        let unit = roots.max();
+        let unit = roots[0];
         let mut shape = DVector::from_column_slice(start).component_mul(&roots);
         let mut gradient = self.gradient(inputs, &shape, &roots)?;
         let mut hessian = None;
@@ -147,7 +147,7 @@ impl Judge {
         shape: &DVector<f64>,
         roots: &DVector<f64>,
     ) -> Option<DMatrix<f64>> {
-        let step = STEP * roots.max();
+        let step = STEP * roots[0];
         let mut out = DMatrix::zeros(shape.len(), shape.len());
         for i in 0..shape.len() {
             let mut at = |side: f64| {

@@ -4,14 +4,14 @@ use mcm::studies::{AtlasRow, Kind};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axes::{spacing, span};
+use super::axes::{spacing, span, tick};
 use super::{Canvas, Drawn, GRID, pen, scaled, text, tint};
 
 /// Left of the maps: names of groups and rows, and the ticks; above: names of columns; below: ticks and label.
-const NAMES: f64 = 232.0;
-const GROUP: f64 = 150.0;
+const NAMES: f64 = 205.0;
+const GROUP: f64 = 152.0;
 const ABOVE: f64 = 46.0;
-const BELOW: f64 = 44.0;
+const BELOW: f64 = 34.0;
 
 /// Between the maps, and more between groups.
 const GAP: f64 = 5.0;
@@ -82,18 +82,20 @@ pub(super) fn draw(
         }
     }
     let bottom = top(rows.len() - 1) + high;
+    let [first, last] = span(xs.iter().copied());
     for column in 0..columns {
-        for value in [span(xs.iter().copied())[0], 90.0, 180.0] {
-            let part = (value - across.0[0]) / (across.0[1] - across.0[0]);
-            let place = (left(column) + wide * part, bottom + full(9.0));
-            write(&format!("{value}"), TICK, place, HPos::Center)?;
+        for (part, side) in [(0.0, HPos::Left), (0.5, HPos::Center), (1.0, HPos::Right)] {
+            let value = tick(first + part * (last - first));
+            write(&value, TICK, (left(column) + wide * part, bottom + full(10.0)), side)?;
         }
     }
-    write(x, SMALL, (left(0) + 0.5 * (width - left(0)), bottom + full(29.0)), HPos::Center)?;
+    let middle = 0.5 * (left(0) + width);
+    write(x, SMALL, (middle, bottom + full(31.0)), HPos::Center)?;
+    let [lowest, highest] = span(ys.iter().copied()).map(tick);
     write(
-        &format!("{y}: {} to {}, upwards", span(ys.iter().copied())[0], span(ys.iter().copied())[1]),
-        TICK,
-        (0.0, bottom + full(9.0)),
+        &format!("upwards in each map: {y}, {lowest} to {highest}"),
+        SMALL,
+        (0.0, bottom + full(31.0)),
         HPos::Left,
     )?;
     Ok(())

@@ -153,7 +153,7 @@ where
 }
 
 /// A tick's number without the rounding of its sum of steps.
-fn tick(value: f64) -> String {
+pub(super) fn tick(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded == 0.0 { "0".into() } else { rounded.to_string() }
 }
