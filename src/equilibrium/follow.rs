@@ -19,8 +19,9 @@ const FALL_RADIUS: f64 = 0.1;
 /// A fall further than this (in the chain's unit) is a snap, a shorter one a bend in the branch.
 const SNAP: f64 = 0.25;
 
-/// How much further a fall is tried where it ends on a shape of neutral stability, neither held nor let go.
-const FURTHER: f64 = 16.0;
+/// How much further than the smallest part a fall is tried, and again where it ends on a shape of neutral stability, neither
+/// held nor let go.
+const FURTHER: f64 = 64.0;
 
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -108,17 +109,18 @@ impl Walk<'_> {
                 &between
             };
             let settings = self.scene.settings;
-            let corrected = if falling { None } else { self.try_to_correct(inputs, unknowns) };
-            let end = if let Some(end) = corrected {
-                end
-            } else if !falling && part > settings.smallest_part {
-                part *= 0.5;
-                continue;
-            } else {
+            let end = if falling {
                 self.fall(inputs, unknowns)
+            } else if let Some(end) = self.try_to_correct(inputs, unknowns) {
+                end
+            } else {
+                // Right behind a fold, once it is found, a fall would begin too slowly.
+                falling = part <= settings.smallest_part;
+                part *= if falling { FURTHER } else { 0.5 };
+                continue;
             };
             match end {
-                End::Kept | End::Held => falling = false,
+                End::Kept | End::Held => {}
                 End::Neutral if next < 1.0 => {
                     falling = true;
                     part *= FURTHER;
@@ -128,7 +130,9 @@ impl Walk<'_> {
                 _ => return End::Lost,
             }
             done = next;
-            part *= 2.0;
+            // Past a fold there is no reason to go on in steps as small as those that led to it.
+            part = if falling { 1.0 } else { 2.0 * part };
+            falling = false;
             if done >= 1.0 {
                 return end;
             }

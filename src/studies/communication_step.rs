@@ -19,7 +19,7 @@ const STEPS: [u32; 13] = [1, 2, 3, 4, 5, 7, 10, 20, 50, 100, 200, 500, FINEST];
 const FINEST: u32 = 1000;
 
 /// Tips closer than this, mm, are those of one shape: what two solves leave of their residuals.
-const SAME: f64 = 1e-5;
+const SAME: f64 = 1e-7;
 
 /// Smaller distances of tips are drawn as this one, mm.
 const LEAST: f64 = 1e-10;
@@ -48,8 +48,8 @@ struct Walked {
     step: f64,
     /// Snaps that were told.
     snaps: u32,
-    /// Whether a step was not solved: the way ends there.
-    lost: bool,
+    /// Steps that were not solved; the way goes on from the last good shape.
+    refused: u32,
     tip: Vector3<f64>,
 }
 
@@ -73,17 +73,18 @@ pub fn communication_step() -> Result<Study, Error> {
             columns.push(Column::new(name, walked.iter().map(value).collect()));
         };
         add("WAY_step_mm", &|walked| walked.step);
-        add("WAY_apart_mm", &|walked| if walked.lost { f64::NAN } else { apart(walked) });
-        add("snaps_WAY", &|walked| if walked.lost { f64::NAN } else { f64::from(walked.snaps) });
-        let solved = walked.iter().filter(|walked| !walked.lost);
+        add("WAY_apart_mm", &apart);
+        add("snaps_WAY", &|walked| f64::from(walked.snaps));
+        add("refused_WAY", &|walked| f64::from(walked.refused));
         series.push(Series {
             label: way.name.into(),
             colour: number,
             stroke: Stroke::Solid,
-            places: solved.map(|walked| [walked.step, apart(walked).max(LEAST)]).collect(),
+            places: walked.iter().map(|walked| [walked.step, apart(walked).max(LEAST)]).collect(),
         });
-        let same = |walked: &Walked| !walked.lost && apart(walked) <= SAME && walked.snaps == finest.snaps;
-        let fine = walked.iter().rev().take_while(|walked| same(walked)).last();
+        let same =
+            |walked: &Walked| walked.refused == 0 && apart(walked) <= SAME && walked.snaps == finest.snaps;
+        let fine = walked.iter().rev().take_while(|walked| same(walked)).map(|walked| walked.step);
         comparison.push(Comparison {
             quantity: format!(
                 "{}: longest step of the magnet up to which nothing depends on it (mm)",
@@ -92,7 +93,7 @@ pub fn communication_step() -> Result<Study, Error> {
             decimals: 1,
             paper: Value::Absent,
             printed: Value::Absent,
-            exact: fine.map_or(Value::Absent, |walked| Value::Number(walked.step)),
+            exact: Value::Number(fine.fold(0.0, f64::max)),
             remark: format!(
                 "{}; snaps on it: {}; no such experiment is in the paper",
                 way.remark, finest.snaps
@@ -119,15 +120,15 @@ impl Way {
         let mut manipulator = self.manipulator.clone();
         let before = manipulator.outputs().snaps;
         let mut magnet = (self.inputs)(0.0).magnet.position;
-        let (mut step, mut lost) = (0.0_f64, false);
+        let (mut step, mut refused) = (0.0_f64, 0);
         for number in 1..=steps {
             let inputs = (self.inputs)(f64::from(number) / f64::from(steps));
             step = step.max(1e3 * (inputs.magnet.position - magnet).norm());
             magnet = inputs.magnet.position;
-            lost |= manipulator.solve(&inputs)?.status == Status::NotSolved;
+            refused += u32::from(manipulator.solve(&inputs)?.status == Status::NotSolved);
         }
         let outputs = manipulator.outputs();
-        Ok(Walked { step, snaps: outputs.snaps - before, lost, tip: outputs.tip.position })
+        Ok(Walked { step, snaps: outputs.snaps - before, refused, tip: outputs.tip.position })
     }
 
     /// The way that begins where `manipulator` stands, or with the magnet at the way's beginning if it is unsolved.
