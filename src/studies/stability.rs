@@ -89,7 +89,7 @@ impl Ray {
     /// Each answer that is called solved is judged apart from the method: strain modes of degree 4, ring pairs to 1e-7, are
     /// put through its rings; Newton's method on the gradient of that potential, with a Hessian by differences, goes to an
     /// equilibrium, stable or not. The answer is right if no ring moves by more than the method may err, 1e-3 of the length
-    /// (5e-2 for arcs of constant curvature), and stable if the smallest eigenvalue of the full matrix is positive. The branch
+    /// (5e-2 for arcs of constant curvature), and stable if no eigenvalue of the full matrix is negative. The branch
     /// is what the same finer potential finds when the field grows from zero in steps of 0.5 mT. Warm is a field raised in
     /// steps of 1 mT; where one is not solved, the map's own strengths are tried, from the last good shape.
     ///

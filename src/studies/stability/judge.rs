@@ -25,8 +25,9 @@ const LONGEST_STEP: f64 = 0.5;
 /// A Hessian made earlier serves while it makes the residual shrink by this factor.
 const SHRINKING: f64 = 0.1;
 
-/// Smallest eigenvalue, relative to the elastic energy, above which a shape is stable: the noise of the differences.
-const NEUTRAL: f64 = 1e-6;
+/// Smallest eigenvalue, relative to the elastic energy, below which a shape is unstable: the noise of the differences. Between
+/// it and zero nothing drives the shape away: bent in a field straight against it, it may turn about the axis at no cost.
+const UNSTABLE: f64 = -1e-6;
 
 /// An equilibrium that is known at some inputs.
 #[derive(Debug, Clone)]
@@ -41,10 +42,12 @@ pub(super) struct Known {
 impl Known {
     /// What an answer is worth that is this equilibrium.
     pub(super) fn verdict(&self) -> Verdict {
-        match self.margin > NEUTRAL {
-            false => Verdict::Unstable,
-            true if self.of_branch => Verdict::Branch,
-            true => Verdict::OtherStable,
+        if self.margin < UNSTABLE {
+            Verdict::Unstable
+        } else if self.of_branch {
+            Verdict::Branch
+        } else {
+            Verdict::OtherStable
         }
     }
 }

@@ -10,7 +10,7 @@ pub enum Verdict {
     Branch,
     /// Another stable equilibrium.
     OtherStable,
-    /// An equilibrium that is not stable.
+    /// An equilibrium that the smallest disturbance leaves.
     Unstable,
     /// Called solved, but no equilibrium is there.
     Wrong,
