@@ -40,6 +40,9 @@ const RULE_CHOICES: u32 = 3;
 /// Where rounding, not Newton's method, decides the length of a step (in the chain's unit).
 pub(super) const ROUNDING: f64 = 1e-9;
 
+/// Margin up to which nothing holds a shape: what the tolerance leaves open of it.
+const FREE: f64 = 1e-7;
+
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
@@ -155,7 +158,7 @@ impl Walk<'_> {
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
         for _ in 0..RULE_CHOICES {
-            if !self.work.factored || !self.chord(inputs, unknowns, settings.follow_step, NEARLY) {
+            if !self.work.factored || !self.chord(inputs, unknowns, reach.min(settings.follow_step), NEARLY) {
                 break;
             }
             if !self.choose_rules_here() {
@@ -288,8 +291,8 @@ impl Walk<'_> {
         let margin = lanczos.smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
         self.scratch.lanczos = lanczos;
         if margin.is_finite() {
-            // The correction has found the Hessian positive definite, if only by rounding.
-            let held = margin > ROUNDING;
+            // The correction has found the Hessian positive definite, if only by what the shape is off.
+            let held = margin > FREE;
             (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));
         } else {
             softest.fill(0.0);

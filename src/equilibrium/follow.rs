@@ -19,6 +19,15 @@ const FALL_RADIUS: f64 = 0.1;
 /// A fall further than this (in the chain's unit) is a snap, a shorter one a bend in the branch.
 const SNAP: f64 = 0.25;
 
+/// Longest step (in the chain's unit) that is foreseen instead of found.
+const FORESEEN: f64 = 0.1;
+
+/// Part of a foreseen step by which it may have to be corrected.
+const MISTAKEN: f64 = 0.1;
+
+/// Part of the iterations, as one over this number, that is kept for a fall at the end of the way.
+const RESERVE: u32 = 3;
+
 /// How much further than the smallest part a fall is tried, and again where it ends on a shape of neutral stability, neither
 /// held nor let go.
 const FURTHER: f64 = 64.0;
@@ -28,6 +37,8 @@ const FURTHER: f64 = 64.0;
 pub(super) struct Branch {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
+    /// Shape and inputs one solve earlier on this branch.
+    earlier: Option<(Vec<f64>, Inputs)>,
     /// Margin and verdict at the last factorisation.
     margin: f64,
     stable: Option<bool>,
@@ -39,7 +50,56 @@ impl Branch {
     pub(super) fn new(chain: &Chain) -> Self {
         let mut softest = vec![0.0; chain.freedoms()];
         spread(&chain.metric, &mut softest, 1.0);
-        Self { unknowns: vec![0.0; chain.freedoms()], inputs: None, margin: 0.0, stable: None, softest }
+        let unknowns = vec![0.0; chain.freedoms()];
+        Self { unknowns, inputs: None, earlier: None, margin: 0.0, stable: None, softest }
+    }
+
+    /// Whether that many unknowns are those of every shape, and all of them are finite.
+    pub(super) fn fits(&self, freedoms: usize) -> bool {
+        let lists =
+            [Some(&self.unknowns), Some(&self.softest), self.earlier.as_ref().map(|earlier| &earlier.0)];
+        lists.into_iter().flatten().all(|list| list.len() == freedoms && list.iter().all(|x| x.is_finite()))
+    }
+
+    /// All inputs.
+    pub(super) fn all_inputs(&self) -> impl Iterator<Item = &Inputs> {
+        self.inputs.iter().chain(self.earlier.iter().map(|earlier| &earlier.1))
+    }
+
+    /// Goes on to a shape at `inputs`; `last` is the shape before.
+    fn advance(&mut self, inputs: &Inputs, last: &[f64], snapped: bool) {
+        match (&mut self.inputs, &mut self.earlier) {
+            (None, _) => self.inputs = Some(inputs.clone()),
+            (Some(here), earlier) if snapped => {
+                *earlier = None;
+                here.copy_from(inputs);
+            }
+            (Some(here), Some((shape, before))) => {
+                shape.copy_from_slice(last);
+                before.copy_from(here);
+                here.copy_from(inputs);
+            }
+            (Some(here), earlier) => {
+                *earlier = Some((last.to_vec(), here.clone()));
+                here.copy_from(inputs);
+            }
+        }
+    }
+
+    /// Writes to `shape` where the last step leads to at `target`, as far along as the inputs go on; the length of that step
+    /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
+    fn foresee(&self, target: &Inputs, scene: &Scene<'_>, shape: &mut [f64]) -> Option<f64> {
+        let held = self.stable.is_none_or(|stable| stable && self.margin >= scene.settings.fold_margin);
+        let (Some(here), Some((earlier, before)), true) = (&self.inputs, &self.earlier, held) else {
+            return None;
+        };
+        let pace = target.pace(here, before)?;
+        for ((x, now), then) in shape.iter_mut().zip(&self.unknowns).zip(earlier) {
+            *x = pace * (now - then);
+        }
+        let length = norm(&scene.chain.metric, shape) / scene.chain.unit();
+        shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
+        Some(length).filter(|length| *length <= FORESEEN)
     }
 }
 
@@ -56,7 +116,8 @@ impl Scene<'_> {
         let reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         let mut walk = Walk { scene: *self, work, rules, scratch, report: Report::start(), reach };
         walk.scratch.last.copy_from_slice(&branch.unknowns);
-        let end = walk.run(branch.inputs.as_ref(), target, &mut branch.unknowns);
+        let foreseen = walk.foreseen(branch, target);
+        let end = foreseen.unwrap_or_else(|| walk.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
         match end {
             End::Kept => (walk.report.margin, walk.report.stable) = (branch.margin, branch.stable),
             End::Held => walk.judge(target, &mut branch.softest),
@@ -73,15 +134,25 @@ impl Scene<'_> {
         }
         walk.report.solved = true;
         (branch.margin, branch.stable) = (walk.report.margin, walk.report.stable);
-        match &mut branch.inputs {
-            Some(inputs) => inputs.copy_from(target),
-            None => branch.inputs = Some(target.clone()),
-        }
+        branch.advance(target, &walk.scratch.last, walk.report.snaps > 0);
         walk.report
     }
 }
 
 impl Walk<'_> {
+    /// Corrects the shape that the last step leads to expect, if there is one and it is nearly right.
+    fn foreseen(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        let expected = branch.foresee(target, &self.scene, &mut trial);
+        let end =
+            expected.and_then(|length| self.correct(target, &mut trial, (MISTAKEN * length).max(NEARLY)));
+        if end.is_some() {
+            branch.unknowns.copy_from_slice(&trial);
+        }
+        self.scratch.trial = trial;
+        end
+    }
+
     fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut [f64]) -> End {
         let unloaded;
         let start = if let Some(inputs) = from {
@@ -99,7 +170,7 @@ impl Walk<'_> {
             &unloaded
         };
         let (mut done, mut part, mut falling) = (0.0, 1.0, false);
-        while self.left() > 0 {
+        while self.left() > self.scene.settings.iterations / RESERVE {
             let next = f64::min(1.0, done + part);
             let between;
             let inputs = if next >= 1.0 {
@@ -137,7 +208,11 @@ impl Walk<'_> {
                 return end;
             }
         }
-        End::Lost
+        // Too many small steps along the branch: downhill all the way.
+        match self.fall(target, unknowns) {
+            End::Neutral if self.report.residual > ROUNDING => End::Lost,
+            end => end,
+        }
     }
 
     /// Iterations that this solve may still take.

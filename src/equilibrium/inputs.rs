@@ -6,6 +6,12 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, check};
 use crate::geometry::Pose;
 
+/// What the next step of a quantity may go aside of the last one, in lengths of that, to count as going on.
+const ASIDE: f64 = 0.5;
+
+/// How many times the last step the next one may be as long.
+const FARTHEST: f64 = 4.0;
+
 /// Pose and strength of the external magnet, background field, base pose and loads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
@@ -77,6 +83,46 @@ impl Inputs {
             ring_forces: self.ring_forces.iter().zip(&other.ring_forces).map(|(a, b)| mix(a, b)).collect(),
             gravity: mix(&self.gravity, &other.gravity),
         }
+    }
+
+    /// How far these go on from `here` in the direction from `before` to there, in steps of that length; `None` where they
+    /// go elsewhere or much further.
+    pub(super) fn pace(&self, here: &Self, before: &Self) -> Option<f64> {
+        let (mut sum, mut moving) = (0.0, 0.0);
+        for ((now, here), before) in self.quantities().zip(here.quantities()).zip(before.quantities()) {
+            let (mut last, mut along, mut next) = (0.0, 0.0, 0.0);
+            for ((now, here), before) in now.iter().zip(here).zip(before) {
+                let (step, then) = (now - here, here - before);
+                (last, along, next) = (last + then * then, along + step * then, next + step * step);
+            }
+            if last + next == 0.0 {
+                continue;
+            }
+            let pace = along / last;
+            let ahead = next - pace * along <= ASIDE * ASIDE * last && pace.abs() <= FARTHEST;
+            if !ahead {
+                return None;
+            }
+            (sum, moving) = (sum + pace, moving + 1.0);
+        }
+        (moving > 0.0).then(|| sum / moving)
+    }
+
+    /// The numbers of each quantity.
+    fn quantities(&self) -> impl Iterator<Item = &[f64]> {
+        let numbers = [
+            self.magnet.position.as_slice(),
+            self.magnet.rotation.as_slice(),
+            std::slice::from_ref(&self.magnet_strength),
+            self.uniform_field.as_slice(),
+            &self.field_gradient,
+            self.base.position.as_slice(),
+            self.base.rotation.as_slice(),
+            self.tip_force.as_slice(),
+            self.tip_moment.as_slice(),
+            self.gravity.as_slice(),
+        ];
+        numbers.into_iter().chain(self.ring_forces.iter().map(Vector3::as_slice))
     }
 
     /// Checks that every number is finite and that there is one force for each of `rings` rings.

@@ -3,11 +3,13 @@
 mod chain;
 mod columns;
 mod condensed;
+mod continuation;
 mod correction;
 mod dead;
 mod drift;
 mod field_rates;
 mod follow;
+mod hessian;
 mod inputs;
 mod internal;
 mod interpolation;
@@ -27,6 +29,7 @@ mod spans;
 mod transfer;
 mod views;
 
+pub use continuation::{Diagram, Shape};
 pub use correction::Report;
 pub use inputs::Inputs;
 pub use jacobian::{Input, Jacobian, Output};

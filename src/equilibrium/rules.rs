@@ -1,6 +1,7 @@
 //! The quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
 
 use super::chain::Chain;
+use super::settings::Settings;
 use super::views::Views;
 use crate::design::Ring;
 use crate::geometry::Pose;
@@ -18,18 +19,20 @@ const BISECTIONS: usize = 40;
 pub(super) struct PairRules {
     tables: Vec<Table>,
     chosen: Vec<usize>,
-    /// The level of every element and ring, element by element.
+    /// The level of every element and ring, element by element; none where rings do not act on spans.
     spans: Vec<usize>,
     /// How often they have changed.
     number: u64,
 }
 
 impl PairRules {
-    /// Tables for a relative accuracy of the energies.
-    pub(super) fn new(chain: &Chain, accuracy: f64) -> Self {
+    /// Tables for the accuracy and the interaction of `settings`.
+    pub(super) fn new(chain: &Chain, settings: &Settings) -> Self {
+        let accuracy = settings.pair_accuracy;
         let tables: Vec<Table> = chain.rings.iter().map(|body| table(&body.ring, accuracy)).collect();
         let count = tables.len() * tables.len().saturating_sub(1) / 2;
-        let spans = vec![0; chain.elements.len() * chain.rings.len()];
+        let elements = if settings.interaction.acts_on_spans() { chain.elements.len() } else { 0 };
+        let spans = vec![0; elements * chain.rings.len()];
         Self { tables, chosen: vec![0; count], spans, number: 0 }
     }
 

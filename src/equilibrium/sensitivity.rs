@@ -139,7 +139,7 @@ impl Potential<'_> {
     }
 
     /// Carries the rates of the unknowns along the chain, from the base that stands still.
-    fn motion(&mut self, unknown_rates: &DMatrix<f64>) -> Motion {
+    pub(super) fn motion(&mut self, unknown_rates: &DMatrix<f64>) -> Motion {
         let mut nodes = vec![DMatrix::zeros(6, unknown_rates.ncols())];
         let mut elements = Vec::new();
         for k in 0..self.chain.elements.len() {

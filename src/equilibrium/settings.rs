@@ -87,7 +87,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one solve, after which it has failed; default 500.
+    /// Iterations at most of one solve, after which it has failed; default 500, fewer where each takes long.
     pub iterations: u32,
     /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
     pub method: Method,

@@ -36,15 +36,17 @@ impl Equilibrium {
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         self.reset();
         let Snapshot { branch, origin, rules } = snapshot;
-        let lists = [Some(&branch.unknowns), Some(&branch.softest), origin.as_ref().map(|o| &o.unknowns)];
-        let fits = (lists.iter().flatten())
-            .all(|list| list.len() == self.chain.freedoms() && list.iter().all(|entry| entry.is_finite()));
+        let fits = branch.fits(self.chain.freedoms())
+            && origin.as_ref().is_none_or(|origin| {
+                origin.unknowns.len() == self.chain.freedoms()
+                    && origin.unknowns.iter().all(|x| x.is_finite())
+            });
         let foreign = || Error::Unsupported("the snapshot is not of this design".into());
         if !fits || !self.rules.restore(rules) {
             return Err(foreign());
         }
         let Some(inputs) = &branch.inputs else { return Ok(()) };
-        for inputs in [Some(inputs), origin.as_ref().map(|origin| &origin.inputs)].into_iter().flatten() {
+        for inputs in branch.all_inputs().chain(origin.as_ref().map(|origin| &origin.inputs)) {
             inputs.check(self.chain.rings.len())?;
         }
         let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));

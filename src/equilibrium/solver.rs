@@ -50,6 +50,9 @@ pub struct Equilibrium {
     scratch: Scratch,
 }
 
+/// Hessians times pairs of a ring and an element in one solve, which take about a second: one without a solution ends.
+const MOST_PAIRS: usize = 18_000;
+
 impl Equilibrium {
     /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
@@ -70,10 +73,10 @@ impl Equilibrium {
         }
         check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
         let chain = Chain::new(design, &settings)?;
+        let settings = affordable(settings, &chain);
         let total = design.length();
         let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
-        let (work, rules) =
-            (Workspace::new(&chain, &settings), PairRules::new(&chain, settings.pair_accuracy));
+        let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, &settings));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
@@ -107,8 +110,14 @@ impl Equilibrium {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// branch is then untouched. A solve that fails is no error: see [`Report::solved`].
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
+        self.solve_within(inputs, self.settings.iterations)
+    }
+
+    /// The same in so many iterations.
+    pub(crate) fn solve_within(&mut self, inputs: &Inputs, iterations: u32) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
-        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let settings = &Settings { iterations, ..self.settings };
+        let scene = Scene { chain: &self.chain, settings, magnet: self.magnet.as_ref() };
         Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules, &mut self.scratch))
     }
 
@@ -287,6 +296,16 @@ impl Equilibrium {
         }
         out
     }
+}
+
+/// No more iterations than pairs of rings and spans allow.
+fn affordable(settings: Settings, chain: &Chain) -> Settings {
+    let pairs = chain.rings.len() * chain.elements.len();
+    if !settings.interaction.acts_on_spans() || pairs == 0 {
+        return settings;
+    }
+    let most = u32::try_from(MOST_PAIRS / pairs).unwrap_or(u32::MAX).max(1);
+    Settings { iterations: settings.iterations.min(most), ..settings }
 }
 
 /// Finds the body at unstrained arc length `s` from the base.

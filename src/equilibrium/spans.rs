@@ -11,6 +11,9 @@ use crate::rod::Order;
 impl Potential<'_> {
     /// Adds the energies of all rings with all spans to the loads; their sum.
     pub(super) fn load_spans(&mut self, order: Order) -> Option<f64> {
+        if !self.settings.interaction.acts_on_spans() {
+            return Some(0.0);
+        }
         let mutual = self.settings.interaction == Interaction::Full;
         let mut energy = 0.0;
         for k in 0..self.chain.elements.len() {

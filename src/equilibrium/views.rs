@@ -60,7 +60,8 @@ impl Views {
 
     /// The level for the bend between a ring and an element, whose ends are at two nodes.
     pub(super) fn level(ring: &Pose, ends: [&Pose; 2]) -> usize {
-        let bend = ends.map(|end| ring.axis().angle(&end.axis())).into_iter().fold(0.0, f64::max);
+        let least = ends.map(|end| ring.axis().dot(&end.axis())).into_iter().fold(1.0, f64::min);
+        let bend = least.clamp(-1.0, 1.0).acos();
         BENDS.iter().position(|most| bend <= *most).unwrap_or(BENDS.len() - 1)
     }
 }

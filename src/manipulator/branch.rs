@@ -1,13 +1,14 @@
 //! Following a branch along a path of inputs, and locating the folds where it is left.
 
+use super::prediction::predicted;
 use super::{Inputs, Manipulator, Outputs, Status};
 use crate::error::{Error, check};
 
 /// Width of the interval in which a fold is located, of the path's span.
 const FOLD_WIDTH: f64 = 1e-5;
 
-/// The margin below which the fold ahead is predicted: its square is linear only close to the fold.
-const PREDICTION_MARGIN: f64 = 0.5;
+/// Shapes from which a snap is predicted.
+const REMEMBERED: usize = 3;
 
 /// Where a branch was left.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,8 +48,8 @@ pub struct Branch<F> {
     /// The branch ended on the last way.
     lost: bool,
     folds: Vec<Fold>,
-    /// Value and margin of the last two solved targets of [`Branch::to`] on this branch.
-    margins: [Option<(f64, f64)>; 2],
+    /// Value and margin of the last solved targets of [`Branch::to`] on this branch.
+    margins: Vec<(f64, f64)>,
 }
 
 impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
@@ -62,7 +63,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     pub fn new(manipulator: Manipulator, inputs: F, span: f64, longest_step: f64) -> Result<Self, Error> {
         check("span of the path", span, |v| v > 0.0, "> 0")?;
         check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
-        let (folds, margins) = (Vec::new(), [None; 2]);
+        let (folds, margins) = (Vec::new(), Vec::new());
         Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
     }
 
@@ -117,13 +118,13 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         &self.folds
     }
 
-    /// The value at which the branch folds, if it goes on as between the last two targets: towards a fold the square of
-    /// the stability margin goes to zero linearly. `None` where the margin grows or is above 0.5.
+    /// The value at which the branch is left, if it goes on as between the last three targets (two, if there are no more).
+    ///
+    /// The stability margin goes to zero as a power of the distance: 1/2 before a fold, 1 where a symmetric shape turns
+    /// over, in between where it is nearly symmetric. `None` where the margin grows or is above 0.5.
     #[must_use]
     pub fn predicted_fold(&self) -> Option<f64> {
-        let [Some((before, first)), Some((here, last))] = self.margins else { return None };
-        let ahead = last < first && last < PREDICTION_MARGIN && first > 0.0;
-        ahead.then(|| here + (here - before) * last * last / (first * first - last * last))
+        predicted(&self.margins)
     }
 
     fn trial(&self, value: f64) -> Result<Manipulator, Error> {
@@ -154,7 +155,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
             self.manipulator = nearest;
             return Ok(off); // reached from closer by: no fold
         }
-        self.margins = [None; 2];
+        self.margins.clear();
         let after = found(off, &nearest).or(after);
         self.lost = after.is_none();
         let (reached, manipulator) = after.clone().unwrap_or((on, nearest));
@@ -183,7 +184,10 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
 
     fn remember(&mut self, value: f64) {
         let margin = self.manipulator.measure_margin().stability_margin;
-        self.margins = [self.margins[1], Some((value, margin))];
+        if self.margins.len() == REMEMBERED {
+            self.margins.remove(0);
+        }
+        self.margins.push((value, margin));
     }
 }
 

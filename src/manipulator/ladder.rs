@@ -30,6 +30,9 @@ const MOVED: f64 = 0.02;
 /// Most judgements that pass between two trials of a cheaper rung: each failed one doubles their number.
 const PATIENCE: u32 = 16;
 
+/// Iterations that a cheaper model may take for one solve: more would not be cheap.
+const CHEAP: u32 = 100;
+
 /// Accuracy of the pairs on the coarse rungs.
 const COARSE: f64 = 1e-3;
 
@@ -94,7 +97,11 @@ impl Ladder {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let rungs = rungs(&settings, design.rings().next().is_some());
+        let rungs = if settings.interaction == Interaction::Auto {
+            models_of_auto(&settings, design.rings().next().is_some())
+        } else {
+            vec![settings]
+        };
         let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
         Ok(Self {
             rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
@@ -152,11 +159,13 @@ impl Ladder {
         if let Some((before, shape)) = way_back
             && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
         {
-            return self.ascend(from + 1, inputs, |models, rung| {
+            let next = if report.solved { from + 1 } else { last };
+            return self.ascend(next, inputs, |models, rung| {
                 let (lower, upper) = models.split_at_mut(rung);
                 upper[0].adopt(&lower[from], &shape, &before);
                 let settled = upper[0].solve(&before)?;
-                let report = upper[0].solve(inputs)?;
+                let left = upper[0].settings().iterations.saturating_sub(settled.iterations);
+                let report = upper[0].solve_within(inputs, left)?;
                 let (iterations, snaps) =
                     (settled.iterations + report.iterations, settled.snaps + report.snaps);
                 Ok(Report { iterations, snaps, ..report })
@@ -174,7 +183,8 @@ impl Ladder {
         Ok(report)
     }
 
-    /// From rung `first` up to one that is good enough, each solved by `solve`.
+    /// From rung `first` up to one that is good enough, each solved by `solve`. Where a cheaper one finds nothing, the
+    /// richest is asked.
     fn ascend(
         &mut self,
         first: usize,
@@ -193,7 +203,7 @@ impl Ladder {
             if richest || (self.is_sound(&report) && self.judge(inputs, CLIMB)) {
                 return Ok(Report { iterations, ..report });
             }
-            self.present += 1;
+            self.present = if report.solved { self.present + 1 } else { self.last() };
         }
     }
 
@@ -286,19 +296,18 @@ impl Ladder {
     }
 }
 
-/// Settings of the rungs, cheapest first, the user's own last.
-fn rungs(settings: &Settings, has_rings: bool) -> Vec<Settings> {
-    if settings.interaction != Interaction::Auto {
-        return vec![*settings];
-    }
+/// Settings of the models that the level `auto` chooses from, cheapest first, for a design with free rings or without.
+#[must_use]
+pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
     let coarse = settings.pair_accuracy.max(COARSE);
-    let cheap = |interaction| Settings { interaction, bending_stop: false, ..*settings };
+    let iterations = settings.iterations.min(CHEAP);
+    let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };
     let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
     let mut out = vec![Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::None) }];
     if has_rings {
         out.push(Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::Rings) });
         out.push(cheap(Interaction::Rings));
-        out.push(Settings { degree: 0, pair_accuracy: coarse, ..richest });
+        out.push(Settings { degree: 0, pair_accuracy: coarse, iterations, ..richest });
     }
     out.push(richest);
     out

@@ -4,11 +4,13 @@ mod branch;
 mod device;
 mod ladder;
 mod outputs;
+mod prediction;
 mod scene;
 mod solver;
 
 pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
 pub use branch::{Branch, Fold};
 pub use device::{Manipulator, Snapshot};
+pub use ladder::models_of_auto;
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};

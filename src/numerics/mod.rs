@@ -1,6 +1,7 @@
 //! Numerical methods that know no physics.
 
 pub mod cholesky;
+pub mod continuation;
 pub mod eigenvalue;
 pub mod lagrange;
 pub mod levenberg_marquardt;

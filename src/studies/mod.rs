@@ -1,13 +1,16 @@
 //! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
 //!
-//! Every study is a function without arguments that returns a [`Study`]. Two that take minutes return what they have found:
-//! [`accuracy()`] points, which [`accuracy_picture`] draws, and [`stability_rays`] attempts, which [`stability_picture`] draws.
-//! Nothing is printed or written here.
+//! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
+//! points, which [`accuracy_picture`] draws, and so does [`fidelity()`]; [`bifurcation()`] has tables beside its diagrams;
+//! the map of failures takes minutes, and is the [`stability_rays`], each of which makes its [`Ray::attempts`], which
+//! [`stability_picture`] draws. Nothing is printed or written here.
 
 mod accuracy;
 mod bending;
+mod bifurcation;
 mod communication_step;
 mod experiment;
+mod fidelity;
 mod field_ring;
 mod fig4;
 mod fig5;
@@ -21,7 +24,9 @@ mod stability;
 mod study;
 
 pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use communication_step::communication_step;
+pub use fidelity::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};
 pub use field_ring::field_ring;
 pub use fig4::fig4;
 pub use fig5::fig5;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Method, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Outputs, Status};
+use crate::manipulator::{Inputs, Manipulator, Status};
 use judge::{Judge, Known};
 
 pub use picture::stability_picture;
@@ -117,9 +117,30 @@ impl Ray {
                     }
                     let strength = strength(number, 1, 1);
                     let outputs = manipulator.outputs();
-                    let judged = (outputs.status != Status::NotSolved)
-                        .then(|| judge.nearest(&self.inputs(strength), &outputs.rings, accuracy, known));
-                    out.push(self.attempt(name, start, strength, outputs, judged, accuracy));
+                    let solved = outputs.status != Status::NotSolved;
+                    let found = if solved {
+                        judge.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
+                    } else {
+                        None
+                    };
+                    let verdict = match found {
+                        Some(found) if found.distance <= accuracy => found.verdict,
+                        _ if solved => Verdict::Wrong,
+                        _ if outputs.residual.is_finite() => Verdict::Stalled,
+                        _ => Verdict::Diverged,
+                    };
+                    out.push(Attempt {
+                        method: name,
+                        interaction: self.interaction.name(),
+                        segments: self.segments,
+                        start,
+                        direction_deg: self.direction_deg,
+                        field_mt: strength,
+                        verdict,
+                        distance_over_length: found.map(|found| found.distance),
+                        margin: found.map(|found| found.margin),
+                        residual: outputs.residual,
+                    });
                 }
             }
         }
@@ -144,37 +165,6 @@ impl Ray {
             known.extend(judge.loaded(&self.inputs(strength(number, 1, 1))));
         }
         Ok(out)
-    }
-
-    fn attempt(
-        &self,
-        method: &'static str,
-        start: &'static str,
-        field_mt: f64,
-        outputs: &Outputs,
-        judged: Option<Option<(Verdict, f64, f64)>>,
-        accuracy: f64,
-    ) -> Attempt {
-        let residual = outputs.residual;
-        let verdict = match judged {
-            None if residual.is_finite() => Verdict::Stalled,
-            None => Verdict::Diverged,
-            Some(Some((verdict, distance, _))) if distance <= accuracy => verdict,
-            Some(_) => Verdict::Wrong,
-        };
-        let found = judged.flatten();
-        Attempt {
-            method,
-            interaction: self.interaction.name(),
-            segments: self.segments,
-            start,
-            direction_deg: self.direction_deg,
-            field_mt,
-            verdict,
-            distance_over_length: found.map(|found| found.1),
-            margin: found.map(|found| found.2),
-            residual,
-        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The binary `mcm` from outside: exit status, messages, files.
 
+mod bifurcation;
 mod branches;
 mod field;
 mod pack;

@@ -1,5 +1,6 @@
 //! Tests of `numerics`.
 
+mod continuation;
 mod linear;
 mod quadrature;
 mod trust_region;

@@ -1,6 +1,5 @@
 //! `mcm study accuracy`: points of error and time as a table, the picture, the fronts in Markdown.
 
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -8,9 +7,7 @@ use mcm::studies::{Point, Series, Stroke, accuracy, accuracy_cases, accuracy_pic
 use serde::Deserialize;
 
 use super::failure::Failure;
-use super::files::create_table;
-use super::picture;
-use super::study::progress_bar;
+use super::study::{leave, progress_bar};
 
 const HEADER: &str = "\
 | field | segments | level | start | method | resolution | time (us) | tip error over length | angle (deg) | force and torque |
@@ -32,15 +29,7 @@ pub(super) fn run(out: &Path, peers: Option<&Path>) -> Result<ExitCode, Failure>
     let bar = progress_bar(accuracy_cases() as u64, "scenes");
     let points = accuracy(|| bar.inc(1))?;
     bar.finish_and_clear();
-    let file = |ending: &str| out.join("accuracy").with_extension(ending);
-    let mut table = create_table(&file("csv"))?;
-    points.iter().try_for_each(|point| table.serialize(point))?;
-    table.flush()?;
-    picture::write(&accuracy_picture(&points, peers), &file("png"))?;
-    let fronts = fronts(&points);
-    std::fs::write(file("md"), &fronts)?;
-    std::io::stdout().write_all(fronts.as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    leave(out, "accuracy", &points, &accuracy_picture(&points, peers), &fronts(&points))
 }
 
 /// The fronts of all scenes and starts.

@@ -1,8 +1,10 @@
 //! The command line.
 
 mod accuracy;
+mod bifurcation;
 mod comparison;
 mod failure;
+mod fidelity;
 mod field;
 mod files;
 mod pack;

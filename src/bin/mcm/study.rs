@@ -9,16 +9,17 @@ use indicatif::{ProgressBar, ProgressStyle};
 use mcm::error::Error;
 use mcm::studies;
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, comparison, picture, stability};
+use super::{accuracy, bifurcation, comparison, fidelity, picture, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
-    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy`, \
-which measures times, and `stability` take minutes and are no part of it.\n\n\
+    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` and \
+`fidelity`, which measure times, `bifurcation` and `stability`, which take their time, are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -60,6 +61,10 @@ enum Name {
     CommunicationStep,
     /// Error against time of all methods, and who is on the front
     Accuracy,
+    /// What the level auto saves, by tolerance
+    Fidelity,
+    /// All equilibria, stable or not, where they fold, and how early a snap is seen coming
+    Bifurcation,
     /// Where methods fail: over field strength and direction, cold and warm
     Stability,
     /// Every figure
@@ -67,7 +72,7 @@ enum Name {
 }
 
 impl Name {
-    /// The study of this name; `None` for all, and for those that take minutes.
+    /// The study of this name; `None` for all, and for those that have tables of their own.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -80,7 +85,7 @@ impl Name {
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
             Self::CommunicationStep => Some(studies::communication_step),
-            Self::Accuracy | Self::Stability | Self::All => None,
+            Self::Accuracy | Self::Fidelity | Self::Bifurcation | Self::Stability | Self::All => None,
         }
     }
 
@@ -95,11 +100,12 @@ impl Study {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
-        if self.name == Name::Accuracy {
-            return accuracy::run(&self.out, self.peers.as_deref());
-        }
-        if self.name == Name::Stability {
-            return stability::run(&self.out);
+        match self.name {
+            Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
+            Name::Fidelity => return fidelity::run(&self.out),
+            Name::Bifurcation => return bifurcation::run(&self.out),
+            Name::Stability => return stability::run(&self.out),
+            _ => {}
         }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
@@ -130,7 +136,7 @@ impl Study {
 }
 
 /// Writes a study's columns; an empty cell is a value that does not exist.
-fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
+pub(super) fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
     let mut table = create_table(path)?;
     table.write_record(study.columns.iter().map(|column| &column.name))?;
     let rows = study.columns.first().map_or(0, |column| column.values.len());
@@ -140,6 +146,24 @@ fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
     }
     table.flush()?;
     Ok(())
+}
+
+/// Leaves rows, picture and a Markdown table as NAME.csv, NAME.png and NAME.md in `out`, and prints the last.
+pub(super) fn leave(
+    out: &Path,
+    name: &str,
+    rows: &[impl Serialize],
+    picture: &studies::Study,
+    markdown: &str,
+) -> Result<ExitCode, Failure> {
+    let file = |ending: &str| out.join(name).with_extension(ending);
+    let mut table = create_table(&file("csv"))?;
+    rows.iter().try_for_each(|row| table.serialize(row))?;
+    table.flush()?;
+    picture::write(picture, &file("png"))?;
+    std::fs::write(file("md"), markdown)?;
+    std::io::stdout().write_all(markdown.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Hidden when standard error is no terminal.

@@ -94,7 +94,7 @@ impl Comparison {
         let total = design.length();
         let arc_lengths = (0..shape_points).map(|i| total * i as f64 / (shape_points - 1) as f64).collect();
         Ok(Self {
-            rules: PairRules::new(&line.chain, settings.pair_accuracy),
+            rules: PairRules::new(&line.chain, &settings),
             magnet: magnet.cloned(),
             arc_lengths: Arc::new(arc_lengths),
             line: Arc::new(line),

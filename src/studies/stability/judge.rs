@@ -41,7 +41,7 @@ pub(super) struct Known {
 
 impl Known {
     /// What an answer is worth that is this equilibrium.
-    pub(super) fn verdict(&self) -> Verdict {
+    fn verdict(&self) -> Verdict {
         if self.margin < UNSTABLE {
             Verdict::Unstable
         } else if self.of_branch {
@@ -50,6 +50,16 @@ impl Known {
             Verdict::OtherStable
         }
     }
+}
+
+/// The equilibrium that an answer was found to be, or to be nearest to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Found {
+    pub(super) verdict: Verdict,
+    /// Largest distance of a ring from there over the length.
+    pub(super) distance: f64,
+    /// As [`Known::margin`].
+    pub(super) margin: f64,
 }
 
 /// Judges shapes by a finer potential, of which it takes the gradient alone: Newton's method with differences of gradients
@@ -86,14 +96,18 @@ impl Judge {
         rings: &[Pose],
         accuracy: f64,
         known: &mut Vec<Known>,
-    ) -> Option<(Verdict, f64, f64)> {
+    ) -> Option<Found> {
         let length = self.length;
         let nearest = |known: &[Known]| {
             let apart = known.iter().map(|known| (distance(&known.rings, rings) / length, known));
             let nearest = apart.min_by(|a, b| a.0.total_cmp(&b.0));
-            nearest.map(|(distance, known)| (known.verdict(), distance, known.margin))
+            nearest.map(|(distance, known)| Found {
+                verdict: known.verdict(),
+                distance,
+                margin: known.margin,
+            })
         };
-        let found = nearest(known).filter(|found| found.1 <= accuracy);
+        let found = nearest(known).filter(|found| found.distance <= accuracy);
         if found.is_some() {
             return found;
         }

@@ -8,18 +8,21 @@ use mcm::fmi::Package;
 use mcm::fmi::variable::{Kind, Role, Value};
 
 /// Scenes of every kind: rings and none, stop, backbone, every level of interaction, few segments and many.
-/// The first are quick to build.
-const SCENES: [&str; 5] = [
-    "[design]\nsegments = 1\n[model]\nbending_stop = true",
-    "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0",
+/// The first are quick to build and to solve, the next still short.
+const SCENES: [&str; 7] = [
+    "[design]\nsegments = 1\n[model]\nbending_stop = true\ninteraction = \"rings\"",
+    "[design]\nsegments = 1\nbase_magnet = false\n[model]\ninteraction = \"none\"",
     "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 10.0, 0.0]\n[model]\ninteraction = \"preceding\"",
     "[design]\nsegments = 2\nbase_magnet = false\n[design.backbone]\nouter_radius_mm = 0.7\ninner_radius_mm = 0.25\n\
      shore_a = 50.0\npoisson = 0.4\n[model]\ninteraction = \"full\"",
+    "[design]\nsegments = 1",
+    "[design]\nkind = \"cylinder\"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0",
     "[design]\nsegments = 9",
 ];
 
-/// How many of them are.
+/// How many of them are quick, and how many short or quick.
 pub(crate) const QUICK: usize = 2;
+pub(crate) const SHORT: usize = 6;
 
 /// A packed design with its unpacked resources; of its variables the references by type and role.
 pub(crate) struct Design {

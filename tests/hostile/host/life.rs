@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 
 use mcm::fmi::ffi::*;
 
-use super::design::QUICK;
+use super::design::{QUICK, SHORT};
 use super::*;
 
 const CO_SIMULATION: fmi2Type = fmi2Type::fmi2CoSimulation;
@@ -21,8 +21,12 @@ impl Host<'_> {
     /// Instantiates one of the designs, mostly as the standard says.
     pub(super) fn instantiate(&mut self) {
         let known = self.designs.len();
-        let quick = !self.draw.once_in(16);
-        let design = self.draw.below(if quick { QUICK } else { known });
+        let among = match self.draw.byte() {
+            0..=239 => QUICK,
+            240..=253 => SHORT,
+            _ => known,
+        };
+        let design = self.draw.below(among);
         let other = self.draw.below(4 * known);
         let environment = ENVIRONMENT.fetch_add(1, Ordering::Relaxed);
         let functions = logger::callbacks(environment);

@@ -1,0 +1,50 @@
+//! `mcm study bifurcation`: diagrams as table and picture, folds and predictions in Markdown.
+
+use std::fmt::Write as _;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
+
+use super::failure::Failure;
+use super::picture;
+use super::study::write_table;
+
+/// Leaves bifurcation.csv, bifurcation.png and bifurcation.md in `out`; the tables are printed, too.
+pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
+    let Bifurcation { study, places, predictions } = bifurcation()?;
+    let file = |ending: &str| out.join("bifurcation").with_extension(ending);
+    write_table(&study, &file("csv"))?;
+    picture::write(&study, &file("png"))?;
+    let tables = format!("{}\n{}", table_of_places(&places), table_of_predictions(&predictions));
+    std::fs::write(file("md"), &tables)?;
+    std::io::stdout().write_all(tables.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn table_of_places(places: &[Place]) -> String {
+    let mut out =
+        "| what happens | continuation | bisection | closed form |\n| --- | --- | --- | --- |\n".to_owned();
+    for Place { what, continuation, bisection, closed_form } in places {
+        let number =
+            |value: &Option<f64>, digits| value.map_or_else(String::new, |value| format!("{value:.digits$}"));
+        let (bisection, closed_form) = (number(bisection, 3), number(closed_form, 6));
+        let _ = writeln!(out, "| {what} | {continuation:.6} | {bisection} | {closed_form} |");
+    }
+    out
+}
+
+fn table_of_predictions(predictions: &[Prediction]) -> String {
+    let row = |first: &str, cells: &[String]| format!("| {first} | {} |\n", cells.join(" | "));
+    let mut out =
+        row("snap, and distance before it", &DISTANCES.map(|distance| format!("{} %", 100.0 * distance)));
+    out += &row("---", &DISTANCES.map(|_| "---".to_owned()));
+    for Prediction { what, errors } in predictions {
+        let cell = |error: &Option<f64>| {
+            error.map_or_else(|| "none".into(), |error| format!("{:+.1} %", 100.0 * error))
+        };
+        out += &row(what, &errors.iter().map(cell).collect::<Vec<_>>());
+    }
+    out
+}

@@ -1,0 +1,32 @@
+//! The Hessian as one matrix by the unknowns, definite or not: for studies of unstable shapes.
+//!
+//! The solver never makes it: what it factorises is condensed to the nodes, see [`super::condensed`].
+
+use nalgebra::{DMatrix, DMatrixView};
+
+use super::potential::Potential;
+
+impl Potential<'_> {
+    /// The matrix at the shape that was linearised last, where all forces have a potential.
+    pub(super) fn hessian(&mut self) -> DMatrix<f64> {
+        let (size, rows) = (self.chain.freedoms(), 6 * self.chain.elements.len());
+        let motion = self.motion(&DMatrix::identity(size, size));
+        let mut nodes = DMatrix::zeros(rows, size);
+        for (k, node) in motion.nodes.iter().skip(1).enumerate() {
+            nodes.rows_mut(6 * k, 6).copy_from(node);
+        }
+        // Stored row by row, and symmetric.
+        let mut out = nodes.tr_mul(&(DMatrixView::from_slice(&self.work.node_hessian, rows, rows) * &nodes));
+        for (k, moved) in motion.elements.iter().enumerate() {
+            let size = moved.nrows();
+            out +=
+                moved.tr_mul(&(DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size) * moved));
+            if self.settings.interaction.acts_on_spans() {
+                let cross = DMatrixView::from_slice(&self.work.cross[k], size, rows);
+                let mixed = moved.tr_mul(&(cross * &nodes));
+                out += mixed.transpose() + mixed;
+            }
+        }
+        out
+    }
+}

@@ -1,0 +1,116 @@
+//! A diagram as a panel: the branches, stable or not, their folds, and the way of slow loading.
+
+use super::case::{Case, Loading};
+use crate::equilibrium::Diagram;
+use crate::numerics::continuation::Kind;
+use crate::studies::study::{Column, Curve, Mark, Panel, Stroke};
+
+/// What is drawn, and where.
+pub(super) struct Drawing {
+    /// Begins the names of its columns.
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// What the abscissa is, and its unit.
+    pub(super) x: [&'static str; 2],
+    /// What the stable branches are called, one colour each.
+    pub(super) branches: &'static [&'static str],
+    /// The legend says what dashes, dots and rings are.
+    pub(super) explained: bool,
+}
+
+/// A panel under way: its places on the abscissa, and a column for each curve.
+pub(super) struct Canvas {
+    drawing: Drawing,
+    x: Vec<f64>,
+    curves: Vec<(Curve, Vec<f64>)>,
+    marks: Vec<Mark>,
+}
+
+impl Canvas {
+    pub(super) fn new(drawing: Drawing) -> Self {
+        let mut curves = Vec::new();
+        let mut add = |label: &str, part: String, colour, stroke| {
+            let column = format!("{}_{part}_deg", drawing.name);
+            curves.push((Curve::new(label, column, colour, stroke), Vec::new()));
+        };
+        let explained = |label| if drawing.explained { label } else { "" };
+        for (branch, label) in drawing.branches.iter().enumerate() {
+            add(label, format!("{branch}_stable"), 2 * branch, Stroke::Solid);
+            add(explained("unstable"), format!("{branch}_unstable"), 2 * branch, Stroke::Dashed);
+        }
+        add(explained("loading"), "loading".into(), 1, Stroke::Dots);
+        Self { drawing, x: Vec::new(), curves, marks: Vec::new() }
+    }
+
+    /// Adds a row in which curve number `0` of each pair has value `1`.
+    fn push(&mut self, x: f64, values: &[(usize, f64)]) {
+        self.x.push(x);
+        for (index, (_, column)) in self.curves.iter_mut().enumerate() {
+            let own = values.iter().find(|(curve, _)| *curve == index);
+            column.push(own.map_or(f64::NAN, |(_, value)| *value));
+        }
+    }
+
+    /// Adds a part of the branch of that number.
+    pub(super) fn draw(&mut self, branch: usize, case: &Case, diagram: &Diagram) {
+        let shapes = &diagram.shapes;
+        let regular = |index: Option<usize>, stable: bool| {
+            let shape = index.and_then(|index| shapes.get(index));
+            shape.is_some_and(|shape| shape.kind == Kind::Regular && (shape.unstable == 0) == stable)
+        };
+        for (index, shape) in shapes.iter().enumerate() {
+            let angle = (case.angle)(&shape.tip);
+            // Between two regular shapes a special one belongs to both, so that their curves meet.
+            let near = [Some(index), index.checked_sub(1), Some(index + 1)];
+            let near = if shape.kind == Kind::Regular { &near[..1] } else { &near[1..] };
+            let mut values = Vec::new();
+            for (curve, stable) in [(2 * branch, true), (2 * branch + 1, false)] {
+                if near.iter().any(|index| regular(*index, stable)) {
+                    values.push((curve, angle));
+                }
+            }
+            self.push(shape.value, &values);
+            if shape.kind != Kind::Regular {
+                let first = self.drawing.explained && self.marks.is_empty();
+                let label = if first { "fold" } else { "" };
+                self.marks.push(Mark::Point(label.into(), [shape.value, angle]));
+            }
+        }
+        self.push(f64::NAN, &[]);
+    }
+
+    pub(super) fn draw_loading(&mut self, loading: &Loading) {
+        let curve = self.curves.len() - 1;
+        for [value, angle] in &loading.shapes {
+            self.push(*value, &[(curve, *angle)]);
+        }
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.x.len()
+    }
+
+    /// The panel; its columns, filled up to so many rows, go to `columns`.
+    pub(super) fn finish(self, rows: usize, columns: &mut Vec<Column>) -> Panel {
+        let Self { drawing, x, curves, marks } = self;
+        let [quantity, unit] = drawing.x;
+        let abscissa = format!("{}_{}", drawing.name, unit.to_lowercase());
+        let mut add = |name: String, mut values: Vec<f64>| {
+            values.resize(rows, f64::NAN);
+            columns.push(Column::new(name, values));
+        };
+        add(abscissa.clone(), x);
+        let mut drawn = Vec::new();
+        for (curve, values) in curves {
+            add(curve.column.clone(), values);
+            drawn.push(curve);
+        }
+        Panel::Curves {
+            title: drawing.title.into(),
+            x: (format!("{quantity} ({unit})"), abscissa),
+            y: "tip angle (deg)".into(),
+            curves: drawn,
+            marks,
+        }
+    }
+}

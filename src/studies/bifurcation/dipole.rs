@@ -1,0 +1,83 @@
+//! One core with a dipole at its tip, whose folds are known in closed form.
+//!
+//! The field's couple bends the core to an arc: `theta = Lam sin(phi - theta)`, with `Lam` the field in units of a core's
+//! bending stiffness over the dipole's moment, turned by `phi` from the base's axis.
+
+use core::f64::consts::PI;
+
+use nalgebra::Vector3;
+
+use super::case::{Case, turned_in_plane};
+use crate::design::{Design, Ring, Segmented, Specification};
+use crate::equilibrium::{Inputs, Interaction, Settings};
+use crate::error::Error;
+
+/// Strength of the field that turns.
+const LAM: f64 = 1.5;
+
+/// Angle of the field that grows, deg: a degree aside from antiparallel.
+pub(super) const ASIDE: f64 = 179.0;
+
+/// Largest field that grows, mT.
+const LARGEST: f64 = 75.0;
+
+/// The field of `Lam = 1`, T, and the device.
+fn device() -> Result<(f64, Design), Error> {
+    let Specification::Segmented(paper) = Specification::paper(1) else {
+        return Err(Error::Unsupported("the paper's design has no segments".into()));
+    };
+    let mut bare = Segmented { base_magnet: false, ..paper };
+    bare.helix.particle_remanence = 0.0;
+    let design = Design::new(Specification::Segmented(bare))?;
+    let spans = design.segments().iter().flat_map(|segment| &segment.spans);
+    let compliance: f64 = spans.map(|span| span.length / span.stiffness.bending).sum();
+    let moment: f64 = design.rings().map(Ring::moment).sum();
+    Ok((1.0 / (moment * compliance), design))
+}
+
+/// In a field (T) that is `degrees` turned from the base's axis towards +y.
+fn field(size: f64, degrees: f64) -> Inputs {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    Inputs { uniform_field: Vector3::new(0.0, sine, cosine) * size, ..Inputs::unloaded(1) }
+}
+
+fn case(design: Design, way: super::case::Way, path: [f64; 2]) -> Case {
+    let settings = Settings { interaction: Interaction::None, ..Settings::default() };
+    Case { design, magnet: None, settings, way, path, angle: turned_in_plane, points: 300 }
+}
+
+/// A field of `Lam` 1.5 that turns, deg.
+pub(super) fn turning() -> Result<Case, Error> {
+    let (unit, design) = device()?;
+    Ok(case(design, Box::new(move |degrees| field(LAM * unit, degrees)), [60.0, 300.0]))
+}
+
+/// A field in that direction (deg) that grows, mT.
+pub(super) fn growing(degrees: f64) -> Result<Case, Error> {
+    let (_, design) = device()?;
+    Ok(case(design, Box::new(move |millitesla| field(1e-3 * millitesla, degrees)), [0.0, LARGEST]))
+}
+
+/// Where the arc folds in its plane, deg: `cos(phi - theta) = -1/Lam`.
+pub(super) fn fold_of_turning() -> f64 {
+    ((LAM * LAM - 1.0).sqrt() + (-1.0 / LAM).acos()).to_degrees()
+}
+
+/// The antiparallel field that buckles the straight core, mT: `Lam = 1`.
+pub(super) fn critical_field() -> Result<f64, Error> {
+    Ok(1e3 * device()?.0)
+}
+
+/// The least field [`ASIDE`] that holds an arc on its far side, mT: `Lam = theta/sin(phi - theta)` is least where
+/// `tan(phi - theta) = -theta`.
+pub(super) fn fold_aside() -> Result<f64, Error> {
+    let phi = ASIDE.to_radians();
+    // On the far side theta is negative; the function rises through its only zero.
+    let slope = |theta: f64| (phi - theta - PI).tan() + theta;
+    let (mut low, mut high) = (-1.0, 0.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if slope(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    Ok(critical_field()? * low / (phi - low).sin())
+}

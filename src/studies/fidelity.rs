@@ -1,0 +1,220 @@
+//! What the level `auto` saves: time and error of each of its models, and of itself by tolerance, as the inputs walk on.
+//!
+//! Like [`super::accuracy()`] it looks at a clock.
+
+use std::time::Instant;
+
+use nalgebra::{Rotation3, Vector3};
+use serde::Serialize;
+
+use super::study::{Mark, Panel, Series, Stroke, Study};
+use crate::equilibrium::{Interaction, Settings};
+use crate::error::Error;
+use crate::manipulator::{Inputs, Manipulator, Scene, Status, models_of_auto};
+
+/// Scenes: name, segments and field.
+const SCENES: [(&str, usize, &str); 4] = [
+    ("1 segment, 10 mT turning", 1, "[field]\nuniform_mt = [0, 10, 0]"),
+    ("1 segment, pair passing", 1, PAIR),
+    ("3 segments, pair passing", 3, PAIR),
+    ("9 segments, pair passing", 9, PAIR),
+];
+
+/// The paper's pair at its place.
+const PAIR: &str = "[magnet]\norientation_wxyz = [0, 1, 0, 0]";
+
+/// One step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm; so many of them, forth and back.
+const TURN_DEG: f64 = 0.1;
+const PASSAGE: f64 = 1e-4;
+const STEPS: u32 = 100;
+
+/// Steps between two looks at the error.
+const LOOKS: usize = 10;
+
+/// Walks of which the fastest counts: whatever else the machine does only adds.
+const WALKS: usize = 3;
+
+/// Tolerances of the tip's position over the length; that of the angle is as many radians.
+const TOLERANCES: [f64; 7] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5];
+
+/// One model, or `auto` with a tolerance, along one walk.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Fidelity {
+    /// The scene.
+    pub scene: &'static str,
+    /// The model, or `auto`.
+    pub model: String,
+    /// Tolerance over the length, of `auto`.
+    pub tolerance: Option<f64>,
+    /// Mean time of a step with all outputs, microseconds.
+    pub time_us: f64,
+    /// The same over that of the richest model.
+    pub time_relative: f64,
+    /// Largest error of the tip's position over the length, against the richest model.
+    pub tip_over_length: f64,
+    /// Largest error of the tip's angle, deg.
+    pub angle_deg: f64,
+    /// Part of the steps that the richest model has answered itself.
+    pub by_richest: f64,
+}
+
+/// All models along all walks; the scenes are computed one after the other, so that they do not disturb one another.
+///
+/// # Errors
+/// None for these scenes; those of the solves are passed on.
+pub fn fidelity(done: impl Fn()) -> Result<Vec<Fidelity>, Error> {
+    let mut out = Vec::new();
+    for (name, segments, field) in SCENES {
+        let text = format!("{field}\n[design]\nsegments = {segments}\n[model]\nbending_stop = true");
+        out.extend(Walk::new(name, &Scene::parse(&text, name)?)?.models()?);
+        done();
+    }
+    Ok(out)
+}
+
+/// How many times [`fidelity`] calls.
+#[must_use]
+pub fn fidelity_scenes() -> usize {
+    SCENES.len()
+}
+
+/// A scene with its inputs, step by step.
+struct Walk {
+    name: &'static str,
+    scene: Scene,
+    length: f64,
+    path: Vec<Inputs>,
+}
+
+/// What a walk has shown.
+struct Shown {
+    time: f64,
+    tip: f64,
+    angle: f64,
+    by_richest: f64,
+}
+
+impl Walk {
+    fn new(name: &'static str, scene: &Scene) -> Result<Self, Error> {
+        let at = |step: u32| {
+            let mut inputs = scene.inputs.clone();
+            let turn =
+                Rotation3::from_axis_angle(&Vector3::x_axis(), f64::from(step) * TURN_DEG.to_radians());
+            inputs.uniform_field = turn * inputs.uniform_field;
+            inputs.magnet.position.z += f64::from(step) * PASSAGE;
+            inputs
+        };
+        let path = (0..STEPS).chain((1..=STEPS).rev()).map(at).collect();
+        Ok(Self { name, scene: scene.clone(), length: scene.design()?.length(), path })
+    }
+
+    fn models(&self) -> Result<Vec<Fidelity>, Error> {
+        let base = self.scene.settings;
+        let models = models_of_auto(&base, true);
+        let mut rows = Vec::new();
+        for settings in &models {
+            let Settings { interaction, degree, pair_accuracy, .. } = settings;
+            let model = format!("{}, degree {degree}, pairs {pair_accuracy:.0e}", interaction.name());
+            rows.push((model, None, *settings));
+        }
+        for tolerance in TOLERANCES {
+            let (tolerance_position, tolerance_angle) = (tolerance * self.length, tolerance);
+            let settings =
+                Settings { interaction: Interaction::Auto, tolerance_position, tolerance_angle, ..base };
+            rows.push(("auto".to_owned(), Some(tolerance), settings));
+        }
+        let richest = models.last().copied().unwrap_or(base);
+        let shown: Vec<Shown> =
+            rows.iter().map(|row| self.go(row.2, richest)).collect::<Result<_, Error>>()?;
+        let whole = shown.get(models.len() - 1).map_or(f64::NAN, |shown| shown.time);
+        let row = |((model, tolerance, _), shown): ((String, Option<f64>, Settings), Shown)| Fidelity {
+            scene: self.name,
+            model,
+            tolerance,
+            time_us: 1e6 * shown.time,
+            time_relative: shown.time / whole,
+            tip_over_length: shown.tip,
+            angle_deg: shown.angle.to_degrees(),
+            by_richest: shown.by_richest,
+        };
+        Ok(rows.into_iter().zip(shown).map(row).collect())
+    }
+
+    /// Walks with these settings, beside the richest model.
+    fn go(&self, settings: Settings, richest: Settings) -> Result<Shown, Error> {
+        let (mut own, mut judge) = (self.manipulator(settings)?, self.manipulator(richest)?);
+        let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0, by_richest: 0.0 };
+        for (step, inputs) in self.path.iter().enumerate() {
+            let answer = own.solve(inputs)?;
+            let itself = answer.interaction == Interaction::Full && answer.error_estimate == 0.0;
+            shown.by_richest += f64::from(u8::from(itself)) / self.path.len() as f64;
+            if step % LOOKS == 0 {
+                let exact = judge.solve(inputs)?;
+                let solved = [answer, exact].iter().all(|outputs| outputs.status != Status::NotSolved);
+                let (a, b) = (&answer.tip, &exact.tip);
+                let apart = (a.position - b.position).norm() / self.length;
+                shown.tip = if solved { shown.tip.max(apart) } else { f64::NAN };
+                shown.angle = shown.angle.max(a.axis().angle(&b.axis()));
+            }
+        }
+        for _ in 0..WALKS {
+            let begin = Instant::now();
+            for inputs in &self.path {
+                own.solve(inputs)?;
+            }
+            shown.time = shown.time.min(begin.elapsed().as_secs_f64() / self.path.len() as f64);
+        }
+        Ok(shown)
+    }
+
+    fn manipulator(&self, settings: Settings) -> Result<Manipulator, Error> {
+        Scene { settings, ..self.scene.clone() }.manipulator(2)
+    }
+}
+
+/// The picture: what a step takes beside one of the richest model, and how the error keeps to the tolerance.
+#[must_use]
+pub fn fidelity_picture(rows: &[Fidelity]) -> Study {
+    let series = |value: fn(&Fidelity) -> f64| {
+        let places = |scene: &str| {
+            let own = rows.iter().filter(|row| row.scene == scene);
+            own.filter_map(|row| Some([row.tolerance?, value(row)])).collect()
+        };
+        SCENES
+            .iter()
+            .enumerate()
+            .map(|(colour, (scene, ..))| Series {
+                label: (*scene).into(),
+                colour,
+                stroke: Stroke::Solid,
+                places: places(scene),
+            })
+            .collect()
+    };
+    let panel = |title: &str, y: &str, series, mark: &str| Panel::Places {
+        title: title.into(),
+        x: "tolerance of the tip over the length".into(),
+        y: y.into(),
+        series,
+        marks: vec![Mark::Level(mark.into(), 1.0)],
+    };
+    Study {
+        title: "Level auto: as much model as the tolerance needs",
+        columns: vec![],
+        panels: vec![
+            panel(
+                "time of a step at 1 kHz",
+                "over that of the richest model",
+                series(|row| row.time_relative),
+                "the richest model alone",
+            ),
+            panel(
+                "largest error against the richest model",
+                "over the tolerance",
+                series(|row| row.tip_over_length / row.tolerance.unwrap_or(1.0)),
+                "the tolerance",
+            ),
+        ],
+        comparison: vec![],
+    }
+}

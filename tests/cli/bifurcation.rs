@@ -1,0 +1,50 @@
+//! `mcm study bifurcation`: folds on three ways, and predictions of snaps.
+
+use super::{assert_status, folder, mcm};
+use crate::tolerance::{CLOSED_FORM_OF_FOLDS, LOCATED, PREDICTED_CLOSE, PREDICTED_FAR};
+
+/// Spans of the paths, in the order of the rows.
+const SPANS: [f64; 10] = [240.0, 240.0, 240.0, 240.0, 75.0, 75.0, 160.0, 160.0, 40.0, 40.0];
+
+/// The cells of a Markdown table's rows, without its heading.
+fn cells(table: &str) -> Vec<Vec<&str>> {
+    table.lines().skip(2).map(|row| row.trim_matches('|').split('|').map(str::trim).collect()).collect()
+}
+
+#[test]
+fn continuation_bisection_and_closed_forms_agree_and_snaps_are_seen_coming() {
+    let here = folder("bifurcation");
+    let output = mcm(&here, &["study", "bifurcation", "--out", "figures"]);
+    assert_status(&output, 0);
+    let said = String::from_utf8(output.stdout).unwrap();
+    let file = |ending: &str| here.join("figures/bifurcation").with_extension(ending);
+    assert_eq!(said, std::fs::read_to_string(file("md")).unwrap());
+    assert!(file("csv").is_file() && file("png").is_file());
+    let (places, predictions) = said.split_once("\n\n").unwrap();
+    let readme = include_str!("../../README.md");
+    for table in [places, predictions.trim_end()] {
+        assert!(readme.contains(table), "the README's table is not what the study writes:\n{table}");
+    }
+    let (places, predictions) = (cells(places), cells(predictions));
+    assert_eq!((places.len(), predictions.len()), (SPANS.len(), 6));
+    let (mut snaps, mut known) = (0, 0);
+    for (row, span) in places.iter().zip(SPANS) {
+        let number = |cell: usize| row[cell].parse::<f64>().ok();
+        let continuation = number(1).unwrap();
+        if let Some(bisection) = number(2) {
+            assert!((continuation - bisection).abs() <= LOCATED * span, "{row:?}");
+            snaps += 1;
+        }
+        if let Some(closed_form) = number(3) {
+            assert!((continuation / closed_form - 1.0).abs() <= CLOSED_FORM_OF_FOLDS, "{row:?}");
+            known += 1;
+        }
+    }
+    assert_eq!((snaps, known), (6, 6));
+    for row in predictions {
+        let errors: Vec<f64> =
+            row[1..].iter().map(|cell| cell.trim_end_matches(" %").parse().unwrap_or(f64::NAN)).collect();
+        let (far, close) = (errors[2].abs() / 100.0, errors[4].abs() / 100.0);
+        assert!(far <= PREDICTED_FAR && close <= PREDICTED_CLOSE, "{row:?}");
+    }
+}
