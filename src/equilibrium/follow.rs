@@ -28,9 +28,8 @@ const MISTAKEN: f64 = 0.1;
 /// Part of the iterations, as one over this number, that is kept for a fall at the end of the way.
 const RESERVE: u32 = 3;
 
-/// How much further than the smallest part a fall is tried, and again where it ends on a shape of neutral stability, neither
-/// held nor let go.
-const FURTHER: f64 = 64.0;
+/// How much further a fall is tried where it ends on a shape of neutral stability, neither held nor let go.
+const FURTHER: f64 = 16.0;
 
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -180,18 +179,17 @@ impl Walk<'_> {
                 &between
             };
             let settings = self.scene.settings;
-            let end = if falling {
-                self.fall(inputs, unknowns)
-            } else if let Some(end) = self.try_to_correct(inputs, unknowns) {
+            let corrected = if falling { None } else { self.try_to_correct(inputs, unknowns) };
+            let end = if let Some(end) = corrected {
                 end
-            } else {
-                // Right behind a fold, once it is found, a fall would begin too slowly.
-                falling = part <= settings.smallest_part;
-                part *= if falling { FURTHER } else { 0.5 };
+            } else if !falling && part > settings.smallest_part {
+                part *= 0.5;
                 continue;
+            } else {
+                self.fall(inputs, unknowns)
             };
             match end {
-                End::Kept | End::Held => {}
+                End::Kept | End::Held => falling = false,
                 End::Neutral if next < 1.0 => {
                     falling = true;
                     part *= FURTHER;
@@ -201,9 +199,7 @@ impl Walk<'_> {
                 _ => return End::Lost,
             }
             done = next;
-            // Past a fold there is no reason to go on in steps as small as those that led to it.
-            part = if falling { 1.0 } else { 2.0 * part };
-            falling = false;
+            part *= 2.0;
             if done >= 1.0 {
                 return end;
             }

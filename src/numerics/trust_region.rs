@@ -51,18 +51,14 @@ pub struct Minimum {
 /// Smallest radius, relative to the first, before the search is given up.
 const SMALLEST: f64 = 1e-10;
 
-/// Decrease, relative to the value, below which the value's noise may exceed it: that of a sum of large terms.
-const NOISE: f64 = 1e-8;
+/// Change of the value, relative to it, of which its rounding leaves nothing to compare.
+const ROUNDING: f64 = 1e-12;
 
 /// Width of the bracket of the shift, relative to it, at which a step that is still inside the region is the hard case.
 const HARD: f64 = 1e-3;
 
 /// Shifts at most that are tried for one step.
 const SHIFTS: u32 = 40;
-
-fn along(gradient: &[f64], step: &[f64]) -> f64 {
-    gradient.iter().zip(step).map(|(g, s)| g * s).sum()
-}
 
 /// Norm of `x` in the metric.
 #[must_use]
@@ -97,34 +93,21 @@ pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) 
         for (t, (a, b)) in trial.iter_mut().zip(x.iter().zip(&step)) {
             *t = a + b;
         }
-        // Below the noise of the value its difference says nothing: the gradients at both ends tell the decrease.
-        let noisy = predicted.abs() <= NOISE * value.abs();
-        let before: f64 = if noisy { along(objective.gradient(), &step) } else { 0.0 };
-        let next = if noisy { objective.linearise(&trial) } else { objective.value(&trial) };
-        let gain = next.map(|next| {
-            let decrease =
-                if noisy { -0.5 * (before + along(objective.gradient(), &step)) } else { value - next };
-            decrease / predicted
-        });
+        let gain = objective.value(&trial).map(|next| (value - next) / predicted);
+        // Below the rounding of the value the ratio says nothing; the model is then trusted.
+        let rounding = predicted.abs() <= ROUNDING * value.abs();
         match gain {
-            Some(ratio) if ratio > 0.05 => {
+            Some(ratio) if ratio > 0.05 || (rounding && definite) => {
                 x.copy_from_slice(&trial);
-                let Some(next) = next.filter(|_| noisy).or_else(|| objective.linearise(x)) else {
-                    return end;
-                };
+                let Some(next) = objective.linearise(x) else { return end };
                 value = next;
                 if ratio > 0.75 {
                     radius = region.largest.min(radius.max(2.0 * norm(objective.metric(), &step)));
-                } else if ratio < 0.25 {
+                } else if ratio < 0.25 && !rounding {
                     radius *= 0.5;
                 }
             }
-            _ => {
-                radius = 0.25 * radius.min(norm(objective.metric(), &step));
-                if noisy && objective.linearise(x).is_none() {
-                    return end;
-                }
-            }
+            _ => radius = 0.25 * radius.min(norm(objective.metric(), &step)),
         }
         if radius < SMALLEST * region.radius {
             return end;
