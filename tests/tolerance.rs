@@ -310,7 +310,7 @@ pub(crate) const BALANCED: f64 = 1e-5;
 /// Smallest eigenvalue, over the elastic one, of a shape that may turn freely, by differences of gradients with steps of 1e-5.
 pub(crate) const NEUTRAL_SHAPE: f64 = 1e-6;
 
-/// Rings of a shape put through them, over the distance from the base: Newton's method in 8 steps, differences of 1e-6.
+/// Rings of a shape put through them, over the length and in rotation: Newton's method in 8 steps, differences of 1e-6.
 pub(crate) const INTERPOLATED: f64 = 1e-9;
 
 /// Tips after two ways that end in one shape, mm: 1e-9 of the length ([`WAY`]), 5 cm.

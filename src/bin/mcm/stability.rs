@@ -45,18 +45,18 @@ fn counts(attempts: &[Attempt]) -> String {
         }
     }
     rows.sort_by_key(|row| {
-        (row.1 == "full", mcm::equilibrium::Method::named(row.0).map(|m| m as usize), row.2)
+        (row.1 == "`full`", mcm::equilibrium::Method::named(row.0).map(|m| m as usize), row.2)
     });
     let labels = Verdict::ALL.map(|(_, label)| label);
-    let mut out = format!("| method | level | start | attempts | {} |\n", labels.join(" | "));
-    out.push_str(&format!("|{}\n", " --- |".repeat(4 + labels.len())));
-    for row in rows {
-        let own: Vec<&Attempt> = attempts.iter().filter(|c| (c.method, group(c), c.start) == row).collect();
+    let header = format!("| method | level | start | attempts | {} |\n", labels.join(" | "));
+    let rule = format!("|{}\n", " --- |".repeat(4 + labels.len()));
+    let line = |row: &(&str, &str, &str)| {
+        let own: Vec<&Attempt> = attempts.iter().filter(|a| (a.method, group(a), a.start) == *row).collect();
         let count = |verdict| own.iter().filter(|attempt| attempt.verdict == verdict).count().to_string();
         let counts = Verdict::ALL.map(|(verdict, _)| count(verdict)).join(" | ");
-        out.push_str(&format!("| `{}` | {} | {} | {} | {counts} |\n", row.0, row.1, row.2, own.len()));
-    }
-    out
+        format!("| `{}` | {} | {} | {} | {counts} |\n", row.0, row.1, row.2, own.len())
+    };
+    header + &rule + &rows.iter().map(line).collect::<String>()
 }
 
 /// Levels that are counted together.

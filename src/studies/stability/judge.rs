@@ -19,6 +19,9 @@ const STEP: f64 = 1e-5;
 const STEPS: usize = 30;
 const BALANCE: f64 = 1e-8;
 
+/// Rings closer than this, over the length, are those of one equilibrium.
+const SAME: f64 = 1e-5;
+
 /// Longest Newton step, in the same measure: nobody's answer is judged by an equilibrium far away.
 const LONGEST_STEP: f64 = 0.5;
 
@@ -98,22 +101,22 @@ impl Judge {
         known: &mut Vec<Known>,
     ) -> Option<Found> {
         let length = self.length;
-        let nearest = |known: &[Known]| {
-            let apart = known.iter().map(|known| (distance(&known.rings, rings) / length, known));
-            let nearest = apart.min_by(|a, b| a.0.total_cmp(&b.0));
-            nearest.map(|(distance, known)| Found {
-                verdict: known.verdict(),
-                distance,
-                margin: known.margin,
-            })
-        };
-        let found = nearest(known).filter(|found| found.distance <= accuracy);
-        if found.is_some() {
-            return found;
+        let apart = |known: &Known| distance(&known.rings, rings) / length;
+        let nearest = known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let found =
+            |known: &Known| Found { verdict: known.verdict(), distance: apart(known), margin: known.margin };
+        if let Some(near) = nearest.filter(|known| apart(known) <= accuracy) {
+            return Some(found(near));
         }
         let start = self.fine.amplitudes_through(rings)?;
-        known.push(self.polished(inputs, &start)?);
-        nearest(&known[known.len() - 1..])
+        let polished = self.polished(inputs, &start)?;
+        let again = known.iter().find(|known| distance(&known.rings, &polished.rings) <= SAME * length);
+        if let Some(known) = again {
+            return Some(found(known));
+        }
+        let found = found(&polished);
+        known.push(polished);
+        Some(found)
     }
 
     /// Newton's method from `start` to any equilibrium.
