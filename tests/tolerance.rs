@@ -303,3 +303,15 @@ pub(crate) const KEPT_MARGIN: f64 = 0.05;
 
 /// Tip on two ways to the same inputs over the length: the residual, 1e-11, times a compliance of order ten.
 pub(crate) const WAY: f64 = 1e-9;
+
+/// Slope of the energy at a solved shape by differences with steps of 1e-3, in turns of one element by a radian.
+pub(crate) const BALANCED: f64 = 1e-5;
+
+/// Smallest eigenvalue, over the elastic one, of a shape that may turn freely, by differences of gradients with steps of 1e-5.
+pub(crate) const NEUTRAL_SHAPE: f64 = 1e-6;
+
+/// Rings of a shape put through them, over the length and in rotation: Newton's method in 8 steps, differences of 1e-6.
+pub(crate) const INTERPOLATED: f64 = 1e-9;
+
+/// Tips after two ways that end in one shape, mm: 1e-9 of the length ([`WAY`]), 5 cm.
+pub(crate) const SAME_TIP_MM: f64 = 1e-7;

@@ -12,6 +12,7 @@ mod follow;
 mod hessian;
 mod inputs;
 mod internal;
+mod interpolation;
 mod jacobian;
 mod methods;
 mod pair;

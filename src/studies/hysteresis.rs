@@ -14,8 +14,8 @@ use crate::manipulator::{Branch, Inputs, Manipulator};
 const DISTANCE: f64 = 0.12;
 
 /// Places of the magnet along the manipulator's axis: first and last (mm), and steps.
-const FIRST: f64 = -40.0;
-const LAST: f64 = 0.0;
+pub(super) const FIRST: f64 = -40.0;
+pub(super) const LAST: f64 = 0.0;
 const STEPS: u32 = 40;
 
 /// Nine segments with bending stop, the paper's pair of magnets passing along them at 120 mm from axis to axis and coming
@@ -24,17 +24,9 @@ const STEPS: u32 = 40;
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
 pub fn hysteresis() -> Result<Study, Error> {
-    let design = Design::new(Specification::paper(SEGMENTS))?;
-    let settings = Settings { interaction: Interaction::Rings, bending_stop: true, ..Settings::default() };
-    let manipulator = Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)?;
-    let rings = design.rings().count();
-    let inputs = |place: f64| {
-        let magnet = Pose { position: Vector3::new(0.0, -DISTANCE, 1e-3 * place), ..Pose::identity() };
-        Ok(Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(rings) })
-    };
     let step = (LAST - FIRST) / f64::from(STEPS);
     let places: Vec<f64> = (0..=STEPS).map(|i| FIRST + step * f64::from(i)).collect();
-    let mut branch = Branch::new(manipulator, inputs, LAST - FIRST, step)?;
+    let mut branch = Branch::new(manipulator()?, |place| Ok(inputs(place)), LAST - FIRST, step)?;
     let mut walk = |places: &mut dyn Iterator<Item = &f64>| {
         let at = |&place: &f64| {
             let outputs = branch.to(place)?;
@@ -92,4 +84,20 @@ pub fn hysteresis() -> Result<Study, Error> {
             .collect(),
         comparison,
     })
+}
+
+/// Nine segments with bending stop beside the paper's magnet pair, `rings`, unsolved.
+///
+/// # Errors
+/// None for the paper's design.
+pub(super) fn manipulator() -> Result<Manipulator, Error> {
+    let design = Design::new(Specification::paper(SEGMENTS))?;
+    let settings = Settings { interaction: Interaction::Rings, bending_stop: true, ..Settings::default() };
+    Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)
+}
+
+/// The magnet, magnetised along +z, at this place (mm) along the manipulator.
+pub(super) fn inputs(place: f64) -> Inputs {
+    let magnet = Pose { position: Vector3::new(0.0, -DISTANCE, 1e-3 * place), ..Pose::identity() };
+    Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }
 }

@@ -64,6 +64,50 @@ pub enum Panel {
         /// What else is drawn.
         marks: Vec<Mark>,
     },
+    /// Many small maps of kinds on axes of one range, in rows and columns.
+    Atlas {
+        /// Label with unit of the abscissa.
+        x: String,
+        /// Label with unit of the ordinate.
+        y: String,
+        /// The kinds of cells.
+        kinds: Vec<Kind>,
+        /// Names of the columns, and of groups of as many columns each.
+        columns: [Vec<String>; 2],
+        /// The maps.
+        rows: Vec<AtlasRow>,
+    },
+}
+
+/// A kind of cells.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Kind {
+    /// What the legend calls it.
+    pub label: String,
+    /// Its colour.
+    pub tint: Tint,
+}
+
+/// A colour of cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tint {
+    /// The colour of this number, from 0.
+    Colour(usize),
+    /// Light grey.
+    Light,
+    /// Dark grey.
+    Dark,
+}
+
+/// A row of small maps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AtlasRow {
+    /// What the rows from here on belong to; empty: to the same as the row above.
+    pub group: String,
+    /// What it shows.
+    pub label: String,
+    /// For each column the cells: abscissa, ordinate and number of the kind.
+    pub maps: Vec<Vec<([f64; 2], usize)>>,
 }
 
 /// A column drawn against the panel's abscissa.

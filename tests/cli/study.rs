@@ -9,11 +9,22 @@ use super::{assert_status, folder, mcm, stderr, table};
 /// Largest size of a picture that the README shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
-const STUDIES: [&str; 9] =
-    ["field_ring", "fig4", "fig5", "fig7a", "fig7b", "fig7c", "fig7d", "fig8", "hysteresis"];
+const STUDIES: [&str; 10] = [
+    "field_ring",
+    "fig4",
+    "fig5",
+    "fig7a",
+    "fig7b",
+    "fig7c",
+    "fig7d",
+    "fig8",
+    "hysteresis",
+    "communication-step",
+];
 
 /// Beginnings of pure numbers' headers, and the ends of all others: their unit.
-const PURE: [&str; 5] = ["mu_rel", "segments", "height_over_pitch", "score_", "gain_"];
+const PURE: [&str; 8] =
+    ["mu_rel", "segments", "height_over_pitch", "score_", "gain_", "steps", "snaps_", "refused_"];
 const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
 
 fn assert_picture(path: &Path) {

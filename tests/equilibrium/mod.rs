@@ -7,6 +7,7 @@ mod derivatives;
 mod laws;
 mod loads;
 mod lost;
+mod map;
 mod methods;
 mod neglected;
 mod reciprocity;

@@ -1,6 +1,7 @@
 //! The paper's figures: each claim beside something independent.
 
 mod accuracy;
+mod communication_step;
 mod field_ring;
 mod fig4;
 mod fig5;
@@ -10,6 +11,7 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod stability;
 
 use mcm::studies::{Comparison, Study, Value};
 

@@ -10,6 +10,7 @@ mod files;
 mod pack;
 mod picture;
 mod solve;
+mod stability;
 mod study;
 mod sweep;
 

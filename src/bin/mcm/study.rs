@@ -13,13 +13,13 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, bifurcation, comparison, fidelity, picture};
+use super::{accuracy, bifurcation, comparison, fidelity, picture, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
     after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` and \
-`fidelity`, which measure times, and `bifurcation`, which takes its time, are no part of it.\n\n\
+`fidelity`, which measure times, `bifurcation` and `stability`, which take their time, are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -56,12 +56,17 @@ enum Name {
     Fig8,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
+    /// The same way of the magnet in few communication steps and in many
+    #[value(name = "communication-step")]
+    CommunicationStep,
     /// Error against time of all methods, and who is on the front
     Accuracy,
     /// What the level auto saves, by tolerance
     Fidelity,
     /// All equilibria, stable or not, where they fold, and how early a snap is seen coming
     Bifurcation,
+    /// Where methods fail: over field strength and direction, cold and warm
+    Stability,
     /// Every figure
     All,
 }
@@ -79,7 +84,8 @@ impl Name {
             Self::Fig7d => Some(studies::fig7d),
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
-            Self::Accuracy | Self::Fidelity | Self::Bifurcation | Self::All => None,
+            Self::CommunicationStep => Some(studies::communication_step),
+            Self::Accuracy | Self::Fidelity | Self::Bifurcation | Self::Stability | Self::All => None,
         }
     }
 
@@ -98,6 +104,7 @@ impl Study {
             Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
             Name::Fidelity => return fidelity::run(&self.out),
             Name::Bifurcation => return bifurcation::run(&self.out),
+            Name::Stability => return stability::run(&self.out),
             _ => {}
         }
         let wanted = |name: &Name| self.name == Name::All || *name == self.name;

@@ -153,7 +153,7 @@ where
 }
 
 /// A tick's number without the rounding of its sum of steps.
-fn tick(value: f64) -> String {
+pub(super) fn tick(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded == 0.0 { "0".into() } else { rounded.to_string() }
 }
@@ -211,7 +211,7 @@ fn column<'a>(study: &'a Study, name: &str) -> Result<&'a [f64], String> {
 }
 
 /// Smallest and largest value.
-fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(super) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values
         .filter(|value| !value.is_nan())
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
@@ -224,7 +224,7 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Smallest distance of two different values: that of a grid.
-fn spacing(values: &[f64]) -> f64 {
+pub(super) fn spacing(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted

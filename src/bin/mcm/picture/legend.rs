@@ -1,9 +1,9 @@
 //! Title and legend of a panel, above its axes, where they hide nothing.
 
-use mcm::studies::{Mark, Panel, Stroke};
+use mcm::studies::{Mark, Panel, Stroke, Tint};
 use plotters::prelude::*;
 
-use super::{Canvas, INK, LINE, PAPER, TEXT, colour, pen, scaled, text};
+use super::{Canvas, INK, LINE, PAPER, TEXT, colour, pen, scaled, text, tint};
 
 /// Length of a sample of a line, pixels.
 const SAMPLE: f64 = 30.0;
@@ -16,6 +16,7 @@ pub(super) enum Sample {
     Level,
     Band,
     Point,
+    Kind(Tint),
 }
 
 /// Title and legend of a panel; what has no label has no entry.
@@ -29,6 +30,9 @@ pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
             (title, series.iter().map(|s| curve(s.label.as_str(), s.colour, s.stroke)).collect(), marks)
         }
         Panel::Map { title, marks, .. } => (title, Vec::new(), marks),
+        Panel::Atlas { kinds, .. } => {
+            return ("", kinds.iter().map(|kind| (kind.label.as_str(), Sample::Kind(kind.tint))).collect());
+        }
     };
     let marks = marks.iter().map(|mark| match mark {
         Mark::Level(label, _) => (label.as_str(), Sample::Level),
@@ -83,6 +87,10 @@ fn draw_sample(sample: &Sample, area: &Canvas, (x, y): (i32, i32)) -> Result<(),
         Sample::Band => {
             let corners = [(x, y - scaled(8.0)), (end, y + scaled(8.0))];
             area.draw(&Rectangle::new(corners, PAPER.mix(0.3).filled()))?;
+        }
+        Sample::Kind(kind) => {
+            let corners = [(x, y - scaled(8.0)), (end, y + scaled(8.0))];
+            area.draw(&Rectangle::new(corners, tint(*kind).filled()))?;
         }
         Sample::Point => area.draw(&Circle::new(middle, scaled(6.5), pen(INK, LINE)))?,
     }

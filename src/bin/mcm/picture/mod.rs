@@ -1,11 +1,12 @@
 //! The picture of a study: panels with title, legend and axes.
 
+mod atlas;
 mod axes;
 mod legend;
 
 use std::path::Path;
 
-use mcm::studies::{Panel, Study};
+use mcm::studies::{Panel, Study, Tint};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::register_font;
@@ -92,6 +93,7 @@ fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
         Panel::Curves { x, y, curves, marks, .. } => axes::curves(study, &area, x, y, curves, marks),
         Panel::Places { x, y, series, marks, .. } => axes::places(&area, [x, y], series, marks),
         Panel::Map { x, y, value, marks, .. } => axes::map(study, &area, [x, y], value, marks),
+        Panel::Atlas { x, y, kinds, columns, rows } => atlas::draw(&area, [x, y], kinds, columns, rows),
     }
 }
 
@@ -114,6 +116,15 @@ fn pen(colour: RGBColor, width: f64) -> ShapeStyle {
 /// The colour of a number.
 fn colour(number: usize) -> RGBColor {
     COLOURS[number % COLOURS.len()]
+}
+
+/// The colour of a kind of cells.
+fn tint(tint: Tint) -> RGBColor {
+    match tint {
+        Tint::Colour(number) => colour(number),
+        Tint::Light => GRID,
+        Tint::Dark => PAPER,
+    }
 }
 
 /// Means over squares of the large picture.

@@ -1,0 +1,174 @@
+//! Where methods fail: every method over field strength and direction, cold and warm, each answer judged.
+
+mod judge;
+mod picture;
+mod verdict;
+
+use nalgebra::{Rotation3, Vector3};
+use serde::Serialize;
+
+use crate::design::{Design, Specification};
+use crate::equilibrium::{Interaction, Method, Settings};
+use crate::error::Error;
+use crate::manipulator::{Inputs, Manipulator, Status};
+use judge::{Judge, Known};
+
+pub use picture::stability_picture;
+pub use verdict::Verdict;
+
+const SEGMENTS: [usize; 3] = [1, 3, 9];
+
+const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
+
+/// Strengths of the field, mT: beyond the ends of all branches that are known.
+const STRENGTHS: usize = 8;
+const STRENGTH_STEP: f64 = 5.0;
+
+/// Steps of the field between two strengths, of a careful user and of the judge.
+const WARM_STEPS: usize = 5;
+const LOADING_STEPS: usize = 10;
+
+/// Directions of the field, deg from the axis.
+const DIRECTIONS: usize = 13;
+const DIRECTION_STEP: f64 = 15.0;
+
+/// How far an answer may be from its equilibrium, over the length: what resolves the rod, and arcs of constant curvature.
+const RESOLVED: f64 = 1e-3;
+const ARCS: f64 = 0.05;
+
+/// One attempt of one method at one field.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Attempt {
+    /// The method.
+    pub method: &'static str,
+    /// Level of interaction.
+    pub interaction: &'static str,
+    /// Number of segments.
+    pub segments: usize,
+    /// `cold` from the straight shape, or `warm` along the growing field.
+    pub start: &'static str,
+    /// Direction of the field, deg from the axis.
+    pub direction_deg: f64,
+    /// Strength of the field, mT.
+    pub field_mt: f64,
+    /// What came of it.
+    pub verdict: Verdict,
+    /// Largest distance of a ring from where the equilibrium has it, over the length.
+    pub distance_over_length: Option<f64>,
+    /// Smallest eigenvalue of the Hessian there relative to the elastic energy.
+    pub margin: Option<f64>,
+    /// Residual that the method states, in its own unit.
+    pub residual: f64,
+}
+
+/// One direction of the field on one design and level: all strengths lie on one way of loading.
+#[derive(Debug, Clone)]
+pub struct Ray {
+    /// Number of segments of the paper's design.
+    pub segments: usize,
+    /// Level of interaction.
+    pub interaction: Interaction,
+    /// Direction of the field, deg from the axis.
+    pub direction_deg: f64,
+}
+
+/// All rays of the map, those that take longest first.
+#[must_use]
+pub fn stability_rays() -> Vec<Ray> {
+    let levels = LEVELS.into_iter().rev();
+    let designs = levels.flat_map(|level| SEGMENTS.into_iter().rev().map(move |segments| (level, segments)));
+    let rays = designs.flat_map(|(interaction, segments)| {
+        (0..DIRECTIONS).map(move |i| Ray { segments, interaction, direction_deg: DIRECTION_STEP * i as f64 })
+    });
+    rays.collect()
+}
+
+impl Ray {
+    /// What every method finds along the ray, cold and warm.
+    ///
+    /// Each answer that is called solved is judged apart from the method: strain modes of degree 4, ring pairs to 1e-7, are
+    /// put through its rings; Newton's method on the gradient of that potential, with a Hessian by differences, goes to an
+    /// equilibrium, stable or not. The answer is right if no ring moves by more than the method may err, 1e-3 of the length
+    /// (5e-2 for arcs of constant curvature), and stable if no eigenvalue of the full matrix is negative. The branch
+    /// is what the same finer potential finds when the field grows from zero in steps of 0.5 mT. Warm is a field raised in
+    /// steps of 1 mT; where one is not solved, the map's own strengths are tried, from the last good shape.
+    ///
+    /// # Errors
+    /// None for the paper's designs; those of the solves are passed on.
+    pub fn attempts(&self) -> Result<Vec<Attempt>, Error> {
+        let design = Design::new(Specification::paper(self.segments))?;
+        let mut judge = Judge::new(&design, self.interaction)?;
+        let mut known = self.branch(&mut judge)?;
+        let mut out = Vec::new();
+        for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
+            let settings = Settings { interaction: self.interaction, method: *method, ..Settings::default() };
+            let mut manipulator = Manipulator::new(&design, None, settings, 2)?;
+            let accuracy = if *method == Method::ConstantCurvature { ARCS } else { RESOLVED };
+            for (start, first) in [("cold", WARM_STEPS), ("warm", 1)] {
+                manipulator.reset();
+                for (number, known) in known.iter_mut().enumerate() {
+                    if start == "cold" {
+                        manipulator.reset();
+                    }
+                    // Where a step has failed, only the strengths of the map are tried.
+                    let lost = manipulator.outputs().status == Status::NotSolved;
+                    for part in (if lost { WARM_STEPS } else { first })..=WARM_STEPS {
+                        manipulator.solve(&self.inputs(strength(number, part, WARM_STEPS)))?;
+                    }
+                    let strength = strength(number, 1, 1);
+                    let outputs = manipulator.outputs();
+                    let solved = outputs.status != Status::NotSolved;
+                    let found = if solved {
+                        judge.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
+                    } else {
+                        None
+                    };
+                    let verdict = match found {
+                        Some(found) if found.distance <= accuracy => found.verdict,
+                        _ if solved => Verdict::Wrong,
+                        _ if outputs.residual.is_finite() => Verdict::Stalled,
+                        _ => Verdict::Diverged,
+                    };
+                    out.push(Attempt {
+                        method: name,
+                        interaction: self.interaction.name(),
+                        segments: self.segments,
+                        start,
+                        direction_deg: self.direction_deg,
+                        field_mt: strength,
+                        verdict,
+                        distance_over_length: found.map(|found| found.distance),
+                        margin: found.map(|found| found.margin),
+                        residual: outputs.residual,
+                    });
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    fn inputs(&self, strength: f64) -> Inputs {
+        let turn = Rotation3::from_axis_angle(&-Vector3::x_axis(), self.direction_deg.to_radians());
+        let uniform_field = turn * Vector3::z() * (1e-3 * strength);
+        Inputs { uniform_field, ..Inputs::unloaded(self.segments + 1) }
+    }
+
+    /// The equilibria of quasi-static loading, by strength.
+    fn branch(&self, judge: &mut Judge) -> Result<Vec<Vec<Known>>, Error> {
+        let mut out = vec![Vec::new(); STRENGTHS];
+        for (number, known) in out.iter_mut().enumerate() {
+            for part in 1..=LOADING_STEPS {
+                if !judge.load(&self.inputs(strength(number, part, LOADING_STEPS)))? {
+                    return Ok(out);
+                }
+            }
+            known.extend(judge.loaded(&self.inputs(strength(number, 1, 1))));
+        }
+        Ok(out)
+    }
+}
+
+/// Strength (mT) after `part` of `parts` steps towards that of the given number.
+fn strength(number: usize, part: usize, parts: usize) -> f64 {
+    STRENGTH_STEP * (number as f64 + part as f64 / parts as f64)
+}
