@@ -1,6 +1,5 @@
 //! `mcm study stability`: the map of failures as a table, the picture, the counts in Markdown.
 
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -9,9 +8,7 @@ use mcm::studies::{Attempt, Verdict, stability_picture, stability_rays};
 use rayon::prelude::*;
 
 use super::failure::Failure;
-use super::files::create_table;
-use super::picture;
-use super::study::progress_bar;
+use super::study::{leave, progress_bar};
 
 /// Solves and judges, and leaves stability.csv, stability.md and stability.png in `out`; the counts are printed, too.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
@@ -24,15 +21,7 @@ pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     });
     let attempts = attempts.collect::<Result<Vec<_>, Error>>()?.concat();
     bar.finish_and_clear();
-    let file = |ending: &str| out.join("stability").with_extension(ending);
-    let mut table = create_table(&file("csv"))?;
-    attempts.iter().try_for_each(|attempt| table.serialize(attempt))?;
-    table.flush()?;
-    picture::write(&stability_picture(&attempts), &file("png"))?;
-    let counts = counts(&attempts);
-    std::fs::write(file("md"), &counts)?;
-    std::io::stdout().write_all(counts.as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    leave(out, "stability", &attempts, &stability_picture(&attempts), &counts(&attempts))
 }
 
 /// How many attempts of each method and start end in which way.
