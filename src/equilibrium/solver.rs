@@ -53,6 +53,9 @@ pub struct Equilibrium {
 /// Hessians times pairs of a ring and an element in one solve, which take about a second: one without a solution ends.
 const MOST_PAIRS: usize = 18_000;
 
+/// Iterations that are allowed whatever they take.
+const LEAST_ITERATIONS: usize = 100;
+
 impl Equilibrium {
     /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
@@ -309,7 +312,7 @@ fn affordable(settings: Settings, chain: &Chain) -> Settings {
     if !settings.interaction.acts_on_spans() || pairs == 0 {
         return settings;
     }
-    let most = u32::try_from(MOST_PAIRS / pairs).unwrap_or(u32::MAX).max(1);
+    let most = u32::try_from((MOST_PAIRS / pairs).max(LEAST_ITERATIONS)).unwrap_or(u32::MAX);
     Settings { iterations: settings.iterations.min(most), ..settings }
 }
 
