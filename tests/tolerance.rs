@@ -323,3 +323,6 @@ pub(crate) const ANGLE_BY_ACCURACY: f64 = 2.0;
 /// First moment of a turning spiral by the points that stand for it, over volume and outer radius: by brute force, and two Gauss
 /// points in the squared radius (reached: 2e-5).
 pub(crate) const FIRST_MOMENT: f64 = 1e-4;
+
+/// Mean error of the tabulated field of a ring and of its gradient, over their size (reached: 3e-6).
+pub(crate) const TABLE_MEAN: f64 = 1e-5;

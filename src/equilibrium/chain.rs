@@ -1,10 +1,12 @@
 //! The chain as the solver sees it: nodes joined by elements, rings on nodes.
 
+use std::sync::Arc;
+
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::{Error, check};
 use crate::geometry::Pose;
-use crate::magnetics::AxialSource;
+use crate::magnetics::{AxialSource, FieldTable};
 use crate::rod::{Element, Piece, Resolution, Sight};
 
 use super::settings::Settings;
@@ -12,6 +14,20 @@ use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
+
+/// Accuracy of the pairs from which on a table stands for the rings' fields at spans; what it is off by is another at each of
+/// their many points. For pairs of rings, whose few points have large weights of both signs, it would not do.
+const TABULATED: f64 = 1e-4;
+
+/// Tabulates the fields of the rings, equal ones once.
+fn tabulate(rings: &mut [RingBody]) {
+    for number in 0..rings.len() {
+        let (before, rest) = rings.split_at_mut(number);
+        let same = before.iter().find(|other| other.source == rest[0].source);
+        rest[0].table = same
+            .map_or_else(|| Some(Arc::new(FieldTable::new(&rest[0].source))), |other| other.table.clone());
+    }
+}
 
 /// Arc lengths (m) of so many points, equally spaced over a centreline of `length` (m).
 ///
@@ -31,6 +47,8 @@ pub(super) struct RingBody {
     pub(super) node: usize,
     /// Its field, in its own frame.
     pub(super) source: AxialSource,
+    /// The same from a table, where spans are to be seen so.
+    pub(super) table: Option<Arc<FieldTable>>,
     /// Magnetisation, A/m.
     pub(super) magnetisation: f64,
 }
@@ -41,6 +59,7 @@ impl RingBody {
             ring: *ring,
             node,
             source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
+            table: None,
             magnetisation: ring.remanence / VACUUM_PERMEABILITY,
         })
     }
@@ -116,6 +135,9 @@ impl Chain {
                 rings.push(RingBody::new(ring, elements.len())?);
                 offset = ring.length;
             }
+        }
+        if spans && settings.pair_accuracy >= TABULATED {
+            tabulate(&mut rings);
         }
         let mut first = vec![0];
         for element in &elements {

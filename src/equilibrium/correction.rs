@@ -20,7 +20,7 @@ const CHORD_CONTRACTION: f64 = 0.1;
 pub(super) const NEARLY: f64 = 1e-4;
 
 /// How far loads and shape may drift from the last factorisation, relative to the margin, while it tells about stability.
-pub(super) const KEPT: f64 = 0.05;
+pub(super) const KEPT: f64 = 0.1;
 
 /// The look at the margin after every solve: enough to see a fold come.
 const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
@@ -85,7 +85,7 @@ impl<'a> Scene<'a> {
     ) -> Potential<'a> {
         let Self { chain, settings, magnet } = *self;
         let field = Source::external(magnet, inputs).seen_by(chain, &inputs.base, settings.pair_accuracy);
-        Potential { chain, settings, inputs, field, rules, work }
+        Potential { chain, settings, inputs, field, rules, tabulated: false, work }
     }
 }
 

@@ -12,10 +12,19 @@ pub(super) struct Internal {
     pub(super) nodes: Vec<Load>,
     /// On the stations, element by element.
     pub(super) stations: Vec<Vec<Load>>,
-    /// Energy and the number of the rules; `None` where they were not finished.
-    made: Option<(f64, u64)>,
+    /// `None` where they were not finished.
+    made: Option<Made>,
     base: Pose,
     unknowns: Vec<f64>,
+}
+
+/// How the loads were made.
+#[derive(Debug, Clone, Copy)]
+struct Made {
+    energy: f64,
+    /// Number of the rules.
+    rules: u64,
+    tabulated: bool,
 }
 
 impl Internal {
@@ -29,11 +38,11 @@ impl Internal {
         }
     }
 
-    /// The energy, if these are the loads at that shape with those rules.
-    fn at(&self, unknowns: &[f64], base: &Pose, rules: u64) -> Option<f64> {
-        self.made
-            .filter(|made| made.1 == rules && self.base == *base && self.unknowns == unknowns)
-            .map(|made| made.0)
+    /// The energy, if these are the loads at that shape with those rules; tabulated ones do where tables may stand.
+    fn at(&self, unknowns: &[f64], base: &Pose, rules: u64, tabulated: bool) -> Option<f64> {
+        let alike = |made: &Made| made.rules == rules && (tabulated || !made.tabulated);
+        let made = self.made.filter(|made| alike(made) && self.base == *base && self.unknowns == unknowns);
+        made.map(|made| made.energy)
     }
 }
 
@@ -42,8 +51,9 @@ impl Potential<'_> {
     ///
     /// The first step after a change of the inputs starts from the shape of the last solve: nothing is made anew.
     pub(super) fn load_internal(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
-        let (base, rules) = (&self.inputs.base, self.rules.number());
-        let kept = self.work.internal.at(unknowns, base, rules).filter(|_| order == Order::Gradient);
+        let (base, rules, tabulated) = (&self.inputs.base, self.rules.number(), self.tabulated);
+        let kept = self.work.internal.at(unknowns, base, rules, tabulated);
+        let kept = kept.filter(|_| order == Order::Gradient);
         let energy = if let Some(energy) = kept {
             energy
         } else {
@@ -53,7 +63,7 @@ impl Potential<'_> {
             internal.stations.iter_mut().for_each(|loads| loads.fill(Load::zero()));
             let energy = self.load_pairs(order)? + self.load_spans(order)?;
             let internal = &mut self.work.internal;
-            internal.made = Some((energy, rules));
+            internal.made = Some(Made { energy, rules, tabulated });
             internal.base = *base;
             internal.unknowns.copy_from_slice(unknowns);
             energy

@@ -65,19 +65,18 @@ fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> boo
 }
 
 impl PairLoad {
-    /// Energy of `second` in the exact field of `first`; `None` where that is singular.
+    /// Energy of `second` in the field of `first`, whose nodes are at `nodes`; `None` where that is singular.
     ///
     /// The energy depends on the relative pose alone, so that forces and torques cancel to rounding.
     pub(super) fn new(
-        first: &RingBody,
-        first_node: &Pose,
+        first: &Source<'_>,
+        nodes: [&Pose; 2],
         second: &RingBody,
-        second_node: &Pose,
         rule: &AxialRule,
         order: Order,
     ) -> Option<Self> {
-        let load = Source::ring(first, first_node).on_ring(second, second_node, rule, order)?;
-        Some(Self::reciprocal(&load, second_node.position - first_node.position))
+        let load = first.on_ring(second, nodes[1], rule, order)?;
+        Some(Self::reciprocal(&load, nodes[1].position - nodes[0].position))
     }
 
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).

@@ -110,6 +110,8 @@ pub(super) struct Potential<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) field: Source<'a>,
     pub(super) rules: &'a PairRules,
+    /// Whether tables may stand for the rings' fields: for a slope alone, whose energy nobody compares.
+    pub(super) tabulated: bool,
     pub(super) work: &'a mut Workspace,
 }
 
@@ -134,7 +136,10 @@ impl Potential<'_> {
 
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
     pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
-        let energy = self.load(x, Order::Gradient)?;
+        self.tabulated = true;
+        let energy = self.load(x, Order::Gradient);
+        self.tabulated = false;
+        let energy = energy?;
         self.backward(x, Order::Gradient).then_some(energy)
     }
 
@@ -226,7 +231,8 @@ impl Potential<'_> {
                 if overlap(first, from, second, to) {
                     return None;
                 }
-                let pair = PairLoad::new(first, from, second, to, rule, order)?;
+                let source = Source::ring(first, from, false);
+                let pair = PairLoad::new(&source, [from, to], second, rule, order)?;
                 energy += pair.on_second.energy;
                 let mutual = self.settings.interaction != Interaction::Preceding;
                 for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {

@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::chain::{Chain, RingBody};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, LinearField};
+use crate::magnetics::{Assembly, AxialRule, AxialSource, FieldTable, LinearField};
 use crate::rod::{Load, Matter, Order, Sample, Sheet, Station};
 
 /// The magnet in a source.
@@ -15,7 +15,7 @@ use crate::rod::{Load, Matter, Order, Sample, Sheet, Station};
 enum Magnet<'a> {
     Absent,
     Assembly(&'a Assembly, f64),
-    Ring(&'a AxialSource),
+    Ring(&'a AxialSource, Option<&'a FieldTable>),
 }
 
 /// A field at a point.
@@ -72,11 +72,11 @@ impl<'a> Source<'a> {
         if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
     }
 
-    /// A ring of the manipulator whose node is at `node`.
-    pub(super) fn ring(body: &'a RingBody, node: &Pose) -> Self {
+    /// A ring of the manipulator whose node is at `node`; `tabulated` where its table may stand for its field and gradient.
+    pub(super) fn ring(body: &'a RingBody, node: &Pose, tabulated: bool) -> Self {
         Self {
             frame: body.centre(node),
-            magnet: Magnet::Ring(&body.source),
+            magnet: Magnet::Ring(&body.source, body.table.as_deref().filter(|_| tabulated)),
             field: Vector3::zeros(),
             gradient: Matrix3::zeros(),
             compact: 0.0,
@@ -106,7 +106,7 @@ impl<'a> Source<'a> {
         match self.magnet {
             Magnet::Absent => f64::INFINITY,
             Magnet::Assembly(assembly, _) => assembly.distance(&local()),
-            Magnet::Ring(ring) => ring.distance(&local()),
+            Magnet::Ring(ring, _) => ring.distance(&local()),
         }
     }
 
@@ -114,6 +114,11 @@ impl<'a> Source<'a> {
     /// asked for; `None` inside a magnet.
     #[inline]
     fn near(&self, point: &Vector3<f64>, axis: &Vector3<f64>, order: Order) -> Option<Near> {
+        if let (Magnet::Ring(_, Some(table)), Order::Gradient) = (self.magnet, order)
+            && let Some((field, gradient)) = table.field_gradient(point)
+        {
+            return Some(Near { field, gradient, along: None });
+        }
         let mut out =
             Near { field: self.field + self.gradient * point, gradient: self.gradient, along: None };
         let (strength, jet) = match (self.magnet, order) {
@@ -122,19 +127,19 @@ impl<'a> Source<'a> {
                 return Some(out);
             }
             (Magnet::Assembly(assembly, _), _) if assembly.contains(point) => return None,
-            (Magnet::Ring(ring), _) if ring.contains(point) => return None,
+            (Magnet::Ring(ring, _), _) if ring.contains(point) => return None,
             (Magnet::Assembly(assembly, strength), Order::Gradient) => {
                 let (field, gradient) = assembly.field_gradient(point).ok()?;
                 out.field += field * strength;
                 out.gradient += gradient * strength;
                 return Some(out);
             }
-            (Magnet::Ring(ring), Order::Gradient) => {
+            (Magnet::Ring(ring, _), Order::Gradient) => {
                 (out.field, out.gradient) = ring.field_gradient(point).ok()?;
                 return Some(out);
             }
             (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(point).ok()?),
-            (Magnet::Ring(ring), Order::Hessian) => (1.0, ring.jet(point).ok()?),
+            (Magnet::Ring(ring, _), Order::Hessian) => (1.0, ring.jet(point).ok()?),
         };
         out.field += jet.field * strength;
         out.gradient += jet.gradient * strength;

@@ -21,7 +21,7 @@ impl Potential<'_> {
             let start = self.work.nodes[k];
             for (ring, body) in self.chain.rings.iter().enumerate() {
                 let node = self.work.nodes[body.node];
-                let source = Source::ring(body, &node);
+                let source = Source::ring(body, &node, self.tabulated);
                 for sample in self.chain.views.samples(k, ring, self.rules.span(k, ring)) {
                     let pose = self.work.station(k, sample.station);
                     let load = source.on_sample(sample, &pose, order)?.in_axes(&source.axes().transpose());

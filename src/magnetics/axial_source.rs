@@ -127,10 +127,10 @@ impl AxialSource {
     /// Distance from a point to the material, m; 0 inside and on its surface.
     #[must_use]
     pub fn distance(&self, point: &Vector3<f64>) -> f64 {
-        let rho = point.x.hypot(point.y);
+        let rho = (point.x * point.x + point.y * point.y).sqrt();
         let across = (rho - self.outer).max(self.inner - rho).max(0.0);
         let along = (point.z.abs() - self.half).max(0.0);
-        across.hypot(along)
+        (across * across + along * along).sqrt()
     }
 
     /// Inner radius, m; 0 for a solid cylinder.

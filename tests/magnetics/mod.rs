@@ -3,6 +3,7 @@
 mod axial_rule;
 mod consistency;
 mod field;
+mod field_table;
 mod material;
 mod reference;
 mod wrench;

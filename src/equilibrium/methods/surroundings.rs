@@ -156,7 +156,7 @@ impl Surroundings<'_> {
             return None;
         }
         let rule = self.rules.between(rings[0], rings[1]);
-        let load = PairLoad::new(first, from, second, to, rule, order)?;
+        let load = PairLoad::new(&Source::ring(first, from, false), [from, to], second, rule, order)?;
         out.energy += load.on_second.energy;
         out.gradient += gradient(&load.on_second);
         let mut pair = Pair {
