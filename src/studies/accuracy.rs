@@ -4,9 +4,10 @@
 
 use std::time::{Duration, Instant};
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
 use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Discretisation, Interaction, Method, Settings};
 use crate::error::Error;
@@ -16,19 +17,11 @@ use crate::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
 const FIELDS: [(&str, &str); 3] = [
     ("uniform 90 deg", "[field]\nuniform_mt = [0, 10, 0]"),
     ("uniform 150 deg", "[field]\nuniform_mt = [0, 5, -8.660254038]"),
-    ("pair", "[magnet]\norientation_wxyz = [0, 1, 0, 0]"),
+    ("pair", PAIR),
 ];
-
-const SEGMENTS: [usize; 3] = [1, 3, 9];
-
-const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
 
 /// What is drawn: the paper's device beside its magnet.
 const DRAWN: (&str, usize, &str, &str) = ("pair", 9, "rings", "warm");
-
-/// One warm step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm.
-const TURN_DEG: f64 = 0.1;
-const PASSAGE: f64 = 1e-4;
 
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
@@ -113,7 +106,7 @@ struct Trial {
     settings: Settings,
 }
 
-/// A scene with its second inputs, one step away.
+/// A scene with its second inputs, a warm step at 1 kHz away.
 struct Case {
     field: &'static str,
     segments: usize,
@@ -147,10 +140,7 @@ impl Case {
     fn new(field: &'static str, table: &str, segments: usize, level: Interaction) -> Result<Self, Error> {
         let model = format!("[model]\ninteraction = \"{}\"", level.name());
         let scene = Scene::parse(&format!("{table}\n[design]\nsegments = {segments}\n{model}"), field)?;
-        let mut moved = scene.inputs.clone();
-        let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), TURN_DEG.to_radians());
-        moved.uniform_field = turn * moved.uniform_field;
-        moved.magnet.position.z += PASSAGE;
+        let moved = later(&scene.inputs, 1);
         let length = scene.design()?.length();
         Ok(Self { field, segments, scene, moved, length })
     }

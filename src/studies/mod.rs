@@ -20,6 +20,7 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod scenes;
 mod stability;
 mod study;
 
