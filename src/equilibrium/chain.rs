@@ -2,7 +2,8 @@
 
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
-use crate::error::Error;
+use crate::error::{Error, check};
+use crate::geometry::Pose;
 use crate::magnetics::AxialSource;
 use crate::rod::{Element, Piece, Resolution, Sight};
 
@@ -11,6 +12,15 @@ use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
+
+/// Arc lengths (m) of so many points, equally spaced over a centreline of `length` (m).
+///
+/// # Errors
+/// [`Error::Range`] for fewer than its two ends.
+pub(super) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
+    check("number of shape points", points as f64, |v| v >= 2.0, ">= 2")?;
+    Ok((0..points).map(move |i| length * i as f64 / (points - 1) as f64))
+}
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -33,6 +43,16 @@ impl RingBody {
             source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
             magnetisation: ring.remanence / VACUUM_PERMEABILITY,
         })
+    }
+
+    /// Distance of its centre from its node, m.
+    pub(super) fn half_length(&self) -> f64 {
+        0.5 * self.ring.length
+    }
+
+    /// Pose of its centre where that of its node is `node`.
+    pub(super) fn centre(&self, node: &Pose) -> Pose {
+        node.advanced(self.half_length())
     }
 }
 

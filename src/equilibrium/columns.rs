@@ -133,7 +133,7 @@ impl Potential<'_> {
         let axis = pose.axis();
         let mut out = Wrenches::none(counts);
         for (index, body) in self.chain.rings.iter().enumerate().filter(|(_, body)| body.node == node) {
-            let half = 0.5 * body.ring.length;
+            let half = body.half_length();
             let centre = axis * half;
             let local =
                 self.inputs.magnet.rotation.tr_mul(&(pose.position + centre - self.inputs.magnet.position));

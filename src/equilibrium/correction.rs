@@ -43,6 +43,9 @@ pub(super) const ROUNDING: f64 = 1e-9;
 /// Margin up to which nothing holds a shape: what the tolerance leaves open of it.
 const FREE: f64 = 1e-7;
 
+/// Margin below which a shape is looked at again with its own Hessian.
+const DOUBTFUL: f64 = 1e-4;
+
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
@@ -70,6 +73,20 @@ pub(super) struct Scene<'a> {
     pub(super) chain: &'a Chain,
     pub(super) settings: &'a Settings,
     pub(super) magnet: Option<&'a Assembly>,
+}
+
+impl<'a> Scene<'a> {
+    /// The potential at `inputs` with the rules chosen last.
+    pub(super) fn potential(
+        &self,
+        inputs: &'a Inputs,
+        rules: &'a PairRules,
+        work: &'a mut Workspace,
+    ) -> Potential<'a> {
+        let Self { chain, settings, magnet } = *self;
+        let field = Source::external(magnet, inputs).seen_by(chain, &inputs.base, settings.pair_accuracy);
+        Potential { chain, settings, inputs, field, rules, work }
+    }
 }
 
 impl Report {
@@ -135,18 +152,7 @@ pub(super) struct Walk<'a> {
 
 impl Walk<'_> {
     pub(super) fn potential<'b>(&'b mut self, inputs: &'b Inputs) -> Potential<'b> {
-        Potential {
-            chain: self.scene.chain,
-            settings: self.scene.settings,
-            inputs,
-            field: Source::external(self.scene.magnet, inputs).seen_by(
-                self.scene.chain,
-                &inputs.base,
-                self.scene.settings.pair_accuracy,
-            ),
-            rules: self.rules,
-            work: self.work,
-        }
+        self.scene.potential(inputs, self.rules, self.work)
     }
 
     /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
@@ -277,26 +283,38 @@ impl Walk<'_> {
         self.rules.choose(self.scene.chain, &self.work.nodes)
     }
 
-    /// An upper bound of the margin at the shape where the last correction has factorised.
-    pub(super) fn judge(&mut self, inputs: &Inputs, softest: &mut [f64]) {
-        let metric = &self.scene.chain.metric;
-        // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
-        spread(metric, softest, EVERY_DIRECTION);
+    /// An upper bound of the margin at the shape `unknowns`, which the last correction has found.
+    pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64]) {
         self.work.reference.origin.judged = true;
         if !self.potential(inputs).has_verdict() {
             return;
         }
-        let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
-        let mut potential = self.potential(inputs);
-        let margin = lanczos.smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
-        self.scratch.lanczos = lanczos;
+        let mut margin = self.look(inputs, softest);
+        if margin < DOUBTFUL {
+            // The Hessian is that of a shape one step earlier, which may be held by what it was off.
+            let mut potential = self.potential(inputs);
+            let definite = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
+            self.work.reference.origin.judged = definite;
+            margin = if definite { self.look(inputs, softest) } else { 0.0 };
+        }
         if margin.is_finite() {
-            // The correction has found the Hessian positive definite, if only by what the shape is off.
             let held = margin > FREE;
             (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));
         } else {
             softest.fill(0.0);
         }
+    }
+
+    /// An upper bound of the margin at the shape that was factorised last; not a number where none is found.
+    fn look(&mut self, inputs: &Inputs, softest: &mut [f64]) -> f64 {
+        let metric = &self.scene.chain.metric;
+        // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
+        spread(metric, softest, EVERY_DIRECTION);
+        let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
+        let mut potential = self.potential(inputs);
+        let margin = lanczos.smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
+        self.scratch.lanczos = lanczos;
+        margin
     }
 }
 

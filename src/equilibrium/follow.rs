@@ -57,7 +57,7 @@ impl Branch {
     pub(super) fn fits(&self, freedoms: usize) -> bool {
         let lists =
             [Some(&self.unknowns), Some(&self.softest), self.earlier.as_ref().map(|earlier| &earlier.0)];
-        lists.into_iter().flatten().all(|list| list.len() == freedoms && list.iter().all(|x| x.is_finite()))
+        lists.into_iter().flatten().all(|list| are_finite(list, freedoms))
     }
 
     /// All inputs.
@@ -102,6 +102,11 @@ impl Branch {
     }
 }
 
+/// Whether these are so many finite numbers.
+pub(super) fn are_finite(list: &[f64], count: usize) -> bool {
+    list.len() == count && list.iter().all(|x| x.is_finite())
+}
+
 impl Scene<'_> {
     /// Moves `branch` to the equilibrium at `target`; on failure the branch stays where it was.
     pub(super) fn follow(
@@ -119,7 +124,7 @@ impl Scene<'_> {
         let end = foreseen.unwrap_or_else(|| walk.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
         match end {
             End::Kept => (walk.report.margin, walk.report.stable) = (branch.margin, branch.stable),
-            End::Held => walk.judge(target, &mut branch.softest),
+            End::Held => walk.judge(target, &branch.unknowns, &mut branch.softest),
             End::Neutral => {
                 // The factorisation is that of a shape on the way.
                 walk.work.factored = false;

@@ -28,7 +28,7 @@ impl Equilibrium {
         {
             return None;
         }
-        let faces = rings.iter().zip(&chain.rings).map(|(pose, body)| pose.advanced(-0.5 * body.ring.length));
+        let faces = rings.iter().zip(&chain.rings).map(|(pose, body)| pose.advanced(-body.half_length()));
         let faces: Vec<Pose> = faces.collect();
         let mut unknowns = Vec::with_capacity(chain.freedoms());
         for (element, ends) in chain.elements.iter().zip(faces.windows(2)) {
@@ -42,10 +42,14 @@ impl Equilibrium {
     /// Poses of the rings' centres, base to tip, in any shape; that of the branch stays.
     #[must_use]
     pub fn rings_at(&self, base: &Pose, unknowns: &[f64]) -> Vec<Pose> {
-        let mut work = self.work.clone();
-        work.place(&self.chain, base, unknowns);
-        let centre = |node: usize, length: f64| work.nodes[node].advanced(0.5 * length);
-        self.chain.rings.iter().map(|body| centre(body.node, body.ring.length)).collect()
+        let chain = &self.chain;
+        let mut nodes = vec![*base];
+        for (k, element) in chain.elements.iter().enumerate() {
+            let mut configuration = Configuration::straight(element);
+            configuration.update(element, chain.part(k, unknowns));
+            nodes.push(nodes[k].compose(&configuration.end));
+        }
+        chain.rings.iter().map(|body| body.centre(&nodes[body.node])).collect()
     }
 }
 

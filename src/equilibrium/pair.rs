@@ -41,9 +41,9 @@ pub(super) struct Mixed {
 
 /// Whether two rings are closer than their material allows.
 pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> bool {
-    let from = first_node.advanced(0.5 * first.ring.length);
-    let to = second_node.advanced(0.5 * second.ring.length);
-    let reach = |body: &RingBody| body.ring.outer_radius.hypot(0.5 * body.ring.length);
+    let from = first.centre(first_node);
+    let to = second.centre(second_node);
+    let reach = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
     let distance = (to.position - from.position).norm();
     if distance > reach(first) + reach(second) {
         return false;
@@ -60,7 +60,7 @@ fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> boo
         let point =
             to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
         let local = from.rotation.tr_mul(&(point - from.position));
-        local.z.abs() < 0.5 * outline.ring.length && local.x.hypot(local.y) < outline.ring.outer_radius
+        local.z.abs() < outline.half_length() && local.x.hypot(local.y) < outline.ring.outer_radius
     })
 }
 

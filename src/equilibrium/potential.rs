@@ -21,6 +21,8 @@ use crate::rod::{Configuration, Load, Order, START, Tangent};
 pub(super) struct Workspace {
     pub(super) configurations: Vec<Configuration>,
     pub(super) nodes: Vec<Pose>,
+    /// The unknowns for which they are placed; not a number before the first ones.
+    placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     pub(super) internal: Internal,
@@ -58,6 +60,7 @@ impl Workspace {
         Self {
             configurations: chain.elements.iter().map(Configuration::straight).collect(),
             nodes: vec![Pose::identity(); count + 1],
+            placed: vec![f64::NAN; chain.freedoms()],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
             internal: Internal::new(chain),
@@ -85,8 +88,12 @@ impl Workspace {
         self.nodes[element].compose(&Pose { position: state.position, rotation: state.directors })
     }
 
-    /// Places all stations and nodes for the given base and unknowns.
+    /// Places all stations and nodes for the given base and unknowns, if they are not there.
     pub(super) fn place(&mut self, chain: &Chain, base: &Pose, unknowns: &[f64]) {
+        if self.nodes[0] == *base && self.placed == unknowns {
+            return;
+        }
+        self.placed.copy_from_slice(unknowns);
         self.nodes[0] = *base;
         for (k, element) in chain.elements.iter().enumerate() {
             self.configurations[k].update(element, chain.part(k, unknowns));
@@ -190,7 +197,7 @@ impl Potential<'_> {
     fn load_rings(&mut self, order: Order) -> Option<()> {
         for (index, (body, force)) in self.chain.rings.iter().zip(&self.inputs.ring_forces).enumerate() {
             let node = self.work.nodes[body.node];
-            let arm = node.axis() * (0.5 * body.ring.length);
+            let arm = node.axis() * body.half_length();
             let dead = force + self.inputs.gravity * body.ring.mass;
             let reach = self.field.distance(&(node.position + arm));
             let rule = self.rules.external(index, reach);

@@ -42,8 +42,8 @@ impl PairRules {
         let mut chosen = self.chosen.iter_mut();
         for (i, first) in chain.rings.iter().enumerate() {
             for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
-                let from = nodes[first.node].advanced(0.5 * first.ring.length);
-                let to = nodes[second.node].advanced(0.5 * second.ring.length);
+                let from = first.centre(&nodes[first.node]);
+                let to = second.centre(&nodes[second.node]);
                 let local = from.rotation.tr_mul(&(to.position - from.position));
                 if let Some(slot) = chosen.next() {
                     let rule = fewest(&self.tables[j], |entry| entry.1 <= first.source.distance(&local));

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::drift::Origin;
-use super::follow::Branch;
+use super::follow::{Branch, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
 use crate::numerics::trust_region::Objective;
@@ -37,10 +37,7 @@ impl Equilibrium {
         self.reset();
         let Snapshot { branch, origin, rules } = snapshot;
         let fits = branch.fits(self.chain.freedoms())
-            && origin.as_ref().is_none_or(|origin| {
-                origin.unknowns.len() == self.chain.freedoms()
-                    && origin.unknowns.iter().all(|x| x.is_finite())
-            });
+            && origin.as_ref().is_none_or(|origin| are_finite(&origin.unknowns, self.chain.freedoms()));
         let foreign = || Error::Unsupported("the snapshot is not of this design".into());
         if !fits || !self.rules.restore(rules) {
             return Err(foreign());

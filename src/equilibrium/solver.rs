@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
-use super::chain::Chain;
+use super::chain::{Chain, arc_lengths};
 use super::correction::{Report, Scene, Scratch, measure};
 use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use super::follow::Branch;
@@ -14,7 +14,7 @@ use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use super::source::Source;
 use crate::design::Design;
-use crate::error::{Error, check};
+use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
@@ -74,11 +74,10 @@ impl Equilibrium {
                 "an equilibrium of one model has no level `auto`: a manipulator has".into(),
             ));
         }
-        check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
+        let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let chain = Chain::new(design, &settings)?;
         let settings = affordable(settings, &chain);
-        let total = design.length();
-        let shape = (0..shape_points).map(|i| point_at(&chain, total * i as f64 / (shape_points - 1) as f64));
+        let shape = arc_lengths.map(|s| point_at(&chain, s));
         let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, &settings));
         let mut out = Self {
             settings,
@@ -198,18 +197,8 @@ impl Equilibrium {
 
     /// With the rules that were chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        Potential {
-            chain: &self.chain,
-            settings: &self.settings,
-            inputs,
-            field: Source::external(self.magnet.as_ref(), inputs).seen_by(
-                &self.chain,
-                &inputs.base,
-                self.settings.pair_accuracy,
-            ),
-            rules: &self.rules,
-            work: &mut self.work,
-        }
+        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        scene.potential(inputs, &self.rules, &mut self.work)
     }
 
     /// Pose of the tip: the distal face of the last body.
@@ -220,7 +209,7 @@ impl Equilibrium {
 
     /// Poses of the rings' centres, base to tip.
     pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
-        self.chain.rings.iter().map(|body| self.work.nodes[body.node].advanced(0.5 * body.ring.length))
+        self.chain.rings.iter().map(|body| body.centre(&self.work.nodes[body.node]))
     }
 
     /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.

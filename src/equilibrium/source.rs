@@ -75,7 +75,7 @@ impl<'a> Source<'a> {
     /// A ring of the manipulator whose node is at `node`.
     pub(super) fn ring(body: &'a RingBody, node: &Pose) -> Self {
         Self {
-            frame: node.advanced(0.5 * body.ring.length),
+            frame: body.centre(node),
             magnet: Magnet::Ring(&body.source),
             field: Vector3::zeros(),
             gradient: Matrix3::zeros(),
@@ -152,7 +152,7 @@ impl<'a> Source<'a> {
     ) -> Option<Load> {
         let local = self.locate(node);
         let axis = local.axis();
-        let centre = 0.5 * body.ring.length;
+        let centre = body.half_length();
         let mut load = Load::zero();
         for (height, volume) in rule.points() {
             let arm = axis * (centre + height);

@@ -11,13 +11,14 @@ use super::plane::Plane;
 use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
+use crate::equilibrium::chain::arc_lengths;
 use crate::equilibrium::correction::Report;
 use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::{Interaction, Settings};
 use crate::equilibrium::source::Source;
-use crate::error::{Error, check};
+use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::rod::Order;
@@ -76,7 +77,7 @@ impl Comparison {
         shape_points: usize,
     ) -> Result<Self, Error> {
         let settings = settings.checked()?;
-        check("number of shape points", shape_points as f64, |v| v >= 2.0, ">= 2")?;
+        let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let (own, other) = (settings.method.name(), Method::Potential.name());
         if !settings.method.supports(settings.interaction) {
             let level = settings.interaction.name();
@@ -91,12 +92,10 @@ impl Comparison {
         }
         let line = Line::new(design, &settings)?;
         let state = State::straight(&line, &settings)?;
-        let total = design.length();
-        let arc_lengths = (0..shape_points).map(|i| total * i as f64 / (shape_points - 1) as f64).collect();
         Ok(Self {
             rules: PairRules::new(&line.chain, &settings),
             magnet: magnet.cloned(),
-            arc_lengths: Arc::new(arc_lengths),
+            arc_lengths: Arc::new(arc_lengths.collect()),
             line: Arc::new(line),
             settings,
             state,
@@ -196,7 +195,7 @@ impl Comparison {
     /// Poses of the rings' centres, base to tip.
     pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
         let nodes = &self.state.shape.nodes;
-        self.line.chain.rings.iter().map(|body| nodes[body.node].advanced(0.5 * body.ring.length))
+        self.line.chain.rings.iter().map(|body| body.centre(&nodes[body.node]))
     }
 
     /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.

@@ -105,7 +105,7 @@ impl Surroundings<'_> {
     /// Load of the external field on a ring whose node is at `pose`.
     pub(super) fn on_ring(&self, index: usize, pose: &Pose, order: Order) -> Option<Load> {
         let body = &self.line.chain.rings[index];
-        let centre = pose.advanced(0.5 * body.ring.length).position;
+        let centre = body.centre(pose).position;
         self.field.on_ring(body, pose, self.rules.external(index, self.field.distance(&centre)), order)
     }
 
@@ -120,7 +120,7 @@ impl Surroundings<'_> {
             load = self.on_ring(index, pose, order)?;
             magnetic = gradient(&load);
             let body = &chain.rings[index];
-            let arm = pose.axis() * (0.5 * body.ring.length);
+            let arm = pose.axis() * body.half_length();
             let dead = self.inputs.ring_forces[index] + self.inputs.gravity * body.ring.mass;
             load += Load::dead_force(&dead, &pose.position, &arm);
         }
