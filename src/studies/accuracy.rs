@@ -2,16 +2,19 @@
 //!
 //! The one study that looks at a clock: its times are those of one machine at one moment.
 
+mod picture;
+
 use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
-use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Discretisation, Interaction, Method, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
+
+pub use picture::{PEERS, Peered, accuracy_picture};
 
 /// Fields by name, as scenes state them: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
 const FIELDS: [(&str, &str); 3] = [
@@ -19,9 +22,6 @@ const FIELDS: [(&str, &str); 3] = [
     ("uniform 150 deg", "[field]\nuniform_mt = [0, 5, -8.660254038]"),
     ("pair", PAIR),
 ];
-
-/// What is drawn: the paper's device beside its magnet.
-const DRAWN: (&str, usize, &str, &str) = ("pair", 9, "rings", "warm");
 
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
@@ -304,54 +304,4 @@ fn trials(base: Settings) -> Vec<Trial> {
 #[must_use]
 pub fn accuracy_cases() -> usize {
     Case::COUNT
-}
-
-/// The picture: nine segments beside the magnet pair, and what others (label, colour, time in microseconds and error of the
-/// angle in rad) reach on a dipole at the tip of one core.
-#[must_use]
-pub fn accuracy_picture(points: &[Point], peers: Vec<Series>) -> Study {
-    let (field, segments, level, start) = DRAWN;
-    let drawn: Vec<&Point> = points
-        .iter()
-        .filter(|p| (p.field, p.segments, p.interaction, p.start) == (field, segments, level, start))
-        .collect();
-    let mut series: Vec<Series> = Vec::new();
-    for (name, colour, stroke) in [
-        ("potential", 0, Stroke::Dots),
-        ("collocation", 2, Stroke::Solid),
-        ("multiple-shooting", 3, Stroke::Solid),
-        ("shooting", 1, Stroke::Solid),
-        ("shooting-fd", 1, Stroke::Dashed),
-        ("planar", 4, Stroke::Solid),
-        ("constant-curvature", 5, Stroke::Dots),
-    ] {
-        let places = drawn.iter().filter(|p| p.name == name).filter_map(|p| p.place()).collect();
-        series.push(Series { label: name.into(), colour, stroke, places });
-    }
-    let known = drawn.first().and_then(|p| p.reference_over_length);
-    let known = known.map(|error| Mark::Level("as well as it is known".into(), error));
-    let best = front(drawn.iter().copied()).into_iter().filter_map(Point::place).enumerate();
-    let label = |i: usize| if i == 0 { "nobody is faster and better".into() } else { String::new() };
-    let mut panels = vec![Panel::Places {
-        title: "nine segments beside the magnet pair, rings".into(),
-        x: "time of a warm solve (us)".into(),
-        y: "error of the tip over the length".into(),
-        series,
-        marks: best.map(|(i, place)| Mark::Point(label(i), place)).chain(known).collect(),
-    }];
-    if !peers.is_empty() {
-        panels.push(Panel::Places {
-            title: "one core with a dipole at its tip".into(),
-            x: "time of a solve (us)".into(),
-            y: "error of the angle (rad)".into(),
-            series: peers,
-            marks: Vec::new(),
-        });
-    }
-    Study {
-        title: "Error against time: left and below is better",
-        columns: vec![],
-        panels,
-        comparison: vec![],
-    }
 }

@@ -24,7 +24,7 @@ mod scenes;
 mod stability;
 mod study;
 
-pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_cases, accuracy_picture, front};
 pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use communication_step::communication_step;
 pub use fidelity::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};

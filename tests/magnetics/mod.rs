@@ -4,5 +4,6 @@ mod axial_rule;
 mod consistency;
 mod field;
 mod material;
+mod multipoles;
 mod reference;
 mod wrench;

@@ -14,10 +14,11 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::failure::Failure;
 
-/// Width of a picture in pixels, its height, and how much more it has for each row of panels after the second.
+/// Width of a picture in pixels, its least height, and that of a row of panels, without and with long legends.
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 600;
-const ROW: u32 = 280;
+const ROW: u32 = 300;
+const TALL_ROW: u32 = 450;
 
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
@@ -58,7 +59,8 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let failure = |reason: String| Failure::Message(format!("cannot draw {}: {reason}", path.display()));
     let rows = u32::try_from(study.panels.len().div_ceil(2)).unwrap_or(u32::MAX);
-    let size = (WIDTH, HEIGHT + ROW * rows.saturating_sub(2));
+    let tall = study.panels.iter().any(|panel| matches!(panel, Panel::Places { .. }));
+    let size = (WIDTH, HEIGHT.max(rows.saturating_mul(if tall { TALL_ROW } else { ROW })));
     let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
     let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
     draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
