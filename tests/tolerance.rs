@@ -323,3 +323,11 @@ pub(crate) const INTERPOLATED: f64 = 1e-9;
 
 /// Tips after two ways that end in one shape, mm: 1e-9 of the length ([`WAY`]), 5 cm.
 pub(crate) const SAME_TIP_MM: f64 = 1e-7;
+
+/// Error of the tip's angle (rad) over the accuracy of the pairs: that is one of energies, of which the angle is a slope
+/// (reached: 1.4).
+pub(crate) const ANGLE_BY_ACCURACY: f64 = 2.0;
+
+/// First moment of a turning spiral by the points that stand for it, over volume and outer radius: by brute force, and two Gauss
+/// points in the squared radius (reached: 2e-5).
+pub(crate) const FIRST_MOMENT: f64 = 1e-4;

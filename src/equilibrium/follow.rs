@@ -19,6 +19,9 @@ const FALL_RADIUS: f64 = 0.1;
 /// A fall further than this (in the chain's unit) is a snap, a shorter one a bend in the branch.
 const SNAP: f64 = 0.25;
 
+/// Shapes before the present one that are kept to foresee the next.
+const EARLIER: usize = 2;
+
 /// Longest step (in the chain's unit) that is foreseen instead of found.
 const FORESEEN: f64 = 0.1;
 
@@ -36,8 +39,8 @@ const FURTHER: f64 = 16.0;
 pub(super) struct Branch {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
-    /// Shape and inputs one solve earlier on this branch.
-    earlier: Option<(Vec<f64>, Inputs)>,
+    /// Shape and inputs of the solves before on this branch, the last one first.
+    earlier: Vec<(Vec<f64>, Inputs)>,
     /// Margin and verdict at the last factorisation.
     margin: f64,
     stable: Option<bool>,
@@ -50,14 +53,14 @@ impl Branch {
         let mut softest = vec![0.0; chain.freedoms()];
         spread(&chain.metric, &mut softest, 1.0);
         let unknowns = vec![0.0; chain.freedoms()];
-        Self { unknowns, inputs: None, earlier: None, margin: 0.0, stable: None, softest }
+        Self { unknowns, inputs: None, earlier: Vec::new(), margin: 0.0, stable: None, softest }
     }
 
     /// Whether that many unknowns are those of every shape, and all of them are finite.
     pub(super) fn fits(&self, freedoms: usize) -> bool {
-        let lists =
-            [Some(&self.unknowns), Some(&self.softest), self.earlier.as_ref().map(|earlier| &earlier.0)];
-        lists.into_iter().flatten().all(|list| are_finite(list, freedoms))
+        let earlier = self.earlier.iter().map(|earlier| &earlier.0);
+        let mut lists = [&self.unknowns, &self.softest].into_iter().chain(earlier);
+        lists.all(|list| are_finite(list, freedoms)) && self.earlier.len() <= EARLIER
     }
 
     /// All inputs.
@@ -67,34 +70,47 @@ impl Branch {
 
     /// Goes on to a shape at `inputs`; `last` is the shape before.
     fn advance(&mut self, inputs: &Inputs, last: &[f64], snapped: bool) {
-        match (&mut self.inputs, &mut self.earlier) {
-            (None, _) => self.inputs = Some(inputs.clone()),
-            (Some(here), earlier) if snapped => {
-                *earlier = None;
-                here.copy_from(inputs);
-            }
-            (Some(here), Some((shape, before))) => {
-                shape.copy_from_slice(last);
-                before.copy_from(here);
-                here.copy_from(inputs);
-            }
-            (Some(here), earlier) => {
-                *earlier = Some((last.to_vec(), here.clone()));
-                here.copy_from(inputs);
-            }
+        let Some(here) = &mut self.inputs else {
+            self.inputs = Some(inputs.clone());
+            return;
+        };
+        if snapped {
+            self.earlier.clear();
+        } else if self.earlier.len() < EARLIER {
+            self.earlier.insert(0, (last.to_vec(), here.clone()));
+        } else {
+            self.earlier.rotate_right(1);
+            let (shape, before) = &mut self.earlier[0];
+            shape.copy_from_slice(last);
+            before.copy_from(here);
         }
+        here.copy_from(inputs);
     }
 
-    /// Writes to `shape` where the last step leads to at `target`, as far along as the inputs go on; the length of that step
+    /// Writes to `shape` where the last steps lead to at `target`, as far along as the inputs go on; the length of that step
     /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
+    ///
+    /// The line through the last two shapes; the parabola through three (Newton's divided differences) where the inputs have
+    /// gone on all the way and it differs by more than the tolerance, which the shapes themselves may be off.
     fn foresee(&self, target: &Inputs, scene: &Scene<'_>, shape: &mut [f64]) -> Option<f64> {
         let held = self.stable.is_none_or(|stable| stable && self.margin >= scene.settings.fold_margin);
-        let (Some(here), Some((earlier, before)), true) = (&self.inputs, &self.earlier, held) else {
+        let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {
             return None;
         };
         let pace = target.pace(here, before)?;
-        for ((x, now), then) in shape.iter_mut().zip(&self.unknowns).zip(earlier) {
+        for ((x, now), then) in shape.iter_mut().zip(&self.unknowns).zip(last) {
             *x = pace * (now - then);
+        }
+        if let [(oldest, first), ..] = older
+            && let Some(quickened) = here.pace(before, first).filter(|pace| *pace > 0.0)
+        {
+            let curved = pace * (pace + 1.0) / (1.0 + 1.0 / quickened);
+            let bends = self.unknowns.iter().zip(last).zip(oldest);
+            let bends = bends.map(|((now, then), old)| curved * ((now - then) - quickened * (then - old)));
+            let squares = bends.clone().zip(&scene.chain.metric).map(|(bend, k)| k * bend * bend);
+            if squares.sum::<f64>().sqrt() > scene.settings.tolerance * scene.chain.unit() {
+                shape.iter_mut().zip(bends).for_each(|(x, bend)| *x += bend);
+            }
         }
         let length = norm(&scene.chain.metric, shape) / scene.chain.unit();
         shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);

@@ -183,8 +183,10 @@ impl Section<'_> {
         let span = self.piece.span;
         let harmonics = |radius| sight.harmonics(distance, radius);
         let circle = [span.inner_radius, span.outer_radius];
-        if harmonics(sight.radius) <= 1 {
-            return self.moments();
+        if harmonics(sight.radius) <= 1
+            && let Some(points) = self.moments()
+        {
+            return points;
         }
         let mut out = Vec::new();
         self.add_circle(&mut out, circle, TAU, sight.radial(distance, circle), harmonics);
@@ -212,12 +214,13 @@ impl Section<'_> {
         }
     }
 
-    /// The four points that carry the moments.
-    fn moments(&self) -> Vec<SectionPoint> {
+    /// The four points that carry the moments. Of a node with a negative weight no points of equal volume do.
+    fn moments(&self) -> Option<Vec<SectionPoint>> {
         let mut moments = SectionMoments::zero();
         self.along(|s, weight| moments.add_section(self.piece.span, s, weight));
         let volume = moments.volume / 4.0;
-        moments.points().map(|position| SectionPoint { position, volume }).to_vec()
+        let points = || moments.points().map(|position| SectionPoint { position, volume }).to_vec();
+        moments.are_of_material().then(points)
     }
 
     /// An annulus of which `filled` (rad) is material, spread evenly.

@@ -59,6 +59,19 @@ impl SectionMoments {
         Self { volume: self.volume, first: Vector2::zeros(), second }
     }
 
+    /// Whether they are those of some material, as sums with negative weights need not be: a positive volume, spread no less
+    /// than not at all.
+    pub(super) fn are_of_material(&self) -> bool {
+        let spread = self.central();
+        self.volume > 0.0 && spread.m11 >= 0.0 && spread.determinant() >= 0.0
+    }
+
+    /// Second moment about the centroid by volume, m2.
+    fn central(&self) -> Matrix2<f64> {
+        let mean = self.first / self.volume;
+        self.second / self.volume - mean * mean.transpose()
+    }
+
     /// Mean square distance of the material from its centroid, m2.
     #[must_use]
     pub fn spread(&self) -> f64 {
@@ -84,7 +97,7 @@ impl SectionMoments {
             return [Vector2::zeros(); 4];
         }
         let mean = self.first / self.volume;
-        let spread = self.second / self.volume - mean * mean.transpose();
+        let spread = self.central();
         // Lower Cholesky factor of the spread, which is positive: the annulus surrounds the centreline.
         let a = spread.m11.max(0.0).sqrt();
         let b = if a > 0.0 { spread.m21 / a } else { 0.0 };

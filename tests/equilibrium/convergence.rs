@@ -7,7 +7,9 @@ use mcm::magnetics::Assembly;
 use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
-use crate::tolerance::{DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT};
+use crate::tolerance::{
+    ANGLE_BY_ACCURACY, DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT,
+};
 
 const RICHEST: usize = 8;
 
@@ -116,6 +118,29 @@ fn full_by_default_is_close_to_its_own_refinement() {
         let error = (tip(&design, full, field) - exact).norm() / design.length();
         println!("full, S = {segments}, {:.0} mT: tip error over the length {error:.1e}", 1e3 * field);
         assert!(error <= FULL_BY_DEFAULT, "{segments} segments: {error:e}");
+    }
+}
+
+/// The tip of three segments beside the magnet pair, with rings acting on spans: off by no more than was asked for.
+#[test]
+fn the_accuracy_of_rings_and_spans_is_held() {
+    let scene =
+        Scene::parse("[design]\nsegments = 3\n[magnet]\norientation_wxyz = [0, 1, 0, 0]", "test scene")
+            .unwrap();
+    let length = scene.design().unwrap().length();
+    let tip = |pair_accuracy: f64| {
+        let mut scene = scene.clone();
+        scene.settings = Settings { pair_accuracy, interaction: Interaction::Full, ..scene.settings };
+        let mut manipulator = scene.manipulator(2).unwrap();
+        manipulator.solve(&scene.inputs).unwrap().tip
+    };
+    let exact = tip(1e-8);
+    for accuracy in [1e-5, 2e-5, 3e-5, 4e-5, 6e-5, 1e-4, 2e-4, 3e-4, 1e-3] {
+        let tip = tip(accuracy);
+        let (distance, angle) =
+            ((tip.position - exact.position).norm() / length, tip.axis().angle(&exact.axis()));
+        println!("accuracy {accuracy:.0e}: tip {distance:.1e} of the length, {angle:.1e} rad");
+        assert!(distance <= accuracy && angle <= ANGLE_BY_ACCURACY * accuracy, "{accuracy:e}");
     }
 }
 

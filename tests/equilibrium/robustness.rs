@@ -131,3 +131,20 @@ fn inputs_that_are_no_numbers_are_refused_and_change_nothing() {
     let short = Inputs { ring_forces: vec![Vector3::zeros(); 2], ..inputs };
     assert!(equilibrium.solve(&short).is_err(), "a missing ring force was accepted");
 }
+
+#[test]
+fn a_shape_that_may_turn_about_the_field_is_not_called_stable() {
+    for segments in [1, 3, 9] {
+        for size in [0.035, 0.045, 0.06] {
+            let (mut equilibrium, against) = build(segments, false, size, -1.0, 0.0);
+            let mut across = against.clone();
+            across.uniform_field.y = 0.02;
+            assert!(equilibrium.solve(&across).expect("valid").solved);
+            let report = equilibrium.solve(&against).expect("valid");
+            let bent = equilibrium.tip().axis().angle(&Vector3::z()).to_degrees();
+            // Any turn about the axis is as good: nothing holds it.
+            assert!(report.solved && bent > 10.0, "S = {segments}, {size} T: {bent} deg");
+            assert_eq!((report.stable, report.margin), (Some(false), 0.0), "S = {segments}, {size} T");
+        }
+    }
+}

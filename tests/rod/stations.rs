@@ -3,10 +3,10 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Segmented, Span, Specification, SpiralKind};
-use mcm::rod::{Element, Piece, Resolution};
+use mcm::rod::{Element, Piece, Resolution, Sight};
 use nalgebra::{Matrix2, Vector2};
 
-use crate::tolerance::{BRUTE_FORCE, LAW, assert_close};
+use crate::tolerance::{BRUTE_FORCE, FIRST_MOMENT, LAW, assert_close};
 
 /// Cubic modes without rings close by.
 const PLAIN: Resolution = Resolution { degree: 3, nearest: None, bending_stop: false };
@@ -101,4 +101,34 @@ fn four_points_carry_the_moments() {
 fn an_even_spiral_has_the_volume_of_the_turning_one() {
     let volume = |kind| spans(kind).iter().map(Span::volume).sum::<f64>();
     assert_close("volume", &[volume(SpiralKind::Axisymmetric)], &[volume(SpiralKind::Helical)], LAW);
+}
+
+/// For the field of a ring, too, whose distance and accuracy choose points for each station.
+#[test]
+fn the_samples_for_a_ring_stand_for_all_of_the_material() {
+    const RADIUS: f64 = 2e-3;
+    let spans = spans(SpiralKind::Helical);
+    let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
+    let cells = spans.iter().map(|span| by_cells(span, 0));
+    let (volume, first) = cells.fold((0.0, Vector2::zeros()), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    let mut worst = 0.0_f64;
+    for accuracy in [1e-3, 3e-4, 1e-4, 6e-5, 4e-5, 3e-5, 2e-5, 1e-5, 1e-6] {
+        for bend in [0.08, 0.32] {
+            for (distance, beyond) in [(2e-3, false), (5e-3, false), (5e-3, true), (2e-2, true)] {
+                let sight = Sight { distance, beyond, bonded: false, radius: RADIUS, bend, accuracy };
+                let nearest = Some(Sight { distance: 0.0, bonded: true, bend: 0.0, ..sight });
+                let element = Element::new(0.0, &pieces, &Resolution { degree: 6, nearest, ..PLAIN });
+                let samples = element.samples(&pieces, &sight);
+                let points = || samples.iter().flat_map(|sample| &sample.points);
+                let own_volume: f64 = points().map(|point| point.volume).sum();
+                let own_first: Vector2<f64> = points().map(|point| point.position * point.volume).sum();
+                let case = format!("accuracy {accuracy:e}, bend {bend}, {distance} m, beyond {beyond}");
+                assert_close(&case, &[own_volume / volume], &[1.0], BRUTE_FORCE);
+                let off = (own_first - first).norm() / (volume * RADIUS);
+                worst = worst.max(off);
+                assert!(off <= FIRST_MOMENT, "{case}: first moment off by {off:.1e}");
+            }
+        }
+    }
+    println!("first moment within {worst:.1e} of volume times radius");
 }
