@@ -70,12 +70,11 @@ fn read_peers(path: &Path) -> Result<[Vec<Series>; PEERS.len()], Failure> {
         let place = [time_us, error];
         let known = solvers.iter().position(|known| *known == solver);
         let colour = known.unwrap_or(solvers.len());
-        match series.iter_mut().find(|known| (known.colour, known.stroke) == (colour, stroke)) {
-            Some(known) => known.places.push(place),
-            None => {
-                let label = if known.is_some() { String::new() } else { solver.clone() };
-                series.push(Series { label, colour, stroke, places: vec![place] });
-            }
+        if let Some(own) = series.iter_mut().find(|own| (own.colour, own.stroke) == (colour, stroke)) {
+            own.places.push(place);
+        } else {
+            let label = if known.is_some() { String::new() } else { solver.clone() };
+            series.push(Series { label, colour, stroke, places: vec![place] });
         }
         if known.is_none() {
             solvers.push(solver);

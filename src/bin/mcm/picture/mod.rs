@@ -18,7 +18,7 @@ use super::failure::Failure;
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 600;
 const ROW: u32 = 300;
-const TALL_ROW: u32 = 450;
+const TALL_ROW: u32 = 500;
 
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
