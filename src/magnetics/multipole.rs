@@ -6,7 +6,7 @@ use super::axisymmetric::Components;
 use super::edge::{GRADIENT, HESSIAN};
 
 /// Number of multipoles kept: the degrees 1, 3, .. 17.
-const TERMS: usize = 9;
+pub(super) const TERMS: usize = 9;
 
 /// Solid harmonics up to the second derivative of the highest multipole.
 const DEGREES: usize = 2 * TERMS + 3;
@@ -35,16 +35,23 @@ impl Multipole {
         Self { beta, extent2: outer * outer + half * half }
     }
 
-    /// Components at height `z` and distance `sqrt(r2)` from the centre, at least six times the extent.
-    ///
-    /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is the
-    /// sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`
-    /// raises `n` by one.
+    /// Components at height `z` and distance `sqrt(r2)` from the centre, at least six times the extent: by as many terms as
+    /// matter there.
     #[inline]
     pub(super) fn components<const ORDER: u8>(&self, z: f64, r2: f64) -> Components {
         let ratio2 = r2 / self.extent2;
         let terms =
             REACH.iter().find(|(reach, _)| ratio2 >= reach * reach).map_or(TERMS, |&(_, terms)| terms);
+        self.sum::<ORDER>(z, r2, terms)
+    }
+
+    /// The same by so many terms, anywhere beyond the extent.
+    ///
+    /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is the
+    /// sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`
+    /// raises `n` by one.
+    #[inline]
+    pub(super) fn sum<const ORDER: u8>(&self, z: f64, r2: f64, terms: usize) -> Components {
         let inverse2 = 1.0 / r2;
         let inverse3 = inverse2 * inverse2.sqrt();
         let (along, last) = (z * inverse2, 2 * terms + usize::from(ORDER));

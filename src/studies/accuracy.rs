@@ -2,33 +2,26 @@
 //!
 //! The one study that looks at a clock: its times are those of one machine at one moment.
 
+mod picture;
+
 use std::time::{Duration, Instant};
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::study::{Mark, Panel, Series, Stroke, Study};
+use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
 use crate::equilibrium::{Discretisation, Interaction, Method, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
+
+pub use picture::{PEERS, Peered, accuracy_picture};
 
 /// Fields by name, as scenes state them: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
 const FIELDS: [(&str, &str); 3] = [
     ("uniform 90 deg", "[field]\nuniform_mt = [0, 10, 0]"),
     ("uniform 150 deg", "[field]\nuniform_mt = [0, 5, -8.660254038]"),
-    ("pair", "[magnet]\norientation_wxyz = [0, 1, 0, 0]"),
+    ("pair", PAIR),
 ];
-
-const SEGMENTS: [usize; 3] = [1, 3, 9];
-
-const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
-
-/// What is drawn: the paper's device beside its magnet.
-const DRAWN: (&str, usize, &str, &str) = ("pair", 9, "rings", "warm");
-
-/// One warm step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm.
-const TURN_DEG: f64 = 0.1;
-const PASSAGE: f64 = 1e-4;
 
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
@@ -113,7 +106,7 @@ struct Trial {
     settings: Settings,
 }
 
-/// A scene with its second inputs, one step away.
+/// A scene with its second inputs, a warm step at 1 kHz away.
 struct Case {
     field: &'static str,
     segments: usize,
@@ -147,10 +140,7 @@ impl Case {
     fn new(field: &'static str, table: &str, segments: usize, level: Interaction) -> Result<Self, Error> {
         let model = format!("[model]\ninteraction = \"{}\"", level.name());
         let scene = Scene::parse(&format!("{table}\n[design]\nsegments = {segments}\n{model}"), field)?;
-        let mut moved = scene.inputs.clone();
-        let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), TURN_DEG.to_radians());
-        moved.uniform_field = turn * moved.uniform_field;
-        moved.magnet.position.z += PASSAGE;
+        let moved = later(&scene.inputs, 1);
         let length = scene.design()?.length();
         Ok(Self { field, segments, scene, moved, length })
     }
@@ -314,54 +304,4 @@ fn trials(base: Settings) -> Vec<Trial> {
 #[must_use]
 pub fn accuracy_cases() -> usize {
     Case::COUNT
-}
-
-/// The picture: nine segments beside the magnet pair, and what others (label, colour, time in microseconds and error of the
-/// angle in rad) reach on a dipole at the tip of one core.
-#[must_use]
-pub fn accuracy_picture(points: &[Point], peers: Vec<Series>) -> Study {
-    let (field, segments, level, start) = DRAWN;
-    let drawn: Vec<&Point> = points
-        .iter()
-        .filter(|p| (p.field, p.segments, p.interaction, p.start) == (field, segments, level, start))
-        .collect();
-    let mut series: Vec<Series> = Vec::new();
-    for (name, colour, stroke) in [
-        ("potential", 0, Stroke::Dots),
-        ("collocation", 2, Stroke::Solid),
-        ("multiple-shooting", 3, Stroke::Solid),
-        ("shooting", 1, Stroke::Solid),
-        ("shooting-fd", 1, Stroke::Dashed),
-        ("planar", 4, Stroke::Solid),
-        ("constant-curvature", 5, Stroke::Dots),
-    ] {
-        let places = drawn.iter().filter(|p| p.name == name).filter_map(|p| p.place()).collect();
-        series.push(Series { label: name.into(), colour, stroke, places });
-    }
-    let known = drawn.first().and_then(|p| p.reference_over_length);
-    let known = known.map(|error| Mark::Level("as well as it is known".into(), error));
-    let best = front(drawn.iter().copied()).into_iter().filter_map(Point::place).enumerate();
-    let label = |i: usize| if i == 0 { "nobody is faster and better".into() } else { String::new() };
-    let mut panels = vec![Panel::Places {
-        title: "nine segments beside the magnet pair, rings".into(),
-        x: "time of a warm solve (us)".into(),
-        y: "error of the tip over the length".into(),
-        series,
-        marks: best.map(|(i, place)| Mark::Point(label(i), place)).chain(known).collect(),
-    }];
-    if !peers.is_empty() {
-        panels.push(Panel::Places {
-            title: "one core with a dipole at its tip".into(),
-            x: "time of a solve (us)".into(),
-            y: "error of the angle (rad)".into(),
-            series: peers,
-            marks: Vec::new(),
-        });
-    }
-    Study {
-        title: "Error against time: left and below is better",
-        columns: vec![],
-        panels,
-        comparison: vec![],
-    }
 }

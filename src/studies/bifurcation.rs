@@ -3,6 +3,7 @@
 mod canvas;
 mod case;
 mod dipole;
+mod spacing;
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -67,13 +68,13 @@ struct Found {
     predictions: Vec<Prediction>,
 }
 
-/// Turning, growing and nearing fields: diagrams of branches with folds, slow loading with its snaps, and how early these
-/// are predicted.
+/// Turning, growing and nearing fields, rings nearer to each other: diagrams of branches with folds, slow loading with its
+/// snaps, and how early these are predicted.
 ///
 /// # Errors
 /// None for the paper's designs; those of the solves are passed on.
 pub fn bifurcation() -> Result<Bifurcation, Error> {
-    let diagrams = [turning, growing, nearing, pulling];
+    let diagrams = [turning, growing, nearing, pulling, spacing::branches, spacing::critical];
     let found = diagrams.into_par_iter().map(|diagram| diagram()).collect::<Result<Vec<_>, Error>>()?;
     let rows = found.iter().map(|diagram| diagram.canvas.rows()).max().unwrap_or(0);
     let (mut columns, mut panels) = (Vec::new(), Vec::new());
@@ -94,6 +95,7 @@ fn turning() -> Result<Found, Error> {
         name: "turning",
         title: "dipole on one core; 61 mT, turning",
         x: ["direction of the field", "deg"],
+        y: ["tip angle", "deg"],
         branches: &["stable"],
         explained: true,
     });
@@ -124,6 +126,7 @@ fn growing() -> Result<Found, Error> {
         name: "growing",
         title: "the same; antiparallel field, growing",
         x: ["field", "mT"],
+        y: ["tip angle", "deg"],
         branches: &["exactly", "1 deg aside"],
         explained: false,
     });
@@ -171,6 +174,7 @@ fn nearing() -> Result<Found, Error> {
         name: "nearing",
         title: "nine segments; magnet pair comes, goes",
         x: ["distance of the axes", "mm"],
+        y: ["tip angle", "deg"],
         branches: &[""],
         explained: false,
     });
@@ -197,6 +201,7 @@ fn pulling() -> Result<Found, Error> {
         name: "pulling",
         title: "level full; field across, growing",
         x: ["field", "mT"],
+        y: ["tip angle", "deg"],
         branches: &["one segment", "three segments"],
         explained: false,
     });
@@ -204,15 +209,7 @@ fn pulling() -> Result<Found, Error> {
         (0, 1, POINTS, "one segment, `full`: pulled shut (mT)"),
         (1, 3, POINTS_OF_THREE, "three segments, `full`: pulled shut (mT)"),
     ] {
-        let design = Design::new(Specification::paper(segments))?;
-        let rings = design.rings().count();
-        let way = move |millitesla: f64| Inputs {
-            uniform_field: Vector3::new(0.0, 1e-3 * millitesla, 0.0),
-            ..Inputs::unloaded(rings)
-        };
-        let settings = Settings { interaction: Interaction::Full, ..Settings::default() };
-        let path = [0.0, 40.0];
-        let case = Case { design, magnet: None, settings, way: Box::new(way), path, angle: turned, points };
+        let case = pulled(Specification::paper(segments), [0.0, 40.0], points)?;
         let (diagram, loading) = (case.trace(0.0)?, case.load(false)?);
         found.canvas.draw(branch, &case, &diagram);
         found.canvas.draw_loading(&loading);
@@ -222,6 +219,18 @@ fn pulling() -> Result<Found, Error> {
         }
     }
     Ok(found)
+}
+
+/// A device with all attraction in a field across, mT.
+fn pulled(specification: Specification, path: [f64; 2], points: usize) -> Result<Case, Error> {
+    let design = Design::new(specification)?;
+    let rings = design.rings().count();
+    let way = move |millitesla: f64| Inputs {
+        uniform_field: Vector3::new(0.0, 1e-3 * millitesla, 0.0),
+        ..Inputs::unloaded(rings)
+    };
+    let settings = Settings { interaction: Interaction::Full, ..Settings::default() };
+    Ok(Case { design, magnet: None, settings, way: Box::new(way), path, angle: turned, points })
 }
 
 impl Found {

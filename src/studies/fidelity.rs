@@ -4,9 +4,9 @@
 
 use std::time::Instant;
 
-use nalgebra::{Rotation3, Vector3};
 use serde::Serialize;
 
+use super::scenes::{PAIR, later};
 use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -20,12 +20,7 @@ const SCENES: [(&str, usize, &str); 4] = [
     ("9 segments, pair passing", 9, PAIR),
 ];
 
-/// The paper's pair at its place.
-const PAIR: &str = "[magnet]\norientation_wxyz = [0, 1, 0, 0]";
-
-/// One step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm; so many of them, forth and back.
-const TURN_DEG: f64 = 0.1;
-const PASSAGE: f64 = 1e-4;
+/// Steps at 1 kHz, forth and back.
 const STEPS: u32 = 100;
 
 /// Steps between two looks at the error.
@@ -96,15 +91,7 @@ struct Shown {
 
 impl Walk {
     fn new(name: &'static str, scene: &Scene) -> Result<Self, Error> {
-        let at = |step: u32| {
-            let mut inputs = scene.inputs.clone();
-            let turn =
-                Rotation3::from_axis_angle(&Vector3::x_axis(), f64::from(step) * TURN_DEG.to_radians());
-            inputs.uniform_field = turn * inputs.uniform_field;
-            inputs.magnet.position.z += f64::from(step) * PASSAGE;
-            inputs
-        };
-        let path = (0..STEPS).chain((1..=STEPS).rev()).map(at).collect();
+        let path = (0..STEPS).chain((1..=STEPS).rev()).map(|step| later(&scene.inputs, step)).collect();
         Ok(Self { name, scene: scene.clone(), length: scene.design()?.length(), path })
     }
 

@@ -20,10 +20,11 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod scenes;
 mod stability;
 mod study;
 
-pub use accuracy::{Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_cases, accuracy_picture, front};
 pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use communication_step::communication_step;
 pub use fidelity::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};

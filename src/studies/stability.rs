@@ -7,6 +7,7 @@ mod verdict;
 use nalgebra::{Rotation3, Vector3};
 use serde::Serialize;
 
+use super::scenes::{LEVELS, SEGMENTS};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Method, Settings};
 use crate::error::Error;
@@ -15,10 +16,6 @@ use judge::{Judge, Known};
 
 pub use picture::stability_picture;
 pub use verdict::Verdict;
-
-const SEGMENTS: [usize; 3] = [1, 3, 9];
-
-const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
 
 /// Strengths of the field, mT: beyond the ends of all branches that are known.
 const STRENGTHS: usize = 8;

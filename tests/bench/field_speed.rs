@@ -1,4 +1,4 @@
-//! Nanoseconds per field evaluation beside the crate magba, in rounds that alternate between both, the fastest round
+//! Nanoseconds per field evaluation beside the crate magba, and those of cheaper models with what they err, in rounds that alternate between both, the fastest round
 //! of each kept: what other programs do on the machine drops out. `cargo run --release --example field_speed`.
 #![allow(
     clippy::unwrap_used,
@@ -17,8 +17,8 @@ mod reference;
 use core::hint::black_box;
 use std::time::Instant;
 
-use mcm::magnetics::AxialSource;
-use nalgebra::Vector3;
+use mcm::magnetics::{AxialSource, Dipole};
+use nalgebra::{Matrix3, Vector3};
 
 const ROUNDS: usize = 2000;
 const PASSES: usize = 4;
@@ -54,6 +54,71 @@ fn measure(
     println!("| {name} | {field:.0} | {gradient:.0} | {jet:.0} | {peer:.0} |");
 }
 
+/// A model's field, and with its gradient.
+fn model(
+    [distance, name]: [&str; 2],
+    points: &[Vector3<f64>],
+    field: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+    both: impl Fn(&Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>),
+) {
+    let exact = |point: &Vector3<f64>| reference::ring().field_gradient(point).expect("no edge");
+    let errors = [
+        median(points.iter().map(|p| (field(p) - exact(p).0).norm() / exact(p).0.norm())),
+        median(points.iter().map(|p| (both(p).1 - exact(p).1).norm() / exact(p).1.norm())),
+    ];
+    row([distance, name], [fastest(points, field), fastest(points, both)], errors);
+}
+
+/// Nanoseconds per point of the fastest round.
+fn fastest<T>(points: &[Vector3<f64>], evaluate: impl Fn(&Vector3<f64>) -> T) -> f64 {
+    (0..ROUNDS).map(|_| time(points, &evaluate)).fold(f64::INFINITY, f64::min)
+}
+
+fn row([distance, name]: [&str; 2], [field, both]: [f64; 2], [of_field, of_gradient]: [f64; 2]) {
+    println!("| {distance} | {name} | {field:.1} | {both:.1} | {of_field:.1e} | {of_gradient:.1e} |");
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.filter(|value| !value.is_nan()).collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// All models of the ring at these points, then the exact ones, whose errors are those at the rows of the reference.
+fn models(distance: &str, points: &[Vector3<f64>]) {
+    let ring = reference::ring();
+    let dipole = Dipole::new(Vector3::z() * ring.moment()).expect("finite");
+    model(
+        [distance, "dipole"],
+        points,
+        |p| dipole.field(p).expect("apart"),
+        |p| dipole.field_gradient(p).expect("apart"),
+    );
+    for degree in [1, 3, 5, 9, 17] {
+        model(
+            [distance, &format!("multipoles to {degree}")],
+            points,
+            |p| ring.multipole_field(p, degree).expect("apart"),
+            |p| ring.multipole_field_gradient(p, degree).expect("apart"),
+        );
+    }
+    let rows: Vec<reference::Row<12>> = reference::table("ring_field_dev.csv");
+    let expected = |row: &reference::Row<12>| {
+        (Vector3::from_row_slice(&row.values[..3]), Matrix3::from_row_slice(&row.values[3..]))
+    };
+    let of_field = |field: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
+        median(rows.iter().map(|row| (field(&row.point) - expected(row).0).norm() / expected(row).0.norm()))
+    };
+    let gradient = median(rows.iter().map(|row| {
+        let found = ring.field_gradient(&row.point).expect("no edge").1;
+        (found - expected(row).1).norm() / expected(row).1.norm()
+    }));
+    let times = [fastest(points, |p| ring.field(p)), fastest(points, |p| ring.field_gradient(p))];
+    row([distance, "exact"], times, [of_field(&|p| ring.field(p).expect("no edge")), gradient]);
+    let times = [fastest(points, peer::ring), f64::NAN];
+    row([distance, "magba"], times, [of_field(&|p| peer::ring(p).into()), f64::NAN]);
+}
+
 fn main() {
     println!("nanoseconds per point, fastest of {ROUNDS} alternating rounds");
     println!("| source | B | B and G | B, G and H | magba B |\n| --- | --- | --- | --- | --- |");
@@ -65,4 +130,12 @@ fn main() {
     measure("cylinder, 2 to 6 radii", &cylinder, &peer::points(22.5e-3), |p| {
         peer::cylinder(p, 22.5e-3, 30.0e-3)
     });
+    println!(
+        "\nnanoseconds, and median relative errors at the same points, of the last two at the rows of the reference"
+    );
+    println!(
+        "| ring | model | B | B and G | error of B | error of G |\n| --- | --- | --- | --- | --- | --- |"
+    );
+    models("near", &near);
+    models("far", &far);
 }

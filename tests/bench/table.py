@@ -1,8 +1,10 @@
 """Measures the solves and fields beside their peers in one run and prints the tables in Markdown.
 
 .venv/bin/python tests/bench/table.py            all
-.venv/bin/python tests/bench/table.py solve      only the solves beside scipy; leaves tests/charts/peers.csv
+.venv/bin/python tests/bench/table.py solve      only the solves beside scipy and PyElastica
 .venv/bin/python tests/bench/table.py field      only the fields beside magba and magpylib
+
+Each part leaves its rows in tests/charts/peers.csv, which `mcm study accuracy --peers` draws.
 """
 
 import csv
@@ -16,6 +18,8 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+import magpylib_field
+import pyelastica_peer
 import solve_bvp_peer
 
 PACKAGE = Path(__file__).resolve().parents[2]
@@ -82,13 +86,16 @@ def solves() -> None:
         raise RuntimeError("the bench has not told its error")
     cold, warm = times["cold tip dipole"], times["warm tip dipole"]
     rows = [["mcm", micro(cold), micro(warm), f"{float(error[1]):.0e}", "1", "1"]]
-    # Below the rounding of a radian nothing is told apart.
-    least = sys.float_info.epsilon
-    peers = [("mcm", start, time, least) for start, time in (("cold", cold), ("warm", warm))]
-    for peer in map(solve_bvp_peer.measure, (1e-3, 1e-6, 1e-9)):
+    peers = [
+        ("tip dipole", "mcm", start, time, float(error[1]))
+        for start, time in (("cold", cold), ("warm", warm))
+    ]
+    measured = [("scipy", "solve_bvp", solve_bvp_peer.measure(tolerance)) for tolerance in (1e-3, 1e-6, 1e-9)]
+    measured += [("pyelastica", "settled", pyelastica_peer.measure(elements)) for elements in (4, 8, 16)]
+    for package, way, peer in measured:
         for start, time in (("cold", peer.cold), ("warm", peer.warm)):
-            peers.append(("scipy solve_bvp", start, time, max(peer.error, least)))
-        name = f"scipy {version('scipy')} solve_bvp, tol {peer.tolerance:.0e}"
+            peers.append(("tip dipole", f"{package} {way}", start, time, peer.error))
+        name = f"{package} {version(package)} {way}, {peer.setting}"
         ratios = [f"{peer.cold / cold:.0f}", f"{peer.warm / warm:.0f}"]
         rows.append([name, micro(peer.cold), micro(peer.warm), f"{peer.error:.0e}", *ratios])
     leave(peers)
@@ -97,22 +104,56 @@ def solves() -> None:
     )
 
 
-def leave(peers: list[tuple[str, str, float, float]]) -> None:
-    """Writes solver, start, time (s) and error (rad) for `mcm study accuracy --peers`."""
+def leave(peers: list[tuple[str, str, str, float, float]]) -> None:
+    """Writes case, solver, variant, time (s) and error; rows of other cases stay."""
+    header = ["case", "solver", "variant", "time_us", "error"]
+    cases = {case for case, *_ in peers}
+    before = []
+    if PEERS.exists():
+        with PEERS.open(newline="", encoding="utf-8") as file:
+            before = [row for row in list(csv.reader(file))[1:] if row[0] not in cases]
+    # Below the rounding of one nothing is told apart.
+    least = sys.float_info.epsilon
+    rows = [[*names, micro(time), f"{max(error, least):.2g}"] for *names, time, error in peers]
     with PEERS.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["solver", "start", "time_us", "error_rad"])
-        table.writerows([solver, start, micro(time), f"{error:.2g}"] for solver, start, time, error in peers)
+        csv.writer(file, lineterminator="\n").writerows([header, *sorted(before + rows, key=order)])
+
+
+def order(row: list[str]) -> int:
+    """Solves before fields."""
+    return ["tip dipole", "ring near", "ring far"].index(row[0])
 
 
 def fields() -> None:
-    """Fields at single points: time and accuracy beside magba, then those of magpylib."""
+    """Fields at single points: time and accuracy of models and beside magba, then those of magpylib."""
+    peers = []
     for example in ("field_speed", "field_accuracy"):
-        subprocess.run(
-            ["cargo", "run", "--quiet", "--release", "--example", example], cwd=PACKAGE, check=True
+        done = subprocess.run(
+            ["cargo", "run", "--quiet", "--release", "--example", example],
+            cwd=PACKAGE,
+            check=True,
+            text=True,
+            stdout=subprocess.PIPE,
         )
-        print(flush=True)
-    subprocess.run([sys.executable, PACKAGE / "tests" / "bench" / "magpylib_field.py"], check=True)
+        print(done.stdout, flush=True)
+        for line in done.stdout.splitlines():
+            peers += peers_of(line)
+    for place, time, error in magpylib_field.report():
+        peers.append((f"ring {place}", "magpylib batch", "", time, error))
+    leave(peers)
+
+
+def peers_of(line: str) -> list[tuple[str, str, str, float, float]]:
+    """The rows that a line of the table of models has: the field, and with its gradient where there is one."""
+    found = re.fullmatch(r"\| (near|far) \| (.*?)(?: to \d+)? \| (\S+) \| (\S+) \| (\S+) \| (\S+) \|", line)
+    if found is None:
+        return []
+    place, name, *numbers = found.groups()
+    field, both, of_field, of_gradient = map(float, numbers)
+    rows = [(f"ring {place}", name, "", 1e-9 * field, of_field)]
+    if not math.isnan(both):
+        rows.append((f"ring {place}", name, "with gradient", 1e-9 * both, of_gradient))
+    return rows
 
 
 def main() -> None:

@@ -92,3 +92,23 @@ fn unknown_study_lists_the_known_ones() {
     let message = stderr(&output);
     assert!(message.contains("'fig6'") && STUDIES.iter().all(|name| message.contains(name)), "{message}");
 }
+
+#[test]
+fn a_table_of_peers_is_read_before_anything_is_measured() {
+    let here = folder("peers");
+    let known = include_str!("../charts/peers.csv");
+    let (header, _) = known.split_once('\n').unwrap();
+    assert_eq!(header, "case,solver,variant,time_us,error");
+    for case in ["tip dipole", "ring near", "ring far"] {
+        assert!(known.lines().any(|row| row.starts_with(case)), "{case} is missing");
+    }
+    for (text, expected) in [
+        (format!("{header}\nrope,mcm,cold,1,1\n"), "there is no case rope"),
+        (format!("{header}\ntip dipole,mcm,cold,fast,1\n"), "cannot read"),
+    ] {
+        std::fs::write(here.join("peers.csv"), text).unwrap();
+        let output = mcm(&here, &["study", "accuracy", "--out", "figures", "--peers", "peers.csv"]);
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+}

@@ -16,4 +16,5 @@ mod robustness;
 pub(crate) mod rows;
 mod scaling;
 mod sensitivity;
+mod spacing;
 mod stop;

@@ -5,5 +5,6 @@ mod consistency;
 mod field;
 mod field_table;
 mod material;
+mod multipoles;
 mod reference;
 mod wrench;

@@ -45,10 +45,11 @@ fn the_front_is_who_nobody_beats() {
 fn the_picture_shows_the_drawn_scene_and_peers_where_there_are_any() {
     let mut points = points();
     points.push(Point { segments: 3, ..point("potential", 1.0, 1e-9) }); // another scene
-    let picture = accuracy_picture(&points, Vec::new());
+    let picture = accuracy_picture(&points, Default::default());
     let [Panel::Places { series, marks, .. }] = picture.panels.as_slice() else { panic!("one panel") };
     assert_eq!(series.iter().map(|s| s.places.len()).sum::<usize>(), 5);
     assert_eq!(marks.len(), 4, "three on the front and how well it is known");
     let peer = Series { label: "peer".into(), colour: 1, stroke: Stroke::Solid, places: vec![[1.0, 1.0]] };
-    assert_eq!(accuracy_picture(&points, vec![peer]).panels.len(), 2);
+    let panels = accuracy_picture(&points, [Vec::new(), vec![peer.clone()], vec![peer]]).panels;
+    assert_eq!(panels.len(), 3, "none where nobody is");
 }

@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{Point, Series, Stroke, accuracy, accuracy_cases, accuracy_picture, front};
+use mcm::studies::{PEERS, Point, Series, Stroke, accuracy, accuracy_cases, accuracy_picture, front};
 use serde::Deserialize;
 
 use super::failure::Failure;
+use super::files::open_table;
 use super::study::{leave, progress_bar};
 
 const HEADER: &str = "\
@@ -17,15 +18,20 @@ const HEADER: &str = "\
 /// A row of the table of peers.
 #[derive(Debug, Deserialize)]
 struct Peer {
+    case: String,
     solver: String,
-    start: String,
+    /// How it starts, or what of the field it gives.
+    variant: String,
     time_us: f64,
-    error_rad: f64,
+    error: f64,
 }
+
+/// Variants that are drawn dashed.
+const DASHED: [&str; 2] = ["cold", "with gradient"];
 
 /// Measures, and leaves accuracy.csv, accuracy.md and accuracy.png in `out`; the fronts are printed, too.
 pub(super) fn run(out: &Path, peers: Option<&Path>) -> Result<ExitCode, Failure> {
-    let peers = peers.map_or(Ok(Vec::new()), read_peers)?;
+    let peers = peers.map(read_peers).transpose()?.unwrap_or_default();
     let bar = progress_bar(accuracy_cases() as u64, "scenes");
     let points = accuracy(|| bar.inc(1))?;
     bar.finish_and_clear();
@@ -49,24 +55,34 @@ fn row(point: &Point) -> String {
     )
 }
 
-/// Series by solver and start.
-fn read_peers(path: &Path) -> Result<Vec<Series>, Failure> {
-    let failure = |error: csv::Error| Failure::Message(format!("cannot read {}: {error}", path.display()));
-    let mut series: Vec<Series> = Vec::new();
-    let (mut solvers, mut reader) = (Vec::<String>::new(), csv::Reader::from_path(path).map_err(failure)?);
-    for peer in reader.deserialize() {
-        let Peer { solver, start, time_us, error_rad } = peer.map_err(failure)?;
-        let label = format!("{solver}, {start}");
-        let colour = solvers.iter().position(|known| *known == solver).unwrap_or_else(|| {
+/// Series by case, solver and variant; a solver has one colour and one label.
+fn read_peers(path: &Path) -> Result<[Vec<Series>; PEERS.len()], Failure> {
+    let mut cases: [Vec<Series>; PEERS.len()] = Default::default();
+    let mut solvers: [Vec<String>; PEERS.len()] = Default::default();
+    for peer in open_table(path)?.deserialize() {
+        let Peer { case, solver, variant, time_us, error } =
+            peer.map_err(|error| Failure::Message(format!("cannot read {}: {error}", path.display())))?;
+        let Some(index) = PEERS.iter().position(|known| known.name == case) else {
+            return Err(Failure::Message(format!("{}: there is no case {case}", path.display())));
+        };
+        let (series, solvers) = (&mut cases[index], &mut solvers[index]);
+        let stroke = if DASHED.contains(&variant.as_str()) { Stroke::Dashed } else { Stroke::Solid };
+        let place = [time_us, error];
+        let known = solvers.iter().position(|known| *known == solver);
+        let colour = known.unwrap_or(solvers.len());
+        if let Some(own) = series.iter_mut().find(|own| (own.colour, own.stroke) == (colour, stroke)) {
+            own.places.push(place);
+        } else {
+            let label = if known.is_some() { String::new() } else { solver.clone() };
+            series.push(Series { label, colour, stroke, places: vec![place] });
+        }
+        if known.is_none() {
             solvers.push(solver);
-            solvers.len() - 1
-        });
-        let stroke = if start == "cold" { Stroke::Dashed } else { Stroke::Solid };
-        let place = [time_us, error_rad];
-        match series.iter_mut().find(|known| known.label == label) {
-            Some(known) => known.places.push(place),
-            None => series.push(Series { label, colour, stroke, places: vec![place] }),
         }
     }
-    Ok(series)
+    // What is one point has no line.
+    for series in cases.iter_mut().flatten().filter(|series| series.places.len() == 1) {
+        series.stroke = Stroke::Dots;
+    }
+    Ok(cases)
 }

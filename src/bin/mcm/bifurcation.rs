@@ -1,26 +1,19 @@
 //! `mcm study bifurcation`: diagrams as table and picture, folds and predictions in Markdown.
 
 use std::fmt::Write as _;
-use std::io::Write;
 use std::path::Path;
 use std::process::ExitCode;
 
 use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 
 use super::failure::Failure;
-use super::picture;
-use super::study::write_table;
+use super::study::{leave_drawn, tell};
 
 /// Leaves bifurcation.csv, bifurcation.png and bifurcation.md in `out`; the tables are printed, too.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let Bifurcation { study, places, predictions } = bifurcation()?;
-    let file = |ending: &str| out.join("bifurcation").with_extension(ending);
-    write_table(&study, &file("csv"))?;
-    picture::write(&study, &file("png"))?;
-    let tables = format!("{}\n{}", table_of_places(&places), table_of_predictions(&predictions));
-    std::fs::write(file("md"), &tables)?;
-    std::io::stdout().write_all(tables.as_bytes())?;
-    Ok(ExitCode::SUCCESS)
+    leave_drawn(out, "bifurcation", &study)?;
+    tell(out, "bifurcation", &format!("{}\n{}", table_of_places(&places), table_of_predictions(&predictions)))
 }
 
 fn table_of_places(places: &[Place]) -> String {

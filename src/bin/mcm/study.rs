@@ -119,8 +119,7 @@ impl Study {
             .map(|(name, study)| {
                 bar.set_message(name.clone());
                 let study = study()?;
-                write_table(&study, &self.out.join(&name).with_extension("csv"))?;
-                picture::write(&study, &self.out.join(&name).with_extension("png"))?;
+                leave_drawn(&self.out, &name, &study)?;
                 bar.inc(1);
                 Ok((name, study))
             })
@@ -128,16 +127,16 @@ impl Study {
         bar.finish_and_clear();
         let table = comparison::table(computed.iter().map(|(name, study)| (name.as_str(), study)));
         if self.name == Name::All {
-            std::fs::write(self.out.join("comparison.md"), &table)?;
+            return tell(&self.out, "comparison", &table);
         }
         std::io::stdout().write_all(table.as_bytes())?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Writes a study's columns; an empty cell is a value that does not exist.
-pub(super) fn write_table(study: &studies::Study, path: &Path) -> Result<(), Failure> {
-    let mut table = create_table(path)?;
+/// Leaves a study's columns and picture as NAME.csv and NAME.png in `out`; an empty cell is a value that does not exist.
+pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Result<(), Failure> {
+    let mut table = create_table(&file(out, name, "csv"))?;
     table.write_record(study.columns.iter().map(|column| &column.name))?;
     let rows = study.columns.first().map_or(0, |column| column.values.len());
     for row in 0..rows {
@@ -145,7 +144,7 @@ pub(super) fn write_table(study: &studies::Study, path: &Path) -> Result<(), Fai
         table.serialize(cells.collect::<Vec<_>>())?;
     }
     table.flush()?;
-    Ok(())
+    picture::write(study, &file(out, name, "png"))
 }
 
 /// Leaves rows, picture and a Markdown table as NAME.csv, NAME.png and NAME.md in `out`, and prints the last.
@@ -156,14 +155,22 @@ pub(super) fn leave(
     picture: &studies::Study,
     markdown: &str,
 ) -> Result<ExitCode, Failure> {
-    let file = |ending: &str| out.join(name).with_extension(ending);
-    let mut table = create_table(&file("csv"))?;
+    let mut table = create_table(&file(out, name, "csv"))?;
     rows.iter().try_for_each(|row| table.serialize(row))?;
     table.flush()?;
-    picture::write(picture, &file("png"))?;
-    std::fs::write(file("md"), markdown)?;
+    picture::write(picture, &file(out, name, "png"))?;
+    tell(out, name, markdown)
+}
+
+/// Leaves a Markdown table as NAME.md in `out` and prints it.
+pub(super) fn tell(out: &Path, name: &str, markdown: &str) -> Result<ExitCode, Failure> {
+    std::fs::write(file(out, name, "md"), markdown)?;
     std::io::stdout().write_all(markdown.as_bytes())?;
     Ok(ExitCode::SUCCESS)
+}
+
+fn file(out: &Path, name: &str, ending: &str) -> PathBuf {
+    out.join(name).with_extension(ending)
 }
 
 /// Hidden when standard error is no terminal.

@@ -12,6 +12,8 @@ pub(super) struct Drawing {
     pub(super) title: &'static str,
     /// What the abscissa is, and its unit.
     pub(super) x: [&'static str; 2],
+    /// The same of the ordinate.
+    pub(super) y: [&'static str; 2],
     /// What the stable branches are called, one colour each.
     pub(super) branches: &'static [&'static str],
     /// The legend says what dashes, dots and rings are.
@@ -30,7 +32,7 @@ impl Canvas {
     pub(super) fn new(drawing: Drawing) -> Self {
         let mut curves = Vec::new();
         let mut add = |label: &str, part: String, colour, stroke| {
-            let column = format!("{}_{part}_deg", drawing.name);
+            let column = format!("{}_{part}_{}", drawing.name, drawing.y[1].to_lowercase());
             curves.push((Curve::new(label, column, colour, stroke), Vec::new()));
         };
         let explained = |label| if drawing.explained { label } else { "" };
@@ -49,6 +51,16 @@ impl Canvas {
             let own = values.iter().find(|(curve, _)| *curve == index);
             column.push(own.map_or(f64::NAN, |(_, value)| *value));
         }
+    }
+
+    /// Adds a place of the stable branch of that number.
+    pub(super) fn put(&mut self, branch: usize, [x, y]: [f64; 2]) {
+        self.push(x, &[(2 * branch, y)]);
+    }
+
+    /// Adds a mark.
+    pub(super) fn mark(&mut self, mark: Mark) {
+        self.marks.push(mark);
     }
 
     /// Adds a part of the branch of that number.
@@ -108,7 +120,7 @@ impl Canvas {
         Panel::Curves {
             title: drawing.title.into(),
             x: (format!("{quantity} ({unit})"), abscissa),
-            y: "tip angle (deg)".into(),
+            y: format!("{} ({})", drawing.y[0], drawing.y[1]),
             curves: drawn,
             marks,
         }

@@ -14,8 +14,11 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::failure::Failure;
 
-/// Size of a picture in pixels.
-const SIZE: (u32, u32) = (900, 600);
+/// Width of a picture in pixels, its least height, and that of a row of panels, without and with long legends.
+const WIDTH: u32 = 900;
+const HEIGHT: u32 = 600;
+const ROW: u32 = 300;
+const TALL_ROW: u32 = 500;
 
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
@@ -55,15 +58,18 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 /// Draws a study into a PNG file.
 pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let failure = |reason: String| Failure::Message(format!("cannot draw {}: {reason}", path.display()));
-    let large = (SIZE.0 * OVERSAMPLING, SIZE.1 * OVERSAMPLING);
+    let rows = u32::try_from(study.panels.len().div_ceil(2)).unwrap_or(u32::MAX);
+    let tall = study.panels.iter().any(|panel| matches!(panel, Panel::Places { .. }));
+    let size = (WIDTH, HEIGHT.max(rows.saturating_mul(if tall { TALL_ROW } else { ROW })));
+    let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
     let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
     draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
     let file = std::fs::File::create(path).map_err(|error| failure(error.to_string()))?;
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), SIZE.0, SIZE.1);
+    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), size.0, size.1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(&averaged(&pixels))?;
+        writer.write_image_data(&averaged(&pixels, size))?;
         writer.finish()
     });
     written.map_err(|error| failure(error.to_string()))
@@ -128,9 +134,9 @@ fn tint(tint: Tint) -> RGBColor {
 }
 
 /// Means over squares of the large picture.
-fn averaged(large: &[u8]) -> Vec<u8> {
+fn averaged(large: &[u8], (width, height): (u32, u32)) -> Vec<u8> {
     let factor = OVERSAMPLING as usize;
-    let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
+    let (width, height) = (width as usize, height as usize);
     let mut small = Vec::with_capacity(width * height * 3);
     for index in 0..width * height * 3 {
         let (row, column, channel) = (index / (width * 3), index / 3 % width, index % 3);

@@ -1,0 +1,81 @@
+//! One segment, and three, by the length of the helix, which is the gap between the rings.
+//!
+//! No device is stretched: every length is another one, with a branch of its own. Rings closer than 3 mm are not resolved by
+//! the rules of the pairs.
+
+use rayon::prelude::*;
+
+use super::canvas::Drawing;
+use super::{Found, POINTS, POINTS_OF_THREE, pulled};
+use crate::design::{Helix, Segmented, Specification};
+use crate::error::Error;
+use crate::studies::study::Mark;
+
+/// Gaps of which branches are drawn, mm, and what is told of their folds.
+const DRAWN: [(f64, Option<&str>); 3] = [
+    (3.0, Some("one segment, gaps of 3 mm: pulled shut (mT)")),
+    (3.4, Some("one segment, gaps of 3.4 mm: pulled shut (mT)")),
+    (4.0, None), // has its row already
+];
+
+/// Gaps of which the critical field is traced, mm: the first, the last, and how many.
+const TRACED: [f64; 2] = [3.0, 4.2];
+const COUNT: u32 = 13;
+
+/// Largest field, mT.
+const LARGEST: f64 = 60.0;
+
+/// Branches of one segment in a growing field.
+pub(super) fn branches() -> Result<Found, Error> {
+    let mut found = Found::new(Drawing {
+        name: "gap",
+        title: "one segment, full; by the rings' gap",
+        x: ["field", "mT"],
+        y: ["tip angle", "deg"],
+        branches: &["3 mm", "3.4 mm", "4 mm"],
+        explained: false,
+    });
+    for (branch, (gap, what)) in DRAWN.into_iter().enumerate() {
+        let case = pulled(spaced(1, gap), [0.0, 40.0], POINTS)?;
+        let (diagram, loading) = (case.trace(0.0)?, case.load(false)?);
+        found.canvas.draw(branch, &case, &diagram);
+        found.canvas.draw_loading(&loading);
+        if let (Some(shape), Some(what)) = (diagram.folds().next(), what) {
+            found.add(what, shape, loading.snaps.first().copied(), None);
+        }
+    }
+    let touching = Helix::paper().boundary_angle.to_degrees();
+    found.canvas.mark(Mark::Level("windings touch".into(), touching));
+    Ok(found)
+}
+
+/// The field at which the branches of one segment and of three fold.
+pub(super) fn critical() -> Result<Found, Error> {
+    let mut found = Found::new(Drawing {
+        name: "critical",
+        title: "full; field that pulls shut, by gap",
+        x: ["gap between rings", "mm"],
+        y: ["critical field", "mT"],
+        branches: &["one segment", "three segments"],
+        explained: false,
+    });
+    let [first, last] = TRACED;
+    let gaps = (0..COUNT).map(|i| first + (last - first) * f64::from(i) / f64::from(COUNT - 1));
+    let gaps: Vec<f64> = gaps.collect();
+    for (branch, segments) in [1, 3].into_iter().enumerate() {
+        let folds = gaps.par_iter().map(|&gap| {
+            let diagram = pulled(spaced(segments, gap), [0.0, LARGEST], POINTS_OF_THREE)?.trace(0.0)?;
+            Ok([gap, diagram.folds().next().map_or(f64::NAN, |shape| shape.value)])
+        });
+        for place in folds.collect::<Result<Vec<_>, Error>>()? {
+            found.canvas.put(branch, place);
+        }
+    }
+    Ok(found)
+}
+
+/// The paper's design but for the gap between its rings, mm.
+fn spaced(segments: usize, gap: f64) -> Specification {
+    let paper = Segmented::paper(segments);
+    Specification::Segmented(Segmented { helix: Helix { length: 1e-3 * gap, ..paper.helix }, ..paper })
+}
