@@ -10,10 +10,10 @@ use super::scenes::{PAIR, later};
 use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Scene, Status, models_of_auto};
+use crate::manipulator::{Inputs, Scene, Status, models_of_auto};
 
 /// Scenes: name, segments and field.
-const SCENES: [(&str, usize, &str); 4] = [
+pub(super) const SCENES: [(&str, usize, &str); 4] = [
     ("1 segment, 10 mT turning", 1, "[field]\nuniform_mt = [0, 10, 0]"),
     ("1 segment, pair passing", 1, PAIR),
     ("3 segments, pair passing", 3, PAIR),
@@ -74,23 +74,23 @@ pub fn fidelity_scenes() -> usize {
 }
 
 /// A scene with its inputs, step by step.
-struct Walk {
+pub(super) struct Walk {
     name: &'static str,
     scene: Scene,
     length: f64,
     path: Vec<Inputs>,
 }
 
-/// What a walk has shown.
-struct Shown {
-    time: f64,
-    tip: f64,
-    angle: f64,
+/// What a walk has shown: time of a step (s), largest errors of the tip over the length and in angle (rad).
+pub(super) struct Shown {
+    pub(super) time: f64,
+    pub(super) tip: f64,
+    pub(super) angle: f64,
     by_richest: f64,
 }
 
 impl Walk {
-    fn new(name: &'static str, scene: &Scene) -> Result<Self, Error> {
+    pub(super) fn new(name: &'static str, scene: &Scene) -> Result<Self, Error> {
         let path = (0..STEPS).chain((1..=STEPS).rev()).map(|step| later(&scene.inputs, step)).collect();
         Ok(Self { name, scene: scene.clone(), length: scene.design()?.length(), path })
     }
@@ -111,8 +111,10 @@ impl Walk {
             rows.push(("auto".to_owned(), Some(tolerance), settings));
         }
         let richest = models.last().copied().unwrap_or(base);
-        let shown: Vec<Shown> =
-            rows.iter().map(|row| self.go(row.2, richest)).collect::<Result<_, Error>>()?;
+        let shown: Vec<Shown> = rows
+            .iter()
+            .map(|row| self.go(&self.with(row.2), &self.with(richest)))
+            .collect::<Result<_, Error>>()?;
         let whole = shown.get(models.len() - 1).map_or(f64::NAN, |shown| shown.time);
         let row = |((model, tolerance, _), shown): ((String, Option<f64>, Settings), Shown)| Fidelity {
             scene: self.name,
@@ -127,9 +129,9 @@ impl Walk {
         Ok(rows.into_iter().zip(shown).map(row).collect())
     }
 
-    /// Walks with these settings, beside the richest model.
-    fn go(&self, settings: Settings, richest: Settings) -> Result<Shown, Error> {
-        let (mut own, mut judge) = (self.manipulator(settings)?, self.manipulator(richest)?);
+    /// Walks with one model of the scene, beside another one that judges it.
+    pub(super) fn go(&self, own: &Scene, judge: &Scene) -> Result<Shown, Error> {
+        let (mut own, mut judge) = (own.manipulator(2)?, judge.manipulator(2)?);
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0, by_richest: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;
@@ -154,8 +156,8 @@ impl Walk {
         Ok(shown)
     }
 
-    fn manipulator(&self, settings: Settings) -> Result<Manipulator, Error> {
-        Scene { settings, ..self.scene.clone() }.manipulator(2)
+    fn with(&self, settings: Settings) -> Scene {
+        Scene { settings, ..self.scene.clone() }
     }
 }
 

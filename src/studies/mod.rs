@@ -1,7 +1,7 @@
 //! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
 //!
 //! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
-//! points, which [`accuracy_picture`] draws, and so does [`fidelity()`]; [`bifurcation()`] has tables beside its diagrams;
+//! points, which [`accuracy_picture`] draws, and so do [`fidelity()`] and [`omissions()`]; [`bifurcation()`] has tables beside its diagrams;
 //! the map of failures takes minutes, and is the [`stability_rays`], each of which makes its [`Ray::attempts`], which
 //! [`stability_picture`] draws. Nothing is printed or written here.
 
@@ -20,6 +20,7 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod omissions;
 mod scenes;
 mod stability;
 mod study;
@@ -37,5 +38,6 @@ pub use fig7c::fig7c;
 pub use fig7d::fig7d;
 pub use fig8::fig8;
 pub use hysteresis::hysteresis;
+pub use omissions::{Omission, omissions};
 pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
 pub use study::{AtlasRow, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value};

@@ -111,11 +111,13 @@ fn targets(criterion: &mut Criterion<CpuTime>) {
 
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
 const COARSE: fn(&mut Settings) = |settings| {
-    (settings.degree, settings.pair_accuracy, settings.tolerance) = (1, 3e-3, 1e-5);
+    (settings.degree, settings.pair_accuracy, settings.tolerance) = (0, 1e-2, 1e-5);
 };
 
 /// For 1 um.
-const MICROMETRE: fn(&mut Settings) = |settings| settings.tolerance = 1e-7;
+const MICROMETRE: fn(&mut Settings) = |settings| {
+    (settings.pair_accuracy, settings.tolerance) = (1e-4, 1e-6);
+};
 
 /// What those are compared with.
 const RICHEST: fn(&mut Settings) = |settings| {

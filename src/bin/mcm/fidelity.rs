@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};
+use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, fidelity_scenes, omissions};
 
 use super::failure::Failure;
 use super::study::{leave, progress_bar};
@@ -13,13 +13,27 @@ const HEADER: &str = "\
 | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 
+const LEFT_OUT: &str = "\
+| scene | left out of `rings` | time (us) | over that of `rings` | tip error over length | angle (deg) |
+| --- | --- | --- | --- | --- | --- |
+";
+
 /// Measures, and leaves fidelity.csv, fidelity.md and fidelity.png in `out`; the table is printed, too.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let bar = progress_bar(fidelity_scenes() as u64, "scenes");
     let rows = fidelity(|| bar.inc(1))?;
     bar.finish_and_clear();
     let table = rows.iter().map(row).collect::<String>();
-    leave(out, "fidelity", &rows, &fidelity_picture(&rows), &format!("{HEADER}{table}"))
+    let left_out = omissions()?.iter().map(left_out).collect::<String>();
+    let tables = format!("{HEADER}{table}\n{LEFT_OUT}{left_out}");
+    leave(out, "fidelity", &rows, &fidelity_picture(&rows), &tables)
+}
+
+fn left_out(row: &Omission) -> String {
+    format!(
+        "| {} | {} | {:.0} | {:.2} | {:.0e} | {:.0e} |\n",
+        row.scene, row.what, row.time_us, row.time_relative, row.tip_over_length, row.angle_deg
+    )
 }
 
 fn row(row: &Fidelity) -> String {

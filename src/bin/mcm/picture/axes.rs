@@ -210,11 +210,13 @@ fn column<'a>(study: &'a Study, name: &str) -> Result<&'a [f64], String> {
     study.column(name).ok_or_else(|| format!("there is no column {name}"))
 }
 
-/// Smallest and largest value.
+/// Smallest and largest value; from 0 to 1 without any.
 pub(super) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values
         .filter(|value| !value.is_nan())
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+        .map(|value| [value, value])
+        .reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
+        .unwrap_or([0.0, 1.0])
 }
 
 /// A range with some air at both ends.

@@ -1,0 +1,102 @@
+//! What each simplification saves and errs by itself, beside the level `rings` as it is by default.
+
+use serde::Serialize;
+
+use super::fidelity::{SCENES, Walk};
+use crate::design::{Specification, SpiralKind};
+use crate::equilibrium::{Interaction, Method};
+use crate::error::Error;
+use crate::magnetics::{Assembly, AxialMagnet};
+use crate::manipulator::Scene;
+
+/// Half the length and radius of a cylinder that stands for a dipole, m: its field 10 cm away is a dipole's to 1e-4.
+const SMALL: f64 = 2.5e-3;
+
+/// One simplification along one walk.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Omission {
+    /// The scene.
+    pub scene: &'static str,
+    /// What is left out.
+    pub what: &'static str,
+    /// Mean time of a step, microseconds.
+    pub time_us: f64,
+    /// The same over that of the level as it is.
+    pub time_relative: f64,
+    /// Largest error of the tip's position over the length, against the level as it is.
+    pub tip_over_length: f64,
+    /// Largest error of the tip's angle, deg.
+    pub angle_deg: f64,
+}
+
+/// A simplification and what it does to a scene.
+type Simplification = (&'static str, fn(&mut Scene) -> Result<(), Error>);
+
+/// The level as it is comes first.
+const SIMPLIFICATIONS: [Simplification; 7] = [
+    ("nothing", |_| Ok(())),
+    ("strains that vary along a core (degree 0)", |scene| {
+        scene.settings.degree = 0;
+        Ok(())
+    }),
+    ("all but one node of a ring", |scene| {
+        scene.settings.pair_accuracy = 9e-2;
+        Ok(())
+    }),
+    ("the turning of the spiral (spread evenly)", |scene| {
+        if let Specification::Segmented(chain) = &mut scene.specification {
+            chain.spiral = SpiralKind::Axisymmetric;
+        }
+        Ok(())
+    }),
+    ("the extent of the magnets (a dipole)", |scene| {
+        scene.magnets = scene.magnets.take().map(dipole).transpose()?;
+        Ok(())
+    }),
+    ("what leads out of the plane (method `planar`)", |scene| {
+        scene.settings.method = Method::Planar;
+        Ok(())
+    }),
+    ("all strain but one bend a core (method `constant-curvature`)", |scene| {
+        scene.settings.method = Method::ConstantCurvature;
+        Ok(())
+    }),
+];
+
+/// Every simplification along the walks of [`super::fidelity()`].
+///
+/// # Errors
+/// None for these scenes; those of the solves are passed on.
+pub fn omissions() -> Result<Vec<Omission>, Error> {
+    let mut out = Vec::new();
+    for (name, segments, field) in SCENES {
+        let mut exact = Scene::parse(&format!("{field}\n[design]\nsegments = {segments}"), name)?;
+        exact.settings.interaction = Interaction::Rings;
+        let walk = Walk::new(name, &exact)?;
+        let mut whole = f64::NAN;
+        for (what, simplify) in SIMPLIFICATIONS {
+            let mut scene = exact.clone();
+            simplify(&mut scene)?;
+            let shown = walk.go(&scene, &exact)?;
+            whole = if whole.is_nan() { shown.time } else { whole };
+            out.push(Omission {
+                scene: name,
+                what,
+                time_us: 1e6 * shown.time,
+                time_relative: shown.time / whole,
+                tip_over_length: shown.tip,
+                angle_deg: shown.angle.to_degrees(),
+            });
+        }
+    }
+    Ok(out)
+}
+
+/// A cylinder of the magnets' moment, so small that its field is a dipole's.
+fn dipole(magnets: Vec<AxialMagnet>) -> Result<Vec<AxialMagnet>, Error> {
+    let moment = Assembly::new(magnets)?.moment();
+    let unit =
+        AxialMagnet { radius: SMALL, inner_radius: 0.0, length: 2.0 * SMALL, offset: 0.0, remanence: 1.0 };
+    let remanence = moment / Assembly::new(vec![unit])?.moment();
+    Ok(vec![AxialMagnet { remanence, ..unit }])
+}
