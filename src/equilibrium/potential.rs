@@ -16,6 +16,9 @@ use crate::geometry::Pose;
 use crate::magnetics::Wrench;
 use crate::rod::{Configuration, Load, Order, START, Tangent};
 
+/// Residual from which on tables may stand: smaller ones are asked for by those who take differences, which jumps spoil.
+const TABULATED: f64 = 5e-8;
+
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
 pub(super) struct Workspace {
@@ -110,7 +113,7 @@ pub(super) struct Potential<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) field: Source<'a>,
     pub(super) rules: &'a PairRules,
-    /// Whether tables may stand for the rings' fields: for a slope alone, whose energy nobody compares.
+    /// Whether tables stand for the rings' fields at spans: in a slope alone, whose energy nobody compares.
     pub(super) tabulated: bool,
     pub(super) work: &'a mut Workspace,
 }
@@ -136,7 +139,7 @@ impl Potential<'_> {
 
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
     pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
-        self.tabulated = true;
+        self.tabulated = self.settings.tolerance >= TABULATED;
         let energy = self.load(x, Order::Gradient);
         self.tabulated = false;
         let energy = energy?;
