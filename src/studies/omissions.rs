@@ -9,8 +9,9 @@ use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Scene;
 
-/// Half the length and radius of a cylinder that stands for a dipole, m: its field 10 cm away is a dipole's to 1e-4.
-const SMALL: f64 = 2.5e-3;
+/// Radius of a cylinder that stands for a dipole, m. So long that its next multipole vanishes, its field 10 cm away is a dipole's
+/// to 1e-5.
+const SMALL: f64 = 4e-3;
 
 /// One simplification along one walk.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -95,8 +96,13 @@ pub fn omissions() -> Result<Vec<Omission>, Error> {
 /// A cylinder of the magnets' moment, so small that its field is a dipole's.
 fn dipole(magnets: Vec<AxialMagnet>) -> Result<Vec<AxialMagnet>, Error> {
     let moment = Assembly::new(magnets)?.moment();
-    let unit =
-        AxialMagnet { radius: SMALL, inner_radius: 0.0, length: 2.0 * SMALL, offset: 0.0, remanence: 1.0 };
+    let unit = AxialMagnet {
+        radius: SMALL,
+        inner_radius: 0.0,
+        length: 3.0_f64.sqrt() * SMALL,
+        offset: 0.0,
+        remanence: 1.0,
+    };
     let remanence = moment / Assembly::new(vec![unit])?.moment();
     Ok(vec![AxialMagnet { remanence, ..unit }])
 }
