@@ -131,10 +131,11 @@ impl Element {
             let distance = sight.distance + before;
             let chosen = subset(nodes, sight.interpolated(distance, piece.length));
             let own: Vec<f64> = chosen.iter().map(|i| nodes[*i]).collect();
+            let fine: Vec<Fine> = fine_points(&own).collect();
             for (i, station) in chosen.iter().enumerate() {
                 let x = if sight.beyond { -nodes[*station] } else { nodes[*station] };
                 let at = distance + 0.5 * piece.length * (1.0 + x);
-                let points = Section { piece, nodes: &own, node: i }.points(sight, at);
+                let points = Section { piece, nodes: &own, fine: &fine, node: i }.points(sight, at);
                 out.push(Sample {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,
@@ -171,10 +172,19 @@ fn subset(nodes: &[f64], count: usize) -> Vec<usize> {
     chosen
 }
 
+/// A point of the rule that resolves the spiral, on `[-1, 1]`, its weight, and the Lagrange polynomials of the nodes there.
+type Fine = (f64, f64, Vec<f64>);
+
+fn fine_points(nodes: &[f64]) -> impl Iterator<Item = Fine> {
+    let (points, weights) = gauss_legendre(SPIRAL_POINTS);
+    points.into_iter().zip(weights).map(|(x, weight)| (x, weight, lagrange::values(nodes, x)))
+}
+
 /// The section of a piece at one of the nodes that represent it.
 struct Section<'a> {
     piece: &'a Piece<'a>,
     nodes: &'a [f64],
+    fine: &'a [Fine],
     node: usize,
 }
 
@@ -206,11 +216,9 @@ impl Section<'_> {
 
     /// Weight (m) of this node in the integral along the piece of what varies like `value(arc length)`.
     fn along(&self, mut value: impl FnMut(f64, f64)) {
-        let (nodes, weights) = gauss_legendre(SPIRAL_POINTS);
         let half = 0.5 * self.piece.length;
-        for (x, weight) in nodes.iter().zip(&weights) {
-            let own = lagrange::values(self.nodes, *x)[self.node];
-            value(half * (1.0 + x), half * weight * own);
+        for (x, weight, polynomials) in self.fine {
+            value(half * (1.0 + x), half * weight * polynomials[self.node]);
         }
     }
 
