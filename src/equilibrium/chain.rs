@@ -17,7 +17,7 @@ const EXTRA_DEGREES: usize = 4;
 
 /// Accuracy of the pairs from which on a table stands for the rings' fields at spans; what it is off by is another at each of
 /// their many points. For pairs of rings, whose few points have large weights of both signs, it would not do.
-const TABULATED: f64 = 1e-4;
+const TABLE_ACCURACY: f64 = 1e-4;
 
 /// Tabulates the fields of the rings, equal ones once.
 fn tabulate(rings: &mut [RingBody]) {
@@ -136,7 +136,7 @@ impl Chain {
                 offset = ring.length;
             }
         }
-        if spans && settings.pair_accuracy >= TABULATED {
+        if spans && settings.pair_accuracy >= TABLE_ACCURACY {
             tabulate(&mut rings);
         }
         let mut first = vec![0];

@@ -17,7 +17,7 @@ use crate::magnetics::Wrench;
 use crate::rod::{Configuration, Load, Order, START, Tangent};
 
 /// Residual from which on tables may stand: smaller ones are asked for by those who take differences, which jumps spoil.
-const TABULATED: f64 = 5e-8;
+const TABLE_RESIDUAL: f64 = 5e-8;
 
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
@@ -139,7 +139,7 @@ impl Potential<'_> {
 
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
     pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
-        self.tabulated = self.settings.tolerance >= TABULATED;
+        self.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
         let energy = self.load(x, Order::Gradient);
         self.tabulated = false;
         let energy = energy?;

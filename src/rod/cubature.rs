@@ -14,7 +14,7 @@ use crate::design::{SpanKind, Spiral, SpiralKind};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
 /// Points that resolve the turns of the spiral when it is integrated.
-pub(super) const SPIRAL_POINTS: usize = 48;
+const SPIRAL_POINTS: usize = 48;
 
 /// Ratio of one angular harmonic of the field to the one before, on the rim at a ring's face, for each radian of bend: with
 /// 0.3 one segment in 30 mT is off by 3e-4 of its length, from 0.4 on by no more than the other points leave.
@@ -173,9 +173,10 @@ fn subset(nodes: &[f64], count: usize) -> Vec<usize> {
 }
 
 /// A point of the rule that resolves the spiral, on `[-1, 1]`, its weight, and the Lagrange polynomials of the nodes there.
-type Fine = (f64, f64, Vec<f64>);
+pub(super) type Fine = (f64, f64, Vec<f64>);
 
-fn fine_points(nodes: &[f64]) -> impl Iterator<Item = Fine> {
+/// All points of that rule.
+pub(super) fn fine_points(nodes: &[f64]) -> impl Iterator<Item = Fine> {
     let (points, weights) = gauss_legendre(SPIRAL_POINTS);
     points.into_iter().zip(weights).map(|(x, weight)| (x, weight, lagrange::values(nodes, x)))
 }

@@ -5,7 +5,7 @@ use core::ops::Range;
 use nalgebra::Vector2;
 
 use super::basis::{Ends, Modes, Part};
-use super::cubature::{SPIRAL_POINTS, Sight};
+use super::cubature::{Sight, fine_points};
 use super::matter::Matter;
 use super::moments::SectionMoments;
 use super::stop::{Contact, Stop};
@@ -221,11 +221,10 @@ impl Element {
         let span = piece.span;
         let nodes = self.pieces[index].1.clone();
         let weights = lagrange::integrals(&nodes, 1.0);
-        let (fine_nodes, fine_weights) = gauss_legendre(SPIRAL_POINTS);
         let mut materials = vec![SectionMoments::zero(); nodes.len()];
-        for (x, fine) in fine_nodes.iter().zip(&fine_weights) {
+        for (x, fine, polynomials) in fine_points(&nodes) {
             let along = 0.5 * piece.length * (1.0 + x);
-            for (material, value) in materials.iter_mut().zip(lagrange::values(&nodes, *x)) {
+            for (material, value) in materials.iter_mut().zip(polynomials) {
                 material.add_section(span, along, 0.5 * piece.length * fine * value);
             }
         }
