@@ -2,6 +2,7 @@
 
 use super::chain::Chain;
 use super::inputs::Inputs;
+use super::outcome::Outcome;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
@@ -49,8 +50,10 @@ const DOUBTFUL: f64 = 1e-4;
 /// What a solve did.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
-    /// Whether an equilibrium was found at the inputs asked for.
-    pub solved: bool,
+    /// How it ended; see [`Report::solved`].
+    pub outcome: Outcome,
+    /// How far along the change of the inputs it got, from 0 to 1; 1 where it is solved.
+    pub progress: f64,
     /// Newton iterations.
     pub iterations: u32,
     /// Dual norm of the gradient, relative to turning one element by a radian.
@@ -90,9 +93,16 @@ impl<'a> Scene<'a> {
 }
 
 impl Report {
+    /// Whether an equilibrium was found at the inputs asked for.
+    #[must_use]
+    pub fn solved(&self) -> bool {
+        self.outcome.is_solved()
+    }
+
     pub(super) fn start() -> Self {
         Self {
-            solved: false,
+            outcome: Outcome::BranchEnds,
+            progress: 0.0,
             iterations: 0,
             residual: f64::INFINITY,
             margin: 0.0,

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::chain::Chain;
 use super::correction::{End, KEPT, NEARLY, ROUNDING, Report, Scene, Scratch, Walk};
 use super::inputs::Inputs;
+use super::outcome::Outcome;
 use super::potential::Workspace;
 use super::rules::PairRules;
 use crate::numerics::trust_region::{self, Region, norm, spread};
@@ -139,12 +140,19 @@ impl Scene<'_> {
         let foreseen = walk.foreseen(branch, target);
         let end = foreseen.unwrap_or_else(|| walk.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
         match end {
-            End::Kept => (walk.report.margin, walk.report.stable) = (branch.margin, branch.stable),
-            End::Held => walk.judge(target, &branch.unknowns, &mut branch.softest),
+            End::Kept => {
+                (walk.report.margin, walk.report.stable) = (branch.margin, branch.stable);
+                walk.report.outcome = Outcome::Solved;
+            }
+            End::Held => {
+                walk.judge(target, &branch.unknowns, &mut branch.softest);
+                walk.report.outcome = Outcome::Solved;
+            }
             End::Neutral => {
                 // The factorisation is that of a shape on the way.
                 walk.work.factored = false;
                 walk.report.stable = Some(false);
+                walk.report.outcome = Outcome::Neutral;
             }
             End::Lost => {
                 walk.work.factored = false;
@@ -152,7 +160,7 @@ impl Scene<'_> {
                 return walk.report;
             }
         }
-        walk.report.solved = true;
+        walk.report.progress = 1.0;
         (branch.margin, branch.stable) = (walk.report.margin, walk.report.stable);
         branch.advance(target, &walk.scratch.last, walk.report.snaps > 0);
         walk.report

@@ -90,6 +90,9 @@ pub struct Settings {
     pub fold_margin: f64,
     /// Iterations at most of one solve, after which it has failed; default 500, fewer where each takes long.
     pub iterations: u32,
+    /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
+    /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
+    pub time_budget: f64,
     /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
     pub method: Method,
     /// Resolution of the other methods.
@@ -111,6 +114,7 @@ impl Default for Settings {
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
             iterations: 500,
+            time_budget: 1.0,
             method: Method::Potential,
             discretisation: Discretisation::default(),
         }
@@ -154,6 +158,7 @@ impl Settings {
             "in [0, 1)",
         )?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
+        check("processor time of a solve", self.time_budget, positive, "> 0 s")?;
         self.discretisation.checked()?;
         Ok(self)
     }

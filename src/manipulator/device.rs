@@ -69,7 +69,8 @@ impl Manipulator {
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
         let report = self.solver.solve(inputs)?;
-        if report.solved {
+        (self.outputs.outcome, self.outputs.progress) = (report.outcome, report.progress);
+        if report.solved() {
             self.observe(inputs, &report);
         } else {
             self.outputs.status = Status::NotSolved;
@@ -96,16 +97,17 @@ impl Manipulator {
         let before = (path.len() > 1).then(|| self.clone());
         let mut iterations = 0;
         for inputs in path {
-            let solved = self.solve(inputs).map(|outputs| (outputs.status, outputs.residual));
+            let solved = self.solve(inputs).map(|out| (out.status, out.residual, out.outcome, out.progress));
             iterations += self.outputs.iterations;
-            if let Ok((Status::Solved | Status::NearFold | Status::Snapped, _)) = solved {
+            if let Ok((Status::Solved | Status::NearFold | Status::Snapped, ..)) = solved {
                 continue;
             }
             if let Some(before) = before {
                 *self = before;
             }
-            let (status, residual) = solved?;
+            let (status, residual, outcome, progress) = solved?;
             (self.outputs.status, self.outputs.residual) = (status, residual);
+            (self.outputs.outcome, self.outputs.progress) = (outcome, progress);
             break;
         }
         self.outputs.iterations = iterations;

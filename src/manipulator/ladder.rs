@@ -182,7 +182,7 @@ impl Ladder {
         if let Some((before, shape)) = way_back
             && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
         {
-            let next = if report.solved { from + 1 } else { last };
+            let next = if report.solved() { from + 1 } else { last };
             return self.ascend(next, inputs, |models, rung| {
                 let (lower, upper) = models.split_at_mut(rung);
                 upper[0].adopt(&lower[from], &shape, &before);
@@ -194,7 +194,7 @@ impl Ladder {
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if !(changed && from > 0 && report.solved) {
+        if !(changed && from > 0 && report.solved()) {
             return Ok(report);
         }
         if self.wait.is_over() {
@@ -226,7 +226,7 @@ impl Ladder {
             if richest || (self.is_sound(&report) && self.judge(inputs, CLIMB)) {
                 return Ok(Report { iterations, ..report });
             }
-            self.present = if report.solved { self.present + 1 } else { self.last() };
+            self.present = if report.solved() { self.present + 1 } else { self.last() };
         }
     }
 
@@ -262,7 +262,7 @@ impl Ladder {
     /// Whether a cheaper model's answer may stand: solved, stable, without a jump and away from folds.
     fn is_sound(&self, report: &Report) -> bool {
         let held = report.stable.is_none_or(|stable| stable && report.margin >= self.fold_margin);
-        report.solved && held && report.snaps == 0
+        report.solved() && held && report.snaps == 0
     }
 
     /// Whether the richest model finds the present rung within that part of the tolerance.

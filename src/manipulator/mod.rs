@@ -8,7 +8,7 @@ mod prediction;
 mod scene;
 mod solver;
 
-pub use crate::equilibrium::{Input, Inputs, Jacobian, Output};
+pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output};
 pub use branch::{Branch, Fold};
 pub use device::{Manipulator, Snapshot};
 pub use ladder::models_of_auto;

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::equilibrium::{Interaction, Method};
+use crate::equilibrium::{Interaction, Method, Outcome};
 use crate::geometry::Pose;
 
 /// How the last solve ended.
@@ -59,6 +59,10 @@ pub struct Outputs {
     pub snaps: u32,
     /// How the solve ended.
     pub status: Status,
+    /// The same in detail, with the reason where it is not solved.
+    pub outcome: Outcome,
+    /// How far along the change of the inputs the last solve got, from 0 to 1; 1 where it is solved.
+    pub progress: f64,
     /// Newton iterations of the last solve.
     pub iterations: u32,
     /// Residual relative to the elastic forces of the chain, in the norm of the elastic energy.

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::ladder::{self, Ladder};
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Comparison, Gap, Method, Report, Settings};
+use crate::equilibrium::{Comparison, Gap, Method, Outcome, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -168,6 +168,8 @@ impl Solver {
                 stability_margin: 1.0,
                 snaps: 0,
                 status: Status::Solved,
+                outcome: Outcome::Solved,
+                progress: 1.0,
                 iterations: 0,
                 residual: 0.0,
                 energy: 0.0,

@@ -41,7 +41,7 @@ fn traced() -> Vec<Traced> {
         let design = Design::new(Specification::paper(segments)).unwrap();
         let settings = Settings { interaction, ..Settings::default() };
         let mut equilibrium = Equilibrium::new(&design, None, settings, 2).unwrap();
-        assert!(equilibrium.solve(&inputs(range[0])).unwrap().solved);
+        assert!(equilibrium.solve(&inputs(range[0])).unwrap().solved());
         let diagram = equilibrium.trace(|value| Ok(inputs(value)), &walk(range, 0.03, points)).unwrap();
         Traced { name, equilibrium, inputs, range, diagram }
     };
@@ -172,7 +172,7 @@ fn the_energy_changes_along_the_branch_as_by_the_inputs_alone() {
 fn margins_of_stable_shapes_are_those_of_the_solver() {
     for Traced { name, mut equilibrium, inputs, diagram, .. } in traced() {
         for shape in diagram.shapes.iter().take_while(|shape| shape.unstable == 0).step_by(10) {
-            assert!(equilibrium.solve(&inputs(shape.value)).unwrap().solved);
+            assert!(equilibrium.solve(&inputs(shape.value)).unwrap().solved());
             let expected = equilibrium.margin().expect("stable");
             let error = (shape.margin / expected - 1.0).abs();
             assert!(error <= MARGIN, "{name}, {}: margin {}, solver {expected}", shape.value, shape.margin);

@@ -18,7 +18,7 @@ fn tip(design: &Design, settings: Settings, field: f64) -> Vector3<f64> {
     let inputs =
         Inputs { uniform_field: Vector3::new(0.0, field, 0.0), ..Inputs::unloaded(design.rings().count()) };
     let report = equilibrium.solve(&inputs).expect("finite inputs");
-    assert!(report.solved && report.snaps == 0, "{report:?}");
+    assert!(report.solved() && report.snaps == 0, "{report:?}");
     equilibrium.tip().position
 }
 

@@ -37,7 +37,7 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
     let mut count = 0;
     for row in rows().iter().filter(|row| row.id.starts_with("c5_crit_antiparallel")) {
         let mut equilibrium = row.refined();
-        assert!(equilibrium.solve(&row.inputs).expect("finite inputs").solved, "{}", row.id);
+        assert!(equilibrium.solve(&row.inputs).expect("finite inputs").solved(), "{}", row.id);
         let straight = equilibrium.unknowns().to_vec();
         let length = row.design().length();
         let error = (equilibrium.tip().position - vector(&row.outputs["straight_tip_p"])).norm() / length;
@@ -54,14 +54,14 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         // The solver sees the same: straight up to there, bent beyond.
         let mut solver = row.refined();
         let before = solver.solve(&antiparallel(row, 0.99 * expected)).expect("finite inputs");
-        assert!(before.solved && before.snaps == 0 && before.margin > 0.0, "{}: {before:?}", row.id);
+        assert!(before.solved() && before.snaps == 0 && before.margin > 0.0, "{}: {before:?}", row.id);
         assert!(before.margin < 0.05, "{}: {before:?}", row.id);
         assert!(off_axis(&solver) < ON_AXIS, "{}: bent by {:e}", row.id, off_axis(&solver));
         // Exactly antiparallel, all directions of bending are alike: an answer there may be refused, but is never straight.
         let beyond = antiparallel(row, 1.05 * expected);
         let after = solver.solve(&beyond).expect("finite inputs");
         assert!(
-            !after.solved || off_axis(&solver) > 1e-3,
+            !after.solved() || off_axis(&solver) > 1e-3,
             "{}: on the unstable straight shape: {after:?}",
             row.id
         );
@@ -70,7 +70,7 @@ fn an_antiparallel_field_buckles_the_straight_shape() {
         aside.uniform_field.y = 0.01 * expected;
         let mut solver = row.refined();
         let after = solver.solve(&aside).expect("finite inputs");
-        assert!(after.solved && after.margin > 0.0 && off_axis(&solver) > 0.1, "{}: {after:?}", row.id);
+        assert!(after.solved() && after.margin > 0.0 && off_axis(&solver) > 0.1, "{}: {after:?}", row.id);
         count += 1;
     }
     assert_eq!(count, 2);
@@ -83,7 +83,7 @@ fn without_a_field_the_manipulator_is_straight_stable_and_shorter() {
     {
         let mut equilibrium = row.refined();
         let report = equilibrium.solve(&row.inputs).expect("finite inputs");
-        assert!(report.solved && report.snaps == 0, "{}: {report:?}", row.id);
+        assert!(report.solved() && report.snaps == 0, "{}: {report:?}", row.id);
         assert!(report.margin > 0.0 && number(&row.outputs, "min_hessian_eig_sign") > 0.0, "{}", row.id);
         assert!(off_axis(&equilibrium) < ON_AXIS, "{}: bent by {:e}", row.id, off_axis(&equilibrium));
         let expected = vector(&row.outputs["tip_p"]);

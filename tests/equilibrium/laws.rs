@@ -37,7 +37,7 @@ fn everything() -> Inputs {
 
 fn solve(equilibrium: &mut Equilibrium, inputs: &Inputs) -> f64 {
     let report = equilibrium.solve(inputs).expect("finite inputs");
-    assert!(report.solved && report.snaps == 0 && report.margin > 0.0, "{report:?}");
+    assert!(report.solved() && report.snaps == 0 && report.margin > 0.0, "{report:?}");
     report.energy
 }
 

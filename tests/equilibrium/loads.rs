@@ -156,7 +156,7 @@ fn equilibrium(chain: &Segmented, interaction: Interaction) -> Equilibrium {
 
 fn solved(equilibrium: &mut Equilibrium, inputs: &Inputs) {
     let report = equilibrium.solve(inputs).expect("finite inputs");
-    assert!(report.solved && report.snaps == 0, "{report:?}");
+    assert!(report.solved() && report.snaps == 0, "{report:?}");
 }
 
 fn unloaded() -> Inputs {

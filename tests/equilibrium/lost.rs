@@ -22,7 +22,7 @@ fn lost_rows() -> Vec<Row> {
 }
 
 fn is_lost(report: &Report) -> bool {
-    !report.solved || report.snaps > 0
+    !report.solved() || report.snaps > 0
 }
 
 #[test]

@@ -77,7 +77,7 @@ impl Cell {
         let before = (self.equilibrium.unknowns().to_vec(), self.equilibrium.inputs().cloned());
         let report = self.equilibrium.solve(inputs).unwrap();
         let after = (self.equilibrium.unknowns().to_vec(), self.equilibrium.inputs().cloned());
-        if report.solved {
+        if report.solved() {
             assert_eq!(after.1.as_ref(), Some(inputs), "{}", self.name);
         } else {
             assert_eq!(after, before, "{}: not solved, and the last shape is lost", self.name);
@@ -92,7 +92,7 @@ impl Cell {
             last = Some((self.solve(&inputs), inputs));
         }
         let (report, inputs) = last.unwrap();
-        if !report.solved {
+        if !report.solved() {
             return Outcome::Refused;
         }
         let shape = self.equilibrium.unknowns().to_vec();
@@ -202,7 +202,7 @@ fn the_judge_sees_what_is_unstable_and_what_is_out_of_balance() {
     let design = Design::new(Specification::paper(3)).unwrap();
     cell.equilibrium = Equilibrium::new(&design, None, settings, 2).unwrap();
     let unloaded = cell.inputs(Vector3::zeros());
-    assert!(cell.solve(&unloaded).solved);
+    assert!(cell.solve(&unloaded).solved());
     let mut straight = cell.equilibrium.unknowns().to_vec();
     // Straight in a field against it: in balance, but not for long.
     let against = cell.inputs(Vector3::new(0.0, 0.0, -0.02));

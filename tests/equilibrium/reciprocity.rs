@@ -31,7 +31,7 @@ fn seen_from(frame: &Pose, pose: &Pose) -> Pose {
 
 fn solved(equilibrium: &mut Equilibrium, inputs: &Inputs) {
     let report = equilibrium.solve(inputs).expect("finite inputs");
-    assert!(report.solved && report.snaps == 0, "{report:?}");
+    assert!(report.solved() && report.snaps == 0, "{report:?}");
 }
 
 #[test]

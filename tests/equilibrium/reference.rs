@@ -51,7 +51,7 @@ fn every_equilibrium_is_met() {
             }
         }
         let report = equilibrium.solve(&row.inputs).expect("finite inputs");
-        assert!(report.solved, "{}: not solved: {report:?}", row.id);
+        assert!(report.solved(), "{}: not solved: {report:?}", row.id);
         assert_eq!(snaps + report.snaps, 0, "{}: snaps on the way to a shape that needs none", row.id);
         for (slot, (name, error, bound)) in worst.iter_mut().zip(errors(row, &equilibrium, &report)) {
             assert!(error <= bound, "{}: {name}: error {error:e}, allowed {bound:e}", row.id);

@@ -61,7 +61,7 @@ fn a_solved_shape_is_a_stable_equilibrium() {
             let (mut equilibrium, inputs) = build(segments, rings, size, cosine, azimuth);
             let report = equilibrium.solve(&inputs).expect("finite inputs");
             prop_assert!(is_finite(&equilibrium), "{report:?}");
-            if report.solved {
+            if report.solved() {
                 solved.set(solved.get() + 1);
                 prop_assert!(report.residual <= RESIDUAL, "{report:?}");
                 prop_assert!(report.margin > 0.0, "{report:?}");
@@ -91,7 +91,7 @@ fn without_a_snap_the_way_back_is_the_way_there() {
             let mut positions = Vec::new();
             for part in (0..=PARTS).chain((0..PARTS).rev()) {
                 let report = equilibrium.solve(&at(part)).expect("finite inputs");
-                if !report.solved || report.snaps > 0 {
+                if !report.solved() || report.snaps > 0 {
                     return Ok(());
                 }
                 positions.push(equilibrium.tip());
@@ -139,11 +139,11 @@ fn a_shape_that_may_turn_about_the_field_is_not_called_stable() {
             let (mut equilibrium, against) = build(segments, false, size, -1.0, 0.0);
             let mut across = against.clone();
             across.uniform_field.y = 0.02;
-            assert!(equilibrium.solve(&across).expect("valid").solved);
+            assert!(equilibrium.solve(&across).expect("valid").solved());
             let report = equilibrium.solve(&against).expect("valid");
             let bent = equilibrium.tip().axis().angle(&Vector3::z()).to_degrees();
             // Any turn about the axis is as good: nothing holds it.
-            assert!(report.solved && bent > 10.0, "S = {segments}, {size} T: {bent} deg");
+            assert!(report.solved() && bent > 10.0, "S = {segments}, {size} T: {bent} deg");
             assert_eq!((report.stable, report.margin), (Some(false), 0.0), "S = {segments}, {size} T");
         }
     }

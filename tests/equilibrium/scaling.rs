@@ -38,7 +38,7 @@ impl Scene {
         let settings = Settings { interaction: Interaction::Rings, ..Settings::default() };
         let mut equilibrium = Equilibrium::new(&design, Some(&self.magnet), settings, 2).expect("allowed");
         let report = equilibrium.solve(&self.inputs).expect("finite inputs");
-        assert!(report.solved && report.snaps == 0, "{report:?}");
+        assert!(report.solved() && report.snaps == 0, "{report:?}");
         (equilibrium, report)
     }
 }

@@ -38,7 +38,7 @@ fn what_a_force_does_there_another_does_here() {
     // the clamp moves with a load as the loaded point does with the magnet or the base.
     for interaction in [Interaction::None, Interaction::Rings, Interaction::Full] {
         let mut equilibrium = equilibrium(3, interaction);
-        assert!(equilibrium.solve(&loaded(3)).expect("finite inputs").solved);
+        assert!(equilibrium.solve(&loaded(3)).expect("finite inputs").solved());
         let jacobian = equilibrium.jacobian().expect("no fold");
         let pairs = [
             (Output::TipPosition, Input::TipForce, Output::TipPosition, Input::TipForce, 1.0),
@@ -81,7 +81,7 @@ fn what_a_force_does_there_another_does_here() {
 #[test]
 fn without_reactions_nothing_is_symmetric() {
     let mut equilibrium = equilibrium(3, Interaction::Preceding);
-    assert!(equilibrium.solve(&loaded(3)).expect("finite inputs").solved);
+    assert!(equilibrium.solve(&loaded(3)).expect("finite inputs").solved());
     let compliance = block(&equilibrium.jacobian().expect("no fold"), Output::TipPosition, Input::TipForce);
     let skew = (&compliance - compliance.transpose()).norm() / compliance.norm();
     assert!(skew > 1e-3, "{skew}");
@@ -97,7 +97,7 @@ fn there_are_none_before_a_solve_and_at_a_fold() {
     let critical = last_true(1e-3, 0.1, |size| is_stable(&mut start, &inputs(size), &straight));
     let at = |part: f64| {
         let mut equilibrium = equilibrium(3, Interaction::None);
-        assert!(equilibrium.solve(&inputs(part * critical)).expect("finite inputs").solved);
+        assert!(equilibrium.solve(&inputs(part * critical)).expect("finite inputs").solved());
         equilibrium.jacobian()
     };
     let compliance = |part: f64| {
@@ -129,7 +129,7 @@ fn the_whole_scene_may_move_as_one() {
     let mut inputs = Inputs::unloaded(3);
     inputs.magnet = loaded(2).magnet;
     inputs.magnet_strength = 1.0;
-    assert!(equilibrium.solve(&inputs).expect("finite inputs").solved);
+    assert!(equilibrium.solve(&inputs).expect("finite inputs").solved());
     let jacobian = equilibrium.jacobian().expect("no fold");
     let both = block(&jacobian, Output::TipPosition, Input::BasePosition)
         + block(&jacobian, Output::TipPosition, Input::MagnetPosition);

@@ -96,7 +96,7 @@ fn attraction_softens_a_segment_as_it_does_a_beam_column() {
         let mut equilibrium = Equilibrium::new(&design(length).unwrap(), None, settings, 2).unwrap();
         let mut inputs = Inputs::unloaded(2);
         inputs.ring_forces[1].x = force;
-        assert!(equilibrium.solve(&inputs).unwrap().solved);
+        assert!(equilibrium.solve(&inputs).unwrap().solved());
         let tip = equilibrium.rings().nth(1).unwrap();
         let bare = Settings { interaction: Interaction::None, ..settings };
         let mut free = Equilibrium::new(&design(length).unwrap(), None, bare, 2).unwrap();

@@ -32,7 +32,7 @@ fn moment(about: Vector3<f64>) -> Inputs {
 
 fn solve(equilibrium: &mut Equilibrium, inputs: &Inputs) -> Report {
     let report = equilibrium.solve(inputs).expect("finite inputs");
-    assert!(report.solved, "{report:?}");
+    assert!(report.solved(), "{report:?}");
     report
 }
 

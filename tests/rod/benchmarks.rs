@@ -42,7 +42,7 @@ fn a_tip_moment_rolls_the_rod_up() {
             |part: f64| Inputs { tip_moment: Vector3::new(-part * full, 0.0, 0.0), ..Inputs::unloaded(0) };
         for part in [0.25, 0.49, 0.75, 1.0] {
             let report = rod.equilibrium.solve(&moment(part)).expect("finite inputs");
-            assert!(report.solved, "{part} of a circle: {report:?}");
+            assert!(report.solved(), "{part} of a circle: {report:?}");
             assert_eq!(report.stable, (part < 0.5).then_some(true), "{part} of a circle: {report:?}");
             let tip = rod.equilibrium.tip().position / rod.length;
             let angle = 2.0 * PI * part;

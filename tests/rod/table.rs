@@ -121,7 +121,7 @@ impl Rod {
 
     pub(crate) fn solve(&mut self, inputs: &Inputs) -> Report {
         let report = self.equilibrium.solve(inputs).expect("finite inputs");
-        assert!(report.solved, "{report:?}");
+        assert!(report.solved(), "{report:?}");
         report
     }
 }

@@ -57,7 +57,7 @@ fn a_shape_goes_through_the_rings_of_another_resolution() {
         |degree| Equilibrium::new(&design, None, Settings { degree, ..Settings::default() }, 2).unwrap();
     let (mut coarse, fine) = (with(1), with(4));
     let inputs = Inputs { uniform_field: [0.002, 0.008, -0.001].into(), ..Inputs::unloaded(4) };
-    assert!(coarse.solve(&inputs).unwrap().solved);
+    assert!(coarse.solve(&inputs).unwrap().solved());
     let rings: Vec<_> = coarse.rings().collect();
     let amplitudes = fine.amplitudes_through(&rings).unwrap();
     for (number, (got, expected)) in fine.rings_at(&inputs.base, &amplitudes).iter().zip(&rings).enumerate() {

@@ -15,6 +15,7 @@ use crate::equilibrium::chain::arc_lengths;
 use crate::equilibrium::correction::Report;
 use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::outcome::Outcome;
 use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::{Interaction, Settings};
 use crate::equilibrium::source::Source;
@@ -39,7 +40,7 @@ const RULE_CHOICES: u32 = 3;
 /// let mut shooting = Comparison::new(&design, None, settings, 11)?;
 /// let mut inputs = Inputs::unloaded(2);
 /// inputs.uniform_field.y = 0.02;
-/// assert!(shooting.solve(&inputs)?.solved);
+/// assert!(shooting.solve(&inputs)?.solved());
 /// let angle = shooting.tip().axis().angle(&nalgebra::Vector3::z());
 /// assert!((angle.to_degrees() - 30.50).abs() < 0.01);
 /// # Ok::<(), mcm::error::Error>(())
@@ -143,11 +144,12 @@ impl Comparison {
         let answers = if done >= 1.0 { self.answers(inputs) } else { None };
         let Some((energy, wrenches)) = answers else {
             self.state = before;
+            report.progress = done;
             return Ok(report);
         };
         self.state.inputs = Some(inputs.clone());
         self.state.wrenches = wrenches;
-        (report.solved, report.energy) = (true, energy);
+        (report.outcome, report.progress, report.energy) = (Outcome::Solved, 1.0, energy);
         Ok(report)
     }
 

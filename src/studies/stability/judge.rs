@@ -82,7 +82,7 @@ impl Judge {
 
     /// Follows the branch to `inputs`; whether it goes so far.
     pub(super) fn load(&mut self, inputs: &Inputs) -> Result<bool, Error> {
-        Ok(self.fine.solve(inputs)?.solved)
+        Ok(self.fine.solve(inputs)?.solved())
     }
 
     /// The equilibrium to which [`Judge::load`] has come.

@@ -1,0 +1,105 @@
+//! How a solve ends, and what to do about it.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// How a search for an equilibrium ended.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Outcome {
+    /// At an equilibrium; whether it is stable is told beside it.
+    Solved,
+    /// At an equilibrium of neutral stability: one direction is free to rounding, as where a bent manipulator may turn
+    /// about the axis of an antiparallel field.
+    Neutral,
+    /// The branch ends at a fold, and no stable shape was found beyond it.
+    BranchEnds,
+    /// Two bodies would share volume.
+    Contact(Contact),
+    /// The iterations or the processor time that the settings allow were used up.
+    OutOfBudget,
+}
+
+/// Two bodies that share volume.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Contact {
+    /// A body of the manipulator.
+    pub first: Body,
+    /// The body that it meets.
+    pub second: Body,
+    /// How deep one is inside the other, m.
+    pub depth: f64,
+}
+
+/// A body, numbered from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Body {
+    /// A ring magnet, counted from the base.
+    Ring(usize),
+    /// The soft part of a segment between two rings (of a plain cylinder, one of its elements), counted from the base.
+    Segment(usize),
+    /// A cylinder of the external magnet.
+    MagnetCylinder(usize),
+}
+
+impl Outcome {
+    /// Whether there is an equilibrium at the inputs asked for.
+    #[must_use]
+    pub fn is_solved(self) -> bool {
+        matches!(self, Self::Solved | Self::Neutral)
+    }
+
+    /// Its name in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::Neutral => "neutral",
+            Self::BranchEnds => "branch_ends",
+            Self::Contact(_) => "contact",
+            Self::OutOfBudget => "out_of_budget",
+        }
+    }
+}
+
+/// What happened and what to do about it, in a sentence without a full stop.
+impl fmt::Display for Outcome {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Solved => write!(out, "an equilibrium was found"),
+            Self::Neutral => write!(
+                out,
+                "the equilibrium is neutral: one direction is free, as about the axis of an antiparallel field; a slight \
+                 asymmetry of the inputs decides where it settles"
+            ),
+            Self::BranchEnds => write!(
+                out,
+                "the branch ends at a fold and no stable shape was found beyond it; go back, take another way, or allow \
+                 the windings to touch (bending_stop)"
+            ),
+            Self::Contact(contact) => write!(out, "bodies touch: {contact}; keep them apart"),
+            Self::OutOfBudget => write!(
+                out,
+                "the iterations or the processor time allowed were used up (model.time_budget_s); allow more, or take \
+                 shorter steps"
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Contact {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} is {:.3} mm deep in {}", self.first, 1e3 * self.depth, self.second)
+    }
+}
+
+/// Counted from 1, as in the FMU and in scene files.
+impl fmt::Display for Body {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ring(number) => write!(out, "ring {}", number + 1),
+            Self::Segment(number) => write!(out, "segment {}", number + 1),
+            Self::MagnetCylinder(number) => write!(out, "cylinder {} of the external magnet", number + 1),
+        }
+    }
+}
