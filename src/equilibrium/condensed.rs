@@ -11,14 +11,19 @@ use crate::numerics::trust_region::Objective;
 use crate::rod::Order;
 
 impl Objective for Potential<'_> {
-    fn value(&mut self, x: &[f64]) -> Option<f64> {
-        self.load(x, Order::Gradient)
+    fn slope(&mut self, x: &[f64]) -> Option<f64> {
+        let energy = self.load(x, Order::Gradient)?;
+        self.backward(x, Order::Gradient).then_some(energy)
     }
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
         self.work.factored = false;
         let energy = self.load(x, Order::Hessian)?;
         let regular = self.backward(x, Order::Hessian);
+        // The Hessian is factorised and solved with in the axes in which it was made, wherever the chain moves afterwards.
+        for (axes, node) in self.work.axes.iter_mut().zip(&self.work.nodes) {
+            *axes = node.rotation;
+        }
         self.note_origin(x);
         regular.then_some(energy)
     }
@@ -37,12 +42,7 @@ impl Objective for Potential<'_> {
                 return false;
             }
         }
-        let work = &mut *self.work;
-        // Solves turn into the axes in which this factor was made, wherever the chain moves afterwards.
-        for (axes, node) in work.axes.iter_mut().zip(&work.nodes) {
-            *axes = node.rotation;
-        }
-        work.lu = None;
+        self.work.lu = None;
         let conservative = self.conservative();
         if !conservative {
             self.work.lu = Some(self.asymmetric_matrix().lu());
@@ -51,6 +51,10 @@ impl Objective for Potential<'_> {
         let regular = self.work.lu.as_ref().is_some_and(nalgebra::LU::is_invertible);
         self.work.factored = if conservative { self.work.definite } else { regular };
         self.work.factored
+    }
+
+    fn dissipates(&self) -> bool {
+        self.work.definite || self.one_sided()
     }
 
     fn solve(&mut self, x: &mut [f64]) {
@@ -76,7 +80,7 @@ impl Potential<'_> {
         if !reduction.condense(&work.tangents[k], &self.chain.elements[k].metric, shift) {
             return false;
         }
-        let axes = work.nodes[k].rotation;
+        let axes = work.axes[k];
         for i in 0..4 {
             for j in 0..4 {
                 // The first six rows are the base's where the element starts there.

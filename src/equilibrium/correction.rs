@@ -1,9 +1,10 @@
 //! Newton's corrections of a shape, and what their factorisation tells about its stability.
 
 use super::chain::Chain;
+use super::deadline::Deadline;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::potential::{Potential, Workspace};
+use super::potential::{Potential, THOROUGH, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
 use super::source::Source;
@@ -25,9 +26,6 @@ pub(super) const KEPT: f64 = 0.1;
 
 /// The look at the margin after every solve: enough to see a fold come.
 const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
-
-/// The look at the margin when it is asked for.
-const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
 /// Part of every direction that is mixed into the last softest one before it is looked for again.
 const EVERY_DIRECTION: f64 = 0.3;
@@ -156,6 +154,7 @@ pub(super) struct Walk<'a> {
     pub(super) rules: &'a mut PairRules,
     pub(super) scratch: &'a mut Scratch,
     pub(super) report: Report,
+    pub(super) deadline: &'a Deadline,
     /// How far loads and shape may drift from the last factorisation.
     pub(super) reach: f64,
 }
@@ -209,7 +208,8 @@ impl Walk<'_> {
             if settled {
                 // The rules must be those of the solved shape, or the answer would depend on the way to it.
                 if choices == 0 || !self.choose_rules_here() {
-                    return Some(End::Held);
+                    // Without a potential a root may be an unstable shape.
+                    return self.potential(inputs).is_stable().then_some(End::Held);
                 }
                 (previous, choices) = (first, choices - 1);
             }
@@ -256,7 +256,7 @@ impl Walk<'_> {
         let Scene { chain, settings, .. } = self.scene;
         for done in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
-            let Some(energy) = potential.slope(unknowns) else { return false };
+            let Some(energy) = potential.chord_slope(unknowns) else { return false };
             let residual = dual_norm(potential.metric(), potential.gradient()) / chain.unit();
             (self.report.residual, self.report.energy) = (residual, energy);
             let holds = until == 0.0 || self.holds(unknowns);
@@ -295,22 +295,20 @@ impl Walk<'_> {
 
     /// An upper bound of the margin at the shape `unknowns`, which the last correction has found.
     pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64]) {
-        self.work.reference.origin.judged = true;
-        if !self.potential(inputs).has_verdict() {
-            return;
-        }
-        let mut margin = self.look(inputs, softest);
-        if margin < DOUBTFUL {
+        let mut margin = if self.work.factored { self.look(inputs, softest) } else { f64::NAN };
+        if margin.is_nan() || margin < DOUBTFUL {
             // The Hessian is that of a shape one step earlier, which may be held by what it was off.
             let mut potential = self.potential(inputs);
-            let definite = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
-            self.work.reference.origin.judged = definite;
-            margin = if definite { self.look(inputs, softest) } else { 0.0 };
+            let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
+            margin = if regular { self.look(inputs, softest) } else { 0.0 };
         }
+        self.work.reference.origin.judged = self.work.factored;
         if margin.is_finite() {
             let held = margin > FREE;
             (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));
+            self.report.outcome = if held { Outcome::Solved } else { Outcome::Neutral };
         } else {
+            self.report.outcome = Outcome::Solved;
             softest.fill(0.0);
         }
     }
@@ -321,8 +319,7 @@ impl Walk<'_> {
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);
         let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
-        let mut potential = self.potential(inputs);
-        let margin = lanczos.smallest(metric, 0.0, softest, GLANCE, |x| potential.solve_symmetric(x));
+        let margin = self.potential(inputs).margin(&mut lanczos, softest, GLANCE);
         self.scratch.lanczos = lanczos;
         margin
     }
@@ -337,8 +334,7 @@ fn apply(unknowns: &mut [f64], step: &[f64]) {
 
 /// The margin at the shape and with the factorisation of `potential`, to about nine digits.
 pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
-    let metric = &potential.chain.metric;
-    let mut softest = vec![0.0; metric.len()];
-    spread(metric, &mut softest, 1.0);
-    Lanczos::default().smallest(metric, 0.0, &mut softest, THOROUGH, |x| potential.solve_symmetric(x))
+    let mut softest = vec![0.0; potential.chain.freedoms()];
+    spread(&potential.chain.metric, &mut softest, 1.0);
+    potential.margin(&mut Lanczos::default(), &mut softest, THOROUGH)
 }

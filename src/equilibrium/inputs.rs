@@ -60,6 +60,12 @@ impl Inputs {
         Self { magnet: self.magnet, base: self.base, ..Self::unloaded(self.ring_forces.len()) }
     }
 
+    /// The same without the dead moment on the tip, the one load that has no potential.
+    #[must_use]
+    pub fn without_moment(&self) -> Self {
+        Self { tip_moment: Vector3::zeros(), ..self.clone() }
+    }
+
     /// Takes over `other`, without allocating if it has as many rings.
     pub fn copy_from(&mut self, other: &Self) {
         let mut ring_forces = std::mem::take(&mut self.ring_forces);

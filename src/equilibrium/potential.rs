@@ -14,10 +14,19 @@ use super::settings::{Interaction, Settings};
 use super::source::Source;
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
+use crate::numerics::arnoldi::smallest_real_part;
+use crate::numerics::eigenvalue::{Lanczos, Search};
+use crate::numerics::trust_region::{Objective, spread};
 use crate::rod::{Configuration, Load, Order, START, Tangent};
 
 /// Residual from which on tables may stand: smaller ones are asked for by those who take differences, which jumps spoil.
 const TABLE_RESIDUAL: f64 = 5e-8;
+
+/// Arnoldi vectors for the eigenvalues of a matrix that is not symmetric.
+const ARNOLDI: usize = 64;
+
+/// The look at the margin when it is asked for.
+pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
@@ -131,19 +140,45 @@ impl Potential<'_> {
         !self.one_sided() && self.inputs.tip_moment == Vector3::zeros()
     }
 
-    /// Whether the last factorisation tells that the shape is stable. Of a dead moment the symmetric part of the
-    /// stiffness decides: where it is positive definite no displacement gains energy.
-    pub(super) fn has_verdict(&self) -> bool {
-        self.work.definite
+    /// The smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper bound by `search`;
+    /// positive where the shape is stable, NaN where none is found. `softest` is the first guess, and then its vector.
+    ///
+    /// Of forces without a potential, the symmetric part decides where it is positive definite: then no displacement gains
+    /// energy. Else it is the smallest real part of the whole matrix' eigenvalues: where that is negative the shape diverges in
+    /// overdamped motion. Whether a shape flutters, in a pair of complex eigenvalues of the undamped motion, is another
+    /// question: it takes the masses and the damping, which statics does not know.
+    pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
+        let metric = &self.chain.metric;
+        if self.work.definite {
+            return lanczos.smallest(metric, 0.0, softest, search, |x| self.solve_symmetric(x));
+        }
+        smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
     }
 
-    /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy.
-    pub(super) fn slope(&mut self, x: &[f64]) -> Option<f64> {
+    /// Whether the shape factorised last is stable, for all that its factorisation tells; see [`Potential::margin`].
+    pub(super) fn is_stable(&mut self) -> bool {
+        if self.work.definite {
+            return true;
+        }
+        let mut softest = vec![0.0; self.chain.metric.len()];
+        spread(&self.chain.metric, &mut softest, 1.0);
+        self.margin(&mut Lanczos::default(), &mut softest, THOROUGH) > 0.0
+    }
+
+    /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy. Tables may stand for the rings'
+    /// fields, so that energies are not to be compared.
+    pub(super) fn chord_slope(&mut self, x: &[f64]) -> Option<f64> {
         self.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
-        let energy = self.load(x, Order::Gradient);
+        let energy = self.slope(x);
         self.tabulated = false;
-        let energy = energy?;
-        self.backward(x, Order::Gradient).then_some(energy)
+        energy
+    }
+
+    /// The Newton step from the last gradient with the last factorisation.
+    pub(super) fn newton_step(&mut self) -> Vec<f64> {
+        let mut step: Vec<f64> = self.work.gradient.iter().map(|slope| -slope).collect();
+        self.solve(&mut step);
+        step
     }
 
     /// Places the chain and adds up all loads; the energy, or `None` where something touches.

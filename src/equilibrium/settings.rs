@@ -88,7 +88,7 @@ pub struct Settings {
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one solve, after which it has failed; default 500, fewer where each takes long.
+    /// Iterations at most of one solve, after which it has failed; default 1500. It is the time that bounds most solves.
     pub iterations: u32,
     /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
     /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
@@ -113,7 +113,7 @@ impl Default for Settings {
             follow_step: 0.5,
             smallest_part: 1.0 / 4096.0,
             fold_margin: 0.05,
-            iterations: 500,
+            iterations: 1500,
             time_budget: 1.0,
             method: Method::Potential,
             discretisation: Discretisation::default(),

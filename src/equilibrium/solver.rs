@@ -5,8 +5,9 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::{Chain, arc_lengths};
-use super::correction::{Report, Scene, Scratch, measure};
+use super::correction::{Report, Scene, Scratch, Walk, measure};
 use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
+use super::deadline::Deadline;
 use super::follow::Branch;
 use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
@@ -50,12 +51,6 @@ pub struct Equilibrium {
     scratch: Scratch,
 }
 
-/// Hessians times pairs of a ring and an element in one solve, which take about a second: one without a solution ends.
-const MOST_PAIRS: usize = 18_000;
-
-/// Iterations that are allowed whatever they take.
-const LEAST_ITERATIONS: usize = 100;
-
 impl Equilibrium {
     /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
@@ -76,7 +71,6 @@ impl Equilibrium {
         }
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let chain = Chain::new(design, &settings)?;
-        let settings = affordable(settings, &chain);
         let shape = arc_lengths.map(|s| point_at(&chain, s));
         let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, &settings));
         let mut out = Self {
@@ -117,15 +111,17 @@ impl Equilibrium {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// branch is then untouched. A solve that fails is no error: see [`Report::solved`].
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
-        self.solve_within(inputs, self.settings.iterations)
+        self.solve_before(&Deadline::new(self.settings.time_budget), inputs)
     }
 
-    /// The same in so many iterations.
-    pub(crate) fn solve_within(&mut self, inputs: &Inputs, iterations: u32) -> Result<Report, Error> {
+    /// The same before a deadline that other solves may share.
+    pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
-        let settings = &Settings { iterations, ..self.settings };
-        let scene = Scene { chain: &self.chain, settings, magnet: self.magnet.as_ref() };
-        Ok(scene.follow(&mut self.branch, inputs, &mut self.work, &mut self.rules, &mut self.scratch))
+        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
+        let report = Report::start();
+        let mut walk = Walk { scene, work, rules, scratch, report, deadline, reach: 0.0 };
+        Ok(walk.follow(&mut self.branch, inputs))
     }
 
     /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
@@ -135,8 +131,8 @@ impl Equilibrium {
         let unknowns = self.branch.unknowns.clone();
         let mut potential = self.potential(&inputs, &unknowns);
         potential.linearise(&unknowns)?;
-        let definite = potential.factorise(0.0) && potential.has_verdict();
-        definite.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
+        let regular = potential.factorise(0.0);
+        regular.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// The inputs of the last solved shape.
@@ -293,16 +289,6 @@ impl Equilibrium {
         }
         out
     }
-}
-
-/// No more iterations than pairs of rings and spans allow.
-fn affordable(settings: Settings, chain: &Chain) -> Settings {
-    let pairs = chain.rings.len() * chain.elements.len();
-    if !settings.interaction.acts_on_spans() || pairs == 0 {
-        return settings;
-    }
-    let most = u32::try_from((MOST_PAIRS / pairs).max(LEAST_ITERATIONS)).unwrap_or(u32::MAX);
-    Settings { iterations: settings.iterations.min(most), ..settings }
 }
 
 /// Finds the body at unstrained arc length `s` from the base.

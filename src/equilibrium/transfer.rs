@@ -40,7 +40,7 @@ impl Equilibrium {
         let mut unknowns = self.branch.unknowns.clone();
         let mut potential = self.potential(&inputs, &unknowns);
         potential.linearise(&unknowns)?;
-        let stable = potential.factorise(0.0) && potential.has_verdict();
+        let stable = potential.factorise(0.0) && potential.is_stable();
         let mut step: Vec<f64> = potential.gradient().iter().map(|slope| -slope).collect();
         if stable {
             potential.solve(&mut step);

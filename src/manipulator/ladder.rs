@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::design::Design;
-use crate::equilibrium::{self, Equilibrium, Gap, Inputs, Interaction, Report, Settings};
+use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Interaction, Report, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::Assembly;
@@ -53,6 +53,7 @@ pub(super) struct Ladder {
     wait: Wait,
     length: f64,
     fold_margin: f64,
+    time_budget: f64,
     /// Largest error of the tip: position (m) and angle (rad).
     tolerance: Gap,
     /// The residual that is asked for of the richest model.
@@ -120,6 +121,7 @@ impl Ladder {
             wait: Wait::NONE,
             length: design.length(),
             fold_margin: settings.fold_margin,
+            time_budget: settings.time_budget,
             tolerance: Gap { distance: settings.tolerance_position, angle: settings.tolerance_angle },
             residual: settings.tolerance,
         };
@@ -169,15 +171,17 @@ impl Ladder {
         if last == 0 {
             return self.rungs[0].solve(inputs);
         }
+        // All models of one solve share its time.
+        let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
             return self.ascend(0, inputs, |models, rung| {
                 models[rung].reset();
-                models[rung].solve(inputs)
+                models[rung].solve_before(&deadline, inputs)
             });
         };
         // The richest one needs no way back.
         let way_back = (from < last).then(|| (before.clone(), self.present().unknowns().to_vec()));
-        let report = self.rungs[from].solve(inputs)?;
+        let report = self.rungs[from].solve_before(&deadline, inputs)?;
         let changed = self.changed(inputs);
         if let Some((before, shape)) = way_back
             && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
@@ -186,9 +190,8 @@ impl Ladder {
             return self.ascend(next, inputs, |models, rung| {
                 let (lower, upper) = models.split_at_mut(rung);
                 upper[0].adopt(&lower[from], &shape, &before);
-                let settled = upper[0].solve(&before)?;
-                let left = upper[0].settings().iterations.saturating_sub(settled.iterations);
-                let report = upper[0].solve_within(inputs, left)?;
+                let settled = upper[0].solve_before(&deadline, &before)?;
+                let report = upper[0].solve_before(&deadline, inputs)?;
                 let (iterations, snaps) =
                     (settled.iterations + report.iterations, settled.snaps + report.snaps);
                 Ok(Report { iterations, snaps, ..report })
@@ -198,7 +201,7 @@ impl Ladder {
             return Ok(report);
         }
         if self.wait.is_over() {
-            return self.descend(inputs, report);
+            return self.descend(inputs, report, &deadline);
         }
         if from == last {
             self.note(inputs, Gap::NONE);
@@ -231,7 +234,7 @@ impl Ladder {
     }
 
     /// Tries the next cheaper rung; without success `report` stays the answer.
-    fn descend(&mut self, inputs: &Inputs, report: Report) -> Result<Report, Error> {
+    fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
         // The richest model forgets its branch as it judges.
         let kept = (from == self.last()).then(|| self.rungs[from].clone());
@@ -239,7 +242,7 @@ impl Ladder {
         let (lower, upper) = self.rungs.split_at_mut(from);
         let cheaper = &mut lower[from - 1];
         cheaper.adopt(&upper[0], upper[0].unknowns(), inputs);
-        let other = cheaper.solve(inputs)?;
+        let other = cheaper.solve_before(deadline, inputs)?;
         self.present = from - 1;
         if self.is_sound(&other) && self.judge(inputs, DESCEND) {
             self.wait = Wait::NONE;

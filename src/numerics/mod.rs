@@ -1,10 +1,12 @@
 //! Numerical methods that know no physics.
 
+pub mod arnoldi;
 pub mod cholesky;
 pub mod continuation;
 pub mod eigenvalue;
 pub mod lagrange;
 pub mod levenberg_marquardt;
 pub mod newton;
+pub mod pseudo_transient;
 pub mod quadrature;
 pub mod trust_region;

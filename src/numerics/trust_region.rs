@@ -2,20 +2,26 @@
 //!
 //! The step of each iteration minimises the quadratic model inside the region: `(H + shift K) s = -g` with the
 //! `shift` that puts `s` on the rim (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983). It ends at a
-//! minimum, not at a saddle: from a saddle it leaves along the direction of negative curvature.
+//! minimum, not at a saddle: from a saddle it leaves along the direction of negative curvature. A step that the model
+//! predicts badly is bent to follow the valley.
 
 use super::eigenvalue::{Lanczos, Search, inner};
 
 /// What is minimised.
 pub trait Objective {
-    /// Value at `x`; `None` where it is not defined.
-    fn value(&mut self, x: &[f64]) -> Option<f64>;
+    /// Computes the gradient at `x` and keeps it, beside the Hessian of the last linearisation; the value, or `None` where it
+    /// is not defined.
+    fn slope(&mut self, x: &[f64]) -> Option<f64>;
     /// Computes gradient and Hessian at `x` and keeps them; the value, or `None` where it is not defined.
     fn linearise(&mut self, x: &[f64]) -> Option<f64>;
-    /// The gradient of the last linearisation.
+    /// The gradient of the last linearisation or slope.
     fn gradient(&self) -> &[f64];
     /// Factorises `H + shift K`; whether it is positive definite.
     fn factorise(&mut self, shift: f64) -> bool;
+    /// Whether the damped motion along the last factorised matrix loses energy in every direction.
+    fn dissipates(&self) -> bool {
+        true
+    }
     /// Replaces `x` by `(H + shift K)^-1 x` with the last factorisation.
     fn solve(&mut self, x: &mut [f64]);
     /// The diagonal of `K`.
@@ -51,11 +57,29 @@ pub struct Minimum {
 /// Smallest radius, relative to the first, before the search is given up.
 const SMALLEST: f64 = 1e-10;
 
-/// Change of the value, relative to it, of which its rounding leaves nothing to compare.
-const ROUNDING: f64 = 1e-12;
+/// Change of the value, relative to it, below which its rounding spoils a comparison: values are sums that cancel.
+const ROUNDING: f64 = 1e-8;
 
 /// Width of the bracket of the shift, relative to it, at which a step that is still inside the region is the hard case.
 const HARD: f64 = 1e-3;
+
+/// Decrease of the radius after a step that was refused.
+const SHRINKING: f64 = 0.4;
+
+/// Ratio of the real to the predicted decrease above which the quadratic model is good.
+const GOOD: f64 = 0.75;
+
+/// The same for a bent step, of whose decrease the model knows less.
+const FAIR: f64 = 0.4;
+
+/// Stiffness, relative to the metric, from which on a direction is a wall of a valley.
+const STIFF: f64 = 0.05;
+
+/// Part of a step by which it was bent last where it follows the valley.
+const BENT: f64 = 0.05;
+
+/// How often a step is bent at most.
+const BENDS: u32 = 8;
 
 /// Shifts at most that are tried for one step.
 const SHIFTS: u32 = 40;
@@ -72,15 +96,21 @@ pub fn dual_norm(metric: &[f64], g: &[f64]) -> f64 {
     metric.iter().zip(g).map(|(k, v)| v * v / k).sum::<f64>().sqrt()
 }
 
-/// Moves `x` to a minimum of `objective`.
-pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) -> Minimum {
+/// Moves `x` to a minimum of `objective`, as long as `proceed` is true before an iteration.
+pub fn minimise(
+    objective: &mut impl Objective,
+    x: &mut [f64],
+    region: &Region,
+    proceed: impl Fn() -> bool,
+) -> Minimum {
     let mut radius = region.radius;
     let mut end = Minimum { converged: false, iterations: 0, residual: f64::INFINITY, tie: false };
     let Some(mut value) = objective.linearise(x) else { return end };
-    let mut step = vec![0.0; x.len()];
-    let mut trial = vec![0.0; x.len()];
-    while end.iterations < region.iterations {
-        end.residual = dual_norm(objective.metric(), objective.gradient());
+    let mut gradient = objective.gradient().to_vec();
+    let (mut step, mut back) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    let (mut trial, mut bent) = (vec![0.0; x.len()], vec![0.0; x.len()]);
+    while end.iterations < region.iterations && proceed() {
+        end.residual = dual_norm(objective.metric(), &gradient);
         let stationary = end.residual <= region.tolerance;
         let definite = objective.factorise(0.0);
         if stationary && definite {
@@ -89,44 +119,90 @@ pub fn minimise(objective: &mut impl Objective, x: &mut [f64], region: &Region) 
         }
         end.iterations += 1;
         end.tie |= stationary;
-        let predicted = model_step(objective, definite, radius, &mut step);
-        for (t, (a, b)) in trial.iter_mut().zip(x.iter().zip(&step)) {
-            *t = a + b;
+        let Model { decrease, shift } = model_step(objective, &gradient, definite, radius, &mut step);
+        let length = norm(objective.metric(), &step);
+        trial.iter_mut().zip(x.iter().zip(&step)).for_each(|(t, (a, b))| *t = a + b);
+        // Near the rounding of the value the gradients tell the decrease, by the trapezoidal rule.
+        let rounding = decrease.abs() <= ROUNDING * value.abs();
+        let gain_at = |objective: &mut dyn Objective, trial: &[f64]| {
+            let next = objective.slope(trial)?;
+            let slopes = gradient.iter().zip(objective.gradient()).zip(trial.iter().zip(&*x));
+            let descent = || slopes.map(|((g, h), (a, b))| -0.5 * (g + h) * (a - b)).sum::<f64>();
+            Some(if rounding { descent() } else { value - next } / decrease)
+        };
+        let (mut gain, mut good) = (gain_at(objective, &trial), GOOD);
+        if gain.is_some_and(|gain| gain < good) && objective.factorise(shift + STIFF) {
+            for _ in 0..BENDS {
+                let by = bend(objective, shift, &step, &mut back);
+                bent.iter_mut().zip(trial.iter().zip(&back)).for_each(|(t, (a, b))| *t = a + b);
+                let better = if by < length { gain_at(objective, &bent) } else { None };
+                let Some(better) = better.filter(|better| gain.is_some_and(|gain| *better > gain)) else {
+                    break;
+                };
+                (gain, good) = (Some(better), FAIR);
+                std::mem::swap(&mut trial, &mut bent);
+                if better > FAIR && by < BENT * length {
+                    break;
+                }
+            }
         }
-        let gain = objective.value(&trial).map(|next| (value - next) / predicted);
-        // Below the rounding of the value the ratio says nothing; the model is then trusted.
-        let rounding = predicted.abs() <= ROUNDING * value.abs();
         match gain {
-            Some(ratio) if ratio > 0.05 || (rounding && definite) => {
+            Some(ratio) if ratio > 0.05 => {
                 x.copy_from_slice(&trial);
                 let Some(next) = objective.linearise(x) else { return end };
                 value = next;
-                if ratio > 0.75 {
-                    radius = region.largest.min(radius.max(2.0 * norm(objective.metric(), &step)));
-                } else if ratio < 0.25 && !rounding {
+                gradient.copy_from_slice(objective.gradient());
+                if ratio > good {
+                    radius = region.largest.min(radius.max(2.0 * length));
+                } else if ratio < 0.25 {
                     radius *= 0.5;
                 }
             }
-            _ => radius = 0.25 * radius.min(norm(objective.metric(), &step)),
+            _ => radius = SHRINKING * radius.min(length),
         }
         if radius < SMALLEST * region.radius {
             return end;
         }
     }
-    end.residual = dual_norm(objective.metric(), objective.gradient());
+    end.residual = dual_norm(objective.metric(), &gradient);
     end
 }
 
-/// The step inside `radius` that minimises the quadratic model; returns the decrease that it predicts.
-fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step: &mut [f64]) -> f64 {
+/// Writes to `back` how a step is to be bent, so that it follows a curved valley, and returns how far: back down its stiff walls
+/// from where it has led to, `-(H + (shift + STIFF) K)^-1 (g' + shift K s)`, as the quadratic model leaves the gradient
+/// `-shift K s` there. It is the second-order correction of trust regions (Conn, Gould and Toint, Trust-Region Methods,
+/// SIAM 2000, section 15.3.2.3) for walls that are stiff and not rigid.
+fn bend(objective: &mut impl Objective, shift: f64, step: &[f64], back: &mut [f64]) -> f64 {
+    let metric = objective.metric();
+    for (((b, g), k), s) in back.iter_mut().zip(objective.gradient()).zip(metric).zip(step) {
+        *b = -g - shift * k * s;
+    }
+    objective.solve(back);
+    norm(objective.metric(), back)
+}
+
+/// What the quadratic model tells of its step.
+struct Model {
+    /// The decrease that it predicts.
+    decrease: f64,
+    /// The shift with which the step was found.
+    shift: f64,
+}
+
+/// The step inside `radius` that minimises the quadratic model.
+fn model_step(
+    objective: &mut impl Objective,
+    gradient: &[f64],
+    definite: bool,
+    radius: f64,
+    step: &mut [f64],
+) -> Model {
     let mut shift = 0.0;
     let (mut low, mut high) = (0.0_f64, f64::INFINITY);
     let mut factored = definite;
     for _ in 0..SHIFTS {
         if factored {
-            for (s, g) in step.iter_mut().zip(objective.gradient()) {
-                *s = -g;
-            }
+            step.iter_mut().zip(gradient).for_each(|(s, g)| *s = -g);
             objective.solve(step);
             let length = norm(objective.metric(), step);
             if (length <= radius && shift == 0.0) || (length - radius).abs() <= 0.1 * radius {
@@ -135,7 +211,8 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
             if length < radius {
                 high = high.min(shift);
                 if high - low <= HARD * high {
-                    return along_negative_curvature(objective, shift, radius, step);
+                    let decrease = along_negative_curvature(objective, gradient, shift, radius, step);
+                    return Model { decrease, shift };
                 }
             } else {
                 low = low.max(shift);
@@ -164,9 +241,9 @@ fn model_step(objective: &mut impl Objective, definite: bool, radius: f64, step:
         }
     }
     // g.s + s.H s / 2 with H s = -g - shift K s holds for the unscaled step; scaling errs on the safe side.
-    let linear: f64 = objective.gradient().iter().zip(step.iter()).map(|(g, s)| g * s).sum();
+    let linear: f64 = gradient.iter().zip(step.iter()).map(|(g, s)| g * s).sum();
     let length = norm(objective.metric(), step);
-    0.5 * (shift * length * length - linear)
+    Model { decrease: 0.5 * (shift * length * length - linear), shift }
 }
 
 /// Between the bounds of the shift; the eigenvalues relative to the metric are of order one.
@@ -183,12 +260,13 @@ fn middle(low: f64, high: f64) -> f64 {
 /// predicts, with `H s = -g - shift K s`.
 fn along_negative_curvature(
     objective: &mut impl Objective,
+    gradient: &[f64],
     shift: f64,
     radius: f64,
     step: &mut [f64],
 ) -> f64 {
     let metric = objective.metric().to_vec();
-    let linear: f64 = objective.gradient().iter().zip(step.iter()).map(|(g, s)| g * s).sum();
+    let linear: f64 = gradient.iter().zip(step.iter()).map(|(g, s)| g * s).sum();
     let length = norm(&metric, step);
     let inside = 0.5 * (shift * length * length - linear);
     let mut direction = vec![0.0; step.len()];

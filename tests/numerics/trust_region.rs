@@ -15,8 +15,10 @@ struct Problem {
 }
 
 impl Objective for Problem {
-    fn value(&mut self, x: &[f64]) -> Option<f64> {
-        (self.function)(x).map(|(value, _, _)| value)
+    fn slope(&mut self, x: &[f64]) -> Option<f64> {
+        let (value, gradient, _) = (self.function)(x)?;
+        self.gradient = gradient.as_slice().to_vec();
+        Some(value)
     }
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
@@ -50,7 +52,9 @@ fn run(function: Function, metric: &[f64], x: &mut [f64]) -> Minimum {
     let size = x.len();
     let (metric, gradient, hessian) = (metric.to_vec(), vec![0.0; size], DMatrix::zeros(size, size));
     let mut problem = Problem { function, metric, gradient, hessian, factor: None };
-    minimise(&mut problem, x, &Region { radius: 0.1, largest: 1.0, tolerance: 1e-9, iterations: 200 })
+    minimise(&mut problem, x, &Region { radius: 0.1, largest: 1.0, tolerance: 1e-9, iterations: 200 }, || {
+        true
+    })
 }
 
 /// `(x^2 - 1)^2 / 4 + y^2 / 2 + x y / 10`: a saddle at the origin between two minima.

@@ -1,0 +1,28 @@
+//! The processor time that a solve may take.
+
+use std::cell::OnceCell;
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+
+/// A budget of processor time of this thread. Its clock starts when it is looked at first, which a step that is foreseen well
+/// never does.
+#[derive(Debug)]
+pub(crate) struct Deadline {
+    budget: Duration,
+    start: OnceCell<Option<ThreadTime>>,
+}
+
+impl Deadline {
+    /// A budget in seconds.
+    pub(crate) fn new(seconds: f64) -> Self {
+        let budget = Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX);
+        Self { budget, start: OnceCell::new() }
+    }
+
+    /// Whether the budget is used up; never on a system that does not tell its threads' time.
+    pub(crate) fn has_passed(&self) -> bool {
+        let start = self.start.get_or_init(|| ThreadTime::try_now().ok());
+        start.and_then(|start| start.try_elapsed().ok()).is_some_and(|elapsed| elapsed > self.budget)
+    }
+}

@@ -1,0 +1,198 @@
+//! Following a stable branch while the inputs change: foresee the next shape and correct it; else go on in shorter steps; else
+//! descend to the next branch; then judge.
+
+use super::correction::{End, KEPT, NEARLY, ROUNDING, Report, Walk};
+use super::descent::PASSING;
+use super::follow::Branch;
+use super::inputs::Inputs;
+use super::outcome::Outcome;
+use crate::numerics::trust_region::norm;
+
+/// Largest first step from the straight shape to the one that the internal forces alone leave: there is no
+/// branch to lose yet.
+const SETTLING: f64 = 4.0;
+
+/// Part of a foreseen step by which it may have to be corrected.
+const MISTAKEN: f64 = 0.1;
+
+/// Part of the iterations, as one over this number, that is kept for a descent at the end of the way.
+const RESERVE: u32 = 3;
+
+/// How much longer a step is after one that had to be descended.
+const FURTHER: f64 = 4.0;
+
+/// Part of a step by which the way back may miss its start: a branch that turns more within a step is followed in shorter ones.
+const MISSED: f64 = 0.5;
+
+impl Walk<'_> {
+    /// Moves `branch` to the equilibrium at `target`; on failure the branch stays where it was.
+    pub(super) fn follow(&mut self, branch: &mut Branch, target: &Inputs) -> Report {
+        self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
+        self.scratch.last.copy_from_slice(&branch.unknowns);
+        let foreseen = self.foreseen(branch, target);
+        let end = foreseen.unwrap_or_else(|| self.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
+        match end {
+            End::Kept => {
+                (self.report.margin, self.report.stable) = (branch.margin, branch.stable);
+                self.report.outcome = Outcome::Solved;
+            }
+            End::Held => self.judge(target, &branch.unknowns, &mut branch.softest),
+            End::Neutral => {
+                // The factorisation is that of a shape on the way.
+                self.work.factored = false;
+                (self.report.stable, self.report.outcome) = (Some(false), Outcome::Neutral);
+            }
+            End::Lost => {
+                self.work.factored = false;
+                branch.unknowns.copy_from_slice(&self.scratch.last);
+                self.report.outcome =
+                    if self.may_go_on() { Outcome::BranchEnds } else { Outcome::OutOfBudget };
+                return self.report;
+            }
+        }
+        self.report.progress = 1.0;
+        (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
+        branch.advance(target, &self.scratch.last, self.report.snaps > 0);
+        self.report
+    }
+
+    /// Corrects the shape that the last steps lead to expect, if they do and it is nearly right.
+    fn foreseen(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        let expected = branch.foresee(target, &self.scene, &mut trial);
+        let mut end =
+            expected.and_then(|length| self.correct(target, &mut trial, (MISTAKEN * length).max(NEARLY)));
+        if let (Some(End::Held), Some(before)) = (end, &branch.inputs)
+            && !self.goes_on([before, target], [&branch.unknowns, &trial])
+        {
+            end = None;
+        }
+        if end.is_some() {
+            branch.unknowns.copy_from_slice(&trial);
+        }
+        self.scratch.trial = trial;
+        end
+    }
+
+    /// Follows the branch from the inputs of `unknowns` (`None`: straight, nothing is solved yet) to `target`.
+    fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut [f64]) -> End {
+        if let Some(start) = from {
+            return self.advance([start, target], [0.0, 1.0], unknowns);
+        }
+        // The unloaded shape: its internal forces alone, found from straight.
+        let unloaded = target.without_loads();
+        if self.correct(&unloaded, unknowns, SETTLING).is_none()
+            && self.descend(&unloaded, unknowns, self.resting()) != End::Held
+        {
+            return End::Lost;
+        }
+        let held = target.without_moment();
+        if held == *target {
+            return self.advance([&unloaded, target], [0.0, 1.0], unknowns);
+        }
+        // A load without a potential does not choose the branch: it is added to the shape that all others leave.
+        match self.advance([&unloaded, &held], [0.0, 0.5], unknowns) {
+            End::Lost => End::Lost,
+            End::Kept | End::Held | End::Neutral => self.advance([&held, target], [0.5, 1.0], unknowns),
+        }
+    }
+
+    /// Follows the branch along the inputs between two; `stage` is where that lies in the whole solve.
+    fn advance(&mut self, [start, target]: [&Inputs; 2], stage: [f64; 2], unknowns: &mut [f64]) -> End {
+        let at = |part: f64| if part >= 1.0 { target.clone() } else { start.between(target, part) };
+        let (smallest, resting) = (self.scene.settings.smallest_part, self.resting());
+        let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
+        let mut here = start.clone();
+        let mut neutral = false;
+        while self.left() > self.scene.settings.iterations / RESERVE && self.may_go_on() {
+            self.report.progress = stage[0] + done * (stage[1] - stage[0]);
+            let next = f64::min(1.0, done + part);
+            let inputs = at(next);
+            let corrected = if neutral { None } else { self.try_to_correct([&here, &inputs], unknowns) };
+            if corrected.is_none() && !neutral && part > floor {
+                part *= 0.5;
+                continue;
+            }
+            let tolerance = if next < 1.0 { PASSING } else { resting };
+            let end = corrected.unwrap_or_else(|| self.descend_from([&here, &inputs], unknowns, tolerance));
+            // Where the branch has to be descended again and again, it is steep or nearly neutral: shorter steps are no help.
+            floor = if corrected.is_some() { smallest } else { FURTHER * floor };
+            neutral = end == End::Neutral && next < 1.0;
+            if neutral {
+                part = floor.max(part);
+                continue;
+            }
+            match end {
+                End::Kept | End::Held => {}
+                End::Neutral if self.report.residual <= ROUNDING => return End::Neutral,
+                End::Neutral | End::Lost => return End::Lost,
+            }
+            (done, here) = (next, inputs);
+            part = floor.max(2.0 * part);
+            if done >= 1.0 {
+                return end;
+            }
+        }
+        // Too many small steps along the branch: downhill all the way.
+        match self.descend_from([&here, target], unknowns, resting) {
+            End::Neutral if self.report.residual > ROUNDING => End::Lost,
+            end => end,
+        }
+    }
+
+    /// Residual at which a descent to the target ends.
+    fn resting(&self) -> f64 {
+        self.scene.settings.tolerance.max(ROUNDING)
+    }
+
+    /// Iterations that this solve may still take.
+    pub(super) fn left(&self) -> u32 {
+        self.scene.settings.iterations.saturating_sub(self.report.iterations)
+    }
+
+    /// Whether iterations and time are left.
+    pub(super) fn may_go_on(&self) -> bool {
+        self.left() > 0 && !self.deadline.has_passed()
+    }
+
+    /// Corrects a copy of `unknowns`, the shape at the first inputs, and takes it over if that ends at an equilibrium on the
+    /// same branch.
+    fn try_to_correct(&mut self, inputs: [&Inputs; 2], unknowns: &mut [f64]) -> Option<End> {
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        trial.copy_from_slice(unknowns);
+        let mut end = self.correct(inputs[1], &mut trial, self.scene.settings.follow_step);
+        if end == Some(End::Held) && !self.goes_on(inputs, [unknowns, &trial]) {
+            end = None;
+        }
+        if end.is_some() {
+            unknowns.copy_from_slice(&trial);
+        }
+        self.scratch.trial = trial;
+        end
+    }
+
+    /// Whether the branch leads from the first shape, at the first inputs, to the second one, just found at the others.
+    ///
+    /// One Newton step of the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold it
+    /// does not: there the step of the inputs moves the shape by far less than the two are apart.
+    fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
+        let metric = &self.scene.chain.metric;
+        let between: Vec<f64> = now.iter().zip(last).map(|(a, b)| a - b).collect();
+        let distance = norm(metric, &between);
+        // So near, the last factorisation would have held for both.
+        if distance <= self.reach * self.scene.chain.unit() {
+            return true;
+        }
+        let (residual, energy) = (self.report.residual, self.report.energy);
+        let mut potential = self.potential(before);
+        let back = potential.chord_slope(now).map(|_| potential.newton_step());
+        let returned = back.is_some_and(|back| {
+            let missed: Vec<f64> = between.iter().zip(&back).map(|(a, b)| a + b).collect();
+            norm(metric, &missed) <= MISSED * distance
+        });
+        // What is read from the solved shape must be that of its own inputs.
+        let again = self.potential(inputs).chord_slope(now).is_some();
+        (self.report.residual, self.report.energy) = (residual, energy);
+        returned && again
+    }
+}

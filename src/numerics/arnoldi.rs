@@ -1,0 +1,59 @@
+//! The eigenvalue with the smallest real part of `H x = lambda K x`, where `H` is not symmetric.
+
+use nalgebra::{DMatrix, Schur};
+
+use super::eigenvalue::inner;
+
+/// Sweeps of the QR algorithm at most, by row.
+const SWEEPS: usize = 100;
+
+/// The smallest real part of the eigenvalues, by `vectors` Arnoldi vectors at most; `start` is the first one.
+///
+/// `solve` replaces its argument by `H^-1` times it. The method is Arnoldi's on `H^-1 K` in the inner product of the diagonal
+/// `K`, orthogonalised twice (Golub and Van Loan, Matrix Computations, 10.5). The eigenvalues nearest to zero and those of
+/// negative real part lie at the rim of that operator's spectrum, which is found first; with as many vectors as rows all
+/// are found. `None` where something is not finite or the QR algorithm does not end.
+pub fn smallest_real_part(
+    metric: &[f64],
+    start: &[f64],
+    vectors: usize,
+    mut solve: impl FnMut(&mut [f64]),
+) -> Option<f64> {
+    let most = vectors.min(metric.len());
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(most);
+    let mut projected = DMatrix::zeros(most, most);
+    let mut next = start.to_vec();
+    for column in 0..most {
+        let norm = inner(metric, &next, &next).sqrt();
+        if !(norm.is_finite() && norm > 0.0) {
+            return None;
+        }
+        let small = column > 0 && norm <= f64::EPSILON * projected.column(column - 1).amax();
+        if small {
+            // The vectors span an invariant space: its eigenvalues are all that the start can tell.
+            projected = projected.view((0, 0), (column, column)).into_owned();
+            break;
+        }
+        if column > 0 {
+            projected[(column, column - 1)] = norm;
+        }
+        next.iter_mut().for_each(|entry| *entry /= norm);
+        basis.push(next.clone());
+        next.iter_mut().zip(metric).for_each(|(entry, k)| *entry *= k);
+        solve(&mut next);
+        for _ in 0..2 {
+            for (row, vector) in basis.iter().enumerate() {
+                let along = inner(metric, vector, &next);
+                projected[(row, column)] += along;
+                next.iter_mut().zip(vector).for_each(|(entry, v)| *entry -= along * v);
+            }
+        }
+    }
+    if !projected.iter().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let rows = projected.nrows();
+    let schur = Schur::try_new(projected, f64::EPSILON, SWEEPS * rows)?;
+    let real_parts = schur.complex_eigenvalues().iter().map(|mu| mu.re / mu.norm_sqr()).collect::<Vec<_>>();
+    real_parts.into_iter().filter(|part| part.is_finite()).min_by(f64::total_cmp)
+}
