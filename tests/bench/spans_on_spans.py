@@ -330,7 +330,7 @@ def moments(angles: np.ndarray, energies: np.ndarray) -> np.ndarray:
 
 
 def study(model: Model, rows: list[list]) -> None:
-    """Appends the rows of one model to the table, for one segment and for three."""
+    """Appends the rows of one model to the table, for one segment and for three in a row."""
     angles = np.radians(BENDS)
     axes = np.eye(2)
     bends = [sign * angle * axis for axis in axes for angle in angles for sign in (1.0, -1.0)]
@@ -344,11 +344,13 @@ def study(model: Model, rows: list[list]) -> None:
             + " % of the elastic energy",
             flush=True,
         )
-    neighbours = [Sum(model, bends, other, 0).energies for other in (1, 2)]
     alone = [result.energies for result in found]
-    for segments in (1, 3):
+    # The warped end of one segment would move the next, which is left out.
+    chains = (1, 3) if model.warp is None else (1,)
+    for segments in chains:
         whole = alone
         if segments == 3:
+            neighbours = [Sum(model, bends, other, 0).energies for other in (1, 2)]
             whole = [own + (2.0 * neighbours[0] + neighbours[1]) / 3.0 for own in alone]
         for i, axis in enumerate("xy"):
             shares, rest = [], []
