@@ -199,19 +199,8 @@ def place(model: Model, panels: Panels, points: int, bend: np.ndarray, segment: 
         local = local + model.warp.of(bend, sheet, r, t, local)
     where = along(bend, height, local)
     for _ in range(segment):
-        end = along(bend, np.array(CORE), np.array([0.0, 0.0, 2.0 * HEIGHT + RING]))
-        where = end + where @ turned(bend).T
+        where = along(bend, np.array(CORE), where + np.array([0.0, 0.0, 2.0 * HEIGHT + RING]))
     return where, charge
-
-
-def turned(bend: np.ndarray) -> np.ndarray:
-    """Rotation by the whole bend of a core."""
-    angle = float(np.hypot(*bend))
-    if angle == 0.0:
-        return np.eye(3)
-    n = np.array([bend[0], bend[1], 0.0]) / angle
-    hat = np.array([[0, -n[2], n[1]], [n[2], 0, -n[0]], [-n[1], n[0], 0]])
-    return np.eye(3) + math.sin(angle) * hat + (1.0 - math.cos(angle)) * hat @ hat
 
 
 def along(bend: np.ndarray, height: np.ndarray, local: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ const RECORD: &str = include_str!("../bench/spans_on_spans.csv");
 
 /// A point charge, A m, how it lies in its section, and the section's arc length.
 struct Charge {
-    charge: f64,
+    strength: f64,
     section: f64,
     local: Vector3<f64>,
 }
@@ -43,7 +43,7 @@ fn sheet(
             let angle = first + (k as f64 + 0.5) * turn;
             let (section, ahead) = place(angle);
             out.push(Charge {
-                charge: magnetisation * radius * width * turn,
+                strength: magnetisation * radius * width * turn,
                 section,
                 local: Vector3::new(radius * angle.cos(), radius * angle.sin(), ahead),
             });
@@ -127,7 +127,7 @@ fn moment(charges: &[Charge], length: f64, bend: f64) -> f64 {
         let radius = length / bend;
         let centre = Vector3::new(0.0, -radius * (1.0 - cosine), radius * sine);
         let swing = Vector3::new(0.0, -length * part * sine, length * part * cosine) / bend - centre / bend;
-        points.push((charge.charge, centre + turned, swing + Vector3::x().cross(&turned) * part));
+        points.push((charge.strength, centre + turned, swing + Vector3::x().cross(&turned) * part));
     }
     let mut sum = 0.0;
     for (i, (charge, at, velocity)) in points.iter().enumerate() {
