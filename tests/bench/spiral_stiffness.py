@@ -1,8 +1,8 @@
 """What the glued spiral adds to a core's stiffness, which the paper neglects: linear finite elements of one core.
 
-Run (about 4 minutes): .venv/bin/pip install scikit-fem==12.0.2 pypardiso==0.4.7
+Run (about 8 minutes): .venv/bin/pip install scikit-fem==12.0.2 pypardiso==0.4.7
                        .venv/bin/python tests/bench/spiral_stiffness.py
-Writes tests/bench/spiral_stiffness.csv. With --fine a mesh of twice the cells around and along too (10 minutes more).
+Writes tests/bench/spiral_stiffness.csv. With --fine a mesh of twice the cells around and along too (10 minutes more: the record has it).
 
 The core of Table 1 of Richter et al. (E = 3.325 MPa, nu = 0.4) with and without its spiral, on one mesh of
 quadratic tetrahedra whose faces follow the flanks' helicoids: cells of a grid in angle and height are cut along the
