@@ -2,7 +2,8 @@
 
 Run (about 8 minutes): .venv/bin/pip install scikit-fem==12.0.2 pypardiso==0.4.7
                        .venv/bin/python tests/bench/spiral_stiffness.py
-Writes tests/bench/spiral_stiffness.csv. With --fine a mesh of twice the cells around and along too (10 minutes more: the record has it).
+Writes tests/bench/spiral_stiffness.csv. With --fine a mesh of twice the cells around and along too, which is in the
+record (10 minutes more).
 
 The core of Table 1 of Richter et al. (E = 3.325 MPa, nu = 0.4) with and without its spiral, on one mesh of
 quadratic tetrahedra whose faces follow the flanks' helicoids: cells of a grid in angle and height are cut along the
