@@ -124,8 +124,9 @@ fn the_budget_leaves_table_picture_and_markdown() {
     assert_eq!(String::from_utf8(output.stdout).unwrap(), markdown);
     assert_eq!(markdown.lines().count(), rows.len() + 2);
     let picture = here.join("figures/budget.png");
-    assert!(picture.metadata().unwrap().len() < LARGEST_PICTURE);
-    let size = png::Decoder::new(BufReader::new(File::open(picture).unwrap())).read_info().unwrap();
+    let size = png::Decoder::new(BufReader::new(File::open(&picture).unwrap())).read_info().unwrap();
     let (width, height) = (size.info().width, size.info().height);
     assert!(width == 900 && height >= 600, "{width} x {height}");
+    // The limit is one of 900 by 600 pixels; a chart of more rows is as much higher.
+    assert!(picture.metadata().unwrap().len() < LARGEST_PICTURE * u64::from(height) / 600);
 }

@@ -166,7 +166,7 @@ pub(super) static ENTRIES: [Entry; 21] = [
         s.chain.helix.particle_remanence *= 1.0 + d;
     }),
     tolerance("volume fraction of particles", "±0.01", ONE_PERCENT, |s, d| {
-        s.chain.helix.volume_fraction += d
+        s.chain.helix.volume_fraction += d;
     }),
     tolerance("length of the helix", "±0.1 mm", TENTH_MM, |s, d| s.chain.helix.length += d),
     tolerance("spacing of the rings, same core", "±0.1 mm", TENTH_MM, |s, d| s.spacing = d),
@@ -194,7 +194,7 @@ pub(super) static ENTRIES: [Entry; 21] = [
         })
     },
     omission("recoil permeability of the rings", "1.05", &[1.05], |s, d| {
-        s.chain.ring.recoil_permeability = d
+        s.chain.ring.recoil_permeability = d;
     }),
     omission("spans on spans", "-3.5 ± 1 % stiffness", SPANS_ON_SPANS, Setup::stiffen),
     omission("stiffness of the spiral", "unknown", SPIRAL_STIFFNESS, Setup::stiffen),
