@@ -86,7 +86,7 @@ impl Segmented {
     /// use mcm::design::{RingMagnet, Segmented};
     /// let sintered = RingMagnet { recoil_permeability: 1.05, ..RingMagnet::paper() };
     /// let chain = Segmented { ring: sintered, ..Segmented::paper(1) };
-    /// assert!((chain.ring_polarisation() / 1.35 - 0.974).abs() < 1e-3);
+    /// assert!((chain.ring_polarisation() / 1.35 - 0.97285).abs() < 1e-5);
     /// assert_eq!(Segmented::paper(1).ring_polarisation(), 1.35);
     /// ```
     #[must_use]
