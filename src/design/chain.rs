@@ -102,7 +102,7 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         inner_radius: helix.core_inner_radius,
         outer_radius: helix.radius,
         length: chain.ring.length,
-        remanence: chain.ring.remanence,
+        remanence: chain.ring_polarisation(),
         mass: (chain.ring.density * annulus_area(helix.core_inner_radius, helix.radius) + tube.line_density)
             * chain.ring.length,
     };

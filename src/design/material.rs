@@ -30,6 +30,18 @@ pub fn gent_modulus(shore_a: f64) -> f64 {
     0.0981e6 * (56.0 + 7.66 * shore_a) / (0.137_505 * (254.0 - 2.54 * shore_a))
 }
 
+/// Shore A hardness of an elastomer from its Young's modulus, Pa: the inverse of [`gent_modulus`].
+///
+/// ```
+/// use mcm::design::{gent_hardness, gent_modulus};
+/// assert!((gent_hardness(gent_modulus(33.0)) - 33.0).abs() < 1e-12);
+/// ```
+#[must_use]
+pub fn gent_hardness(elastic_modulus: f64) -> f64 {
+    let ratio = 0.137_505 * elastic_modulus / 0.0981e6;
+    (254.0 * ratio - 56.0) / (7.66 + 2.54 * ratio)
+}
+
 /// Shear modulus of a composite with the volume fraction `Phi` of particles, Pa (Mooney model).
 ///
 /// ```text

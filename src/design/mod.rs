@@ -1,6 +1,7 @@
 //! What is built: materials, bodies and the chain that they form.
 
 mod chain;
+mod demagnetisation;
 mod helix;
 mod limits;
 mod material;
@@ -10,11 +11,12 @@ mod section;
 mod specification;
 
 pub use chain::{Design, Segment};
+pub use demagnetisation::demagnetising_factor;
 pub use helix::{HelixGeometry, HelixVolumes, SpiralVolume};
-pub use limits::MOST_SEGMENTS;
+pub use limits::{MOST_PERMEABLE, MOST_SEGMENTS};
 pub use material::{
     DENSEST_PACKING, ELASTOMER_DENSITY, PARTICLE_DENSITY, composite_density, composite_shear_modulus,
-    gent_modulus, shear_modulus,
+    gent_hardness, gent_modulus, shear_modulus,
 };
 pub use moment::RelativeMoment;
 pub use section::{Ring, Span, SpanKind, Spiral, Stiffness};

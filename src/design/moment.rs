@@ -31,9 +31,10 @@ impl Segmented {
     /// ```text
     /// V_rel = (rings V_mag + S V_mpc) / V_tot      M_rel = (rings V_mag + S Phi V_mpc) / V_tot
     /// mu_rel = M_rel V_rel                          V_tot = pi R^2 (S L + rings L_mag)
-    /// remanent_moment = (rings V_mag B_ring + S Phi V_mpc B_particle) / (V_tot B_ring)
+    /// remanent_moment = (rings V_mag J_ring + S Phi V_mpc B_particle) / (V_tot B_ring)
     /// ```
     ///
+    /// `J_ring` is [`Segmented::ring_polarisation`], the remanence `B_ring` unless the rings' recoil permeability differs from 1.
     /// Without magnetised rings (`B_ring = 0`) the last ratio refers to the particles' remanence.
     ///
     /// # Errors
@@ -50,7 +51,7 @@ impl Segmented {
         let magnetic_volume = (magnets + particles) / whole;
         let reference =
             if self.ring.remanence > 0.0 { self.ring.remanence } else { helix.particle_remanence };
-        let moment = magnets * self.ring.remanence + particles * helix.particle_remanence;
+        let moment = magnets * self.ring_polarisation() + particles * helix.particle_remanence;
         let remanent_moment = if reference > 0.0 { moment / (whole * reference) } else { 0.0 };
         Ok(RelativeMoment { volume, magnetic_volume, moment: magnetic_volume * volume, remanent_moment })
     }

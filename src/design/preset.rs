@@ -24,10 +24,10 @@ impl Helix {
 }
 
 impl RingMagnet {
-    /// The ring magnets of Table 1.
+    /// The ring magnets of Table 1; like the paper they leave out that their own field weakens them.
     #[must_use]
     pub fn paper() -> Self {
-        Self { length: 1.0e-3, remanence: 1.35, density: PARTICLE_DENSITY }
+        Self { length: 1.0e-3, remanence: 1.35, recoil_permeability: 1.0, density: PARTICLE_DENSITY }
     }
 }
 

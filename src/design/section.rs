@@ -112,7 +112,8 @@ pub struct Ring {
     pub outer_radius: f64,
     /// Length along the axis, m.
     pub length: f64,
-    /// Remanence along the axis, T.
+    /// Remanence of the uniform magnet of permeability 1 that stands for it, T: its polarisation `mu_0 M` along the axis in its
+    /// own field, [`Segmented::ring_polarisation`](super::Segmented::ring_polarisation).
     pub remanence: f64,
     /// Mass, a backbone's part included, kg.
     pub mass: f64,

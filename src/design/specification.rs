@@ -52,6 +52,9 @@ pub struct RingMagnet {
     pub length: f64,
     /// Remanence `B_r`, T.
     pub remanence: f64,
+    /// Relative recoil permeability `mu_r`: slope of the demagnetisation curve `B = B_r + mu_0 mu_r H`. Above 1 the ring's own
+    /// field weakens it.
+    pub recoil_permeability: f64,
     /// Density, kg/m3.
     pub density: f64,
 }

@@ -64,6 +64,19 @@ pub enum Panel {
         /// What else is drawn.
         marks: Vec<Mark>,
     },
+    /// Horizontal bars from zero, in groups, each with its label before it and its numbers behind it.
+    Bars {
+        /// What is drawn.
+        title: String,
+        /// Label with unit of the abscissa.
+        x: String,
+        /// Ends of the abscissa; a bar that goes on is cut there.
+        range: [f64; 2],
+        /// What the bars of a row belong to, for the legend.
+        series: Vec<String>,
+        /// The rows, from above.
+        bars: Vec<Bar>,
+    },
     /// Many small maps of kinds on axes of one range, in rows and columns.
     Atlas {
         /// Label with unit of the abscissa.
@@ -77,6 +90,21 @@ pub enum Panel {
         /// The maps.
         rows: Vec<AtlasRow>,
     },
+}
+
+/// A row of bars.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bar {
+    /// What the rows from here on belong to; empty: to the same as the row above.
+    pub group: String,
+    /// What it shows.
+    pub label: String,
+    /// Its numbers, in words.
+    pub numbers: String,
+    /// Number of the colour of the first of its bars, from 0; the others are the next ones.
+    pub colour: usize,
+    /// Least and largest value of each series, on both sides of zero; none where there is no value.
+    pub ends: Vec<Option<[f64; 2]>>,
 }
 
 /// A kind of cells.

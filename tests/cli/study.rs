@@ -112,3 +112,21 @@ fn a_table_of_peers_is_read_before_anything_is_measured() {
         assert!(stderr(&output).contains(expected), "{}", stderr(&output));
     }
 }
+
+#[test]
+fn the_budget_leaves_table_picture_and_markdown() {
+    let here = folder("study_budget");
+    let output = mcm(&here, &["study", "budget", "--out", "figures"]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("figures/budget.csv"));
+    assert!(rows.len() > 40, "{} rows", rows.len());
+    let markdown = std::fs::read_to_string(here.join("figures/budget.md")).unwrap();
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), markdown);
+    assert_eq!(markdown.lines().count(), rows.len() + 2);
+    let picture = here.join("figures/budget.png");
+    let size = png::Decoder::new(BufReader::new(File::open(&picture).unwrap())).read_info().unwrap();
+    let (width, height) = (size.info().width, size.info().height);
+    assert!(width == 900 && height >= 600, "{width} x {height}");
+    // The limit is one of 900 by 600 pixels; a chart of more rows is as much higher.
+    assert!(picture.metadata().unwrap().len() < LARGEST_PICTURE * u64::from(height) / 600);
+}

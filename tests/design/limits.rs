@@ -81,6 +81,14 @@ fn chains_and_rings_out_of_range() {
         let ring = RingMagnet { remanence, ..RingMagnet::paper() };
         refused(&Specification::Segmented(Segmented { ring, ..paper() }), "ring remanence");
     }
+    for recoil_permeability in [f64::NAN, 0.99, 0.0, -1.0, 2.01, f64::INFINITY] {
+        let ring = RingMagnet { recoil_permeability, ..RingMagnet::paper() };
+        refused(&Specification::Segmented(Segmented { ring, ..paper() }), "ring recoil permeability");
+    }
+    for recoil_permeability in [1.0, 1.05, 2.0] {
+        let ring = RingMagnet { recoil_permeability, ..RingMagnet::paper() };
+        assert!(Design::new(Specification::Segmented(Segmented { ring, ..paper() })).is_ok());
+    }
     let ring = RingMagnet { density: f64::NAN, ..RingMagnet::paper() };
     refused(&Specification::Segmented(Segmented { ring, ..paper() }), "density");
 }

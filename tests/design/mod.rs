@@ -1,4 +1,5 @@
 //! Tests of `design`.
 
+mod demagnetisation;
 mod limits;
 mod paper;

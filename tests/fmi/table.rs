@@ -49,6 +49,7 @@ fn the_names_that_users_rely_on_are_there() {
         "ring[10].load_force[3]",
         "gravity[3]",
         "model.interaction",
+        "design.ring.recoil_permeability",
         "magnet.design.cylinder[2].remanence",
         "tip.angle",
         "tip.position[3]",
@@ -82,6 +83,7 @@ fn the_names_that_users_rely_on_are_there() {
     };
     let magnet = [1, 2, 3, 4].map(|k| start(&format!("magnet.orientation[{k}]")));
     assert_eq!(magnet, [0.0, 1.0, 0.0, 0.0].map(Value::Real));
+    assert_eq!(start("design.ring.recoil_permeability"), Value::Real(1.0));
     assert_eq!(start("magnet.position[2]"), Value::Real(-0.12));
     assert_eq!(start("magnet.design.cylinder[1].radius"), Value::Real(0.0225));
 }

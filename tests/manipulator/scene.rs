@@ -21,6 +21,8 @@ fn example_of_the_documentation_is_read_in_si() {
         [design.helix]
         length_mm = 5
         boundary_angle_deg = 90.0
+        [design.ring]
+        recoil_permeability = 1.05
         [design.backbone]
         outer_radius_mm = 0.75
         inner_radius_mm = 0.25
@@ -51,6 +53,7 @@ fn example_of_the_documentation_is_read_in_si() {
     assert_eq!(design.helix.length, 5e-3);
     assert_eq!(design.helix.boundary_angle, core::f64::consts::FRAC_PI_2);
     assert_eq!(design.helix.radius, 2e-3); // Table 1, not stated
+    assert_eq!((design.ring.recoil_permeability, design.ring.remanence), (1.05, 1.35));
     assert_eq!(design.backbone.unwrap().modulus, Modulus::ShoreA(50.0));
     assert_eq!(scene.inputs.uniform_field.as_slice(), [0.001, 0.02, 0.0]);
     assert_eq!(scene.inputs.field_gradient, [1.0, 2.0, 3.0, 4.0, 5.0]);

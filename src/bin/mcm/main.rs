@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod bifurcation;
+mod budget;
 mod comparison;
 mod failure;
 mod fidelity;

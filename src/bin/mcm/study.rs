@@ -13,13 +13,14 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::files::create_table;
-use super::{accuracy, bifurcation, comparison, fidelity, picture, stability};
+use super::{accuracy, bifurcation, budget, comparison, fidelity, picture, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
     after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` and \
-`fidelity`, which measure times, `bifurcation` and `stability`, which take their time, are no part of it.\n\n\
+`fidelity`, which measure times, `bifurcation` and `stability`, which take their time, and `budget`, which is no figure of the \
+paper, are no part of it.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
@@ -61,6 +62,8 @@ enum Name {
     CommunicationStep,
     /// Error against time of all methods, and who is on the front
     Accuracy,
+    /// How much tolerances, and what the model leaves out, change the tip angle
+    Budget,
     /// What the level auto saves, by tolerance
     Fidelity,
     /// All equilibria, stable or not, where they fold, and how early a snap is seen coming
@@ -85,7 +88,12 @@ impl Name {
             Self::Fig8 => Some(studies::fig8),
             Self::Hysteresis => Some(studies::hysteresis),
             Self::CommunicationStep => Some(studies::communication_step),
-            Self::Accuracy | Self::Fidelity | Self::Bifurcation | Self::Stability | Self::All => None,
+            Self::Accuracy
+            | Self::Budget
+            | Self::Fidelity
+            | Self::Bifurcation
+            | Self::Stability
+            | Self::All => None,
         }
     }
 
@@ -102,6 +110,7 @@ impl Study {
             .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
         match self.name {
             Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
+            Name::Budget => return budget::run(&self.out),
             Name::Fidelity => return fidelity::run(&self.out),
             Name::Bifurcation => return bifurcation::run(&self.out),
             Name::Stability => return stability::run(&self.out),

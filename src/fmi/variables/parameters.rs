@@ -5,7 +5,7 @@ use super::super::units::{ANGLE, DENSITY, HARDNESS, LENGTH, MODULUS, RATIO, REMA
 use super::super::variable::{Access, Enumeration, Item, Kind, Role};
 use super::{Draft, Rows, place};
 use crate::design::Specification::{Cylinder, Segmented};
-use crate::design::{self, CylinderMaterial, DENSEST_PACKING, Modulus, SpiralKind};
+use crate::design::{self, CylinderMaterial, DENSEST_PACKING, MOST_PERMEABLE, Modulus, SpiralKind};
 use crate::equilibrium::Interaction;
 
 /// Level of local interaction.
@@ -222,6 +222,11 @@ impl Rows {
             "Remanence of the ring magnets",
             remanence,
         ));
+        let permeability = part!(Segmented(s) => s.ring.recoil_permeability);
+        let description = "Relative recoil permeability of the ring magnets; 1.05 for sintered NdFeB, 1: not weakened by \
+                           their own field";
+        let recoil = Draft::real("design.ring.recoil_permeability", RATIO, description, permeability);
+        self.fixed(recoil.min(1.0).max(MOST_PERMEABLE));
         let density = part!(Segmented(s) => s.ring.density);
         self.fixed(mass("design.ring.density", "Density of the ring magnets", density));
     }

@@ -118,13 +118,14 @@ impl Default for HelixTable {
 pub(super) struct RingTable {
     pub(super) length_mm: f64,
     pub(super) remanence_t: f64,
+    pub(super) recoil_permeability: f64,
     pub(super) density_kg_m3: f64,
 }
 
 impl Default for RingTable {
     /// Table 1 of Richter et al.; the density is that of `NdFeB`, rounded.
     fn default() -> Self {
-        Self { length_mm: 1.0, remanence_t: 1.35, density_kg_m3: 7000.0 }
+        Self { length_mm: 1.0, remanence_t: 1.35, recoil_permeability: 1.0, density_kg_m3: 7000.0 }
     }
 }
 

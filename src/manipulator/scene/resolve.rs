@@ -240,6 +240,7 @@ impl RingTable {
         RingMagnet {
             length: self.length_mm / MM_PER_M,
             remanence: self.remanence_t,
+            recoil_permeability: self.recoil_permeability,
             density: self.density_kg_m3,
         }
     }

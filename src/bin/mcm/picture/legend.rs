@@ -30,6 +30,10 @@ pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
             (title, series.iter().map(|s| curve(s.label.as_str(), s.colour, s.stroke)).collect(), marks)
         }
         Panel::Map { title, marks, .. } => (title, Vec::new(), marks),
+        Panel::Bars { title, series, .. } => {
+            let kind = |(number, label)| (String::as_str(label), Sample::Kind(Tint::Colour(number)));
+            return (title, series.iter().enumerate().map(kind).collect());
+        }
         Panel::Atlas { kinds, .. } => {
             return ("", kinds.iter().map(|kind| (kind.label.as_str(), Sample::Kind(kind.tint))).collect());
         }

@@ -2,6 +2,7 @@
 
 mod atlas;
 mod axes;
+mod bars;
 mod legend;
 
 use std::path::Path;
@@ -19,6 +20,9 @@ const WIDTH: u32 = 900;
 const HEIGHT: u32 = 600;
 const ROW: u32 = 300;
 const TALL_ROW: u32 = 500;
+
+/// Title, legend and margins around bars.
+const ABOVE_BARS: f64 = 115.0;
 
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
@@ -60,7 +64,8 @@ pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let failure = |reason: String| Failure::Message(format!("cannot draw {}: {reason}", path.display()));
     let rows = u32::try_from(study.panels.len().div_ceil(2)).unwrap_or(u32::MAX);
     let tall = study.panels.iter().any(|panel| matches!(panel, Panel::Places { .. }));
-    let size = (WIDTH, HEIGHT.max(rows.saturating_mul(if tall { TALL_ROW } else { ROW })));
+    let bars = study.panels.iter().map(bars_height).max().unwrap_or_default();
+    let size = (WIDTH, HEIGHT.max(rows.saturating_mul(if tall { TALL_ROW } else { ROW })).max(bars));
     let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
     let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
     draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
@@ -91,6 +96,15 @@ fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
     Ok(())
 }
 
+/// Height of a picture of bars, whose rows must not be squeezed.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some hundred pixels")]
+fn bars_height(panel: &Panel) -> u32 {
+    match panel {
+        Panel::Bars { bars, .. } => (ABOVE_BARS + bars::height(bars)).ceil() as u32,
+        _ => 0,
+    }
+}
+
 fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
     let (title, entries) = legend::entries(panel);
     let below = legend::draw(title, &entries, area)?;
@@ -99,6 +113,7 @@ fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
         Panel::Curves { x, y, curves, marks, .. } => axes::curves(study, &area, x, y, curves, marks),
         Panel::Places { x, y, series, marks, .. } => axes::places(&area, [x, y], series, marks),
         Panel::Map { x, y, value, marks, .. } => axes::map(study, &area, [x, y], value, marks),
+        Panel::Bars { x, range, bars, .. } => bars::draw(&area, x, *range, bars),
         Panel::Atlas { x, y, kinds, columns, rows } => atlas::draw(&area, [x, y], kinds, columns, rows),
     }
 }

@@ -1,0 +1,35 @@
+//! `mcm study budget`: what changes the tip angle and by how much, as a table, a picture and Markdown.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use mcm::studies::{Contribution, budget, budget_picture};
+
+use super::failure::Failure;
+use super::study::leave;
+
+const HEADER: &str = "\
+| kind | quantity | change | scene | tip angle (deg) | least change (%) | largest change (%) |
+| --- | --- | --- | --- | --- | --- | --- |
+";
+
+/// Computes, and leaves budget.csv, budget.md and budget.png in `out`; the table is printed, too.
+pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
+    let rows = budget()?;
+    let table = rows.iter().map(row).collect::<String>();
+    leave(out, "budget", &rows, &budget_picture(&rows), &format!("{HEADER}{table}"))
+}
+
+fn row(row: &Contribution) -> String {
+    let written = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:+.2}"));
+    let angle = row.tip_angle_deg.map_or_else(String::new, |angle| format!("{angle:.2}"));
+    format!(
+        "| {:?} | {} | {} | {} | {angle} | {} | {} |\n",
+        row.kind,
+        row.quantity,
+        row.change,
+        row.scene.unwrap_or_default(),
+        written(row.least_percent),
+        if row.pulled_shut { "pulled shut".into() } else { written(row.largest_percent) }
+    )
+}
