@@ -334,3 +334,12 @@ pub(crate) const FIRST_MOMENT: f64 = 1e-4;
 
 /// Mean error of the tabulated field of a ring and of its gradient, over their size (reached: 3e-6).
 pub(crate) const TABLE_MEAN: f64 = 1e-5;
+
+/// Depth of bodies in one another, mm: nested golden sections of 4e-11 of bodies of some centimetres.
+pub(crate) const DEPTH: f64 = 1e-8;
+
+/// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
+pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
+
+/// Depth of the manipulator in a magnet by points, m: circles of 4000 points, every 2 um of the length.
+pub(crate) const CONTACT_DEPTH: f64 = 1e-6;

@@ -142,11 +142,14 @@ impl Scene<'_> {
         match end {
             End::Kept => {
                 (walk.report.margin, walk.report.stable) = (branch.margin, branch.stable);
-                walk.report.outcome = Outcome::Solved;
+                let free = walk.report.stable == Some(false);
+                walk.report.outcome = if free { Outcome::Neutral } else { Outcome::Solved };
             }
             End::Held => {
                 walk.judge(target, &branch.unknowns, &mut branch.softest);
-                walk.report.outcome = Outcome::Solved;
+                // Newton's method ends where the Hessian is definite: what is not stable there is free to rounding.
+                let free = walk.report.stable == Some(false);
+                walk.report.outcome = if free { Outcome::Neutral } else { Outcome::Solved };
             }
             End::Neutral => {
                 // The factorisation is that of a shape on the way.
@@ -155,10 +158,20 @@ impl Scene<'_> {
                 walk.report.outcome = Outcome::Neutral;
             }
             End::Lost => {
+                // The last shape that was tried may say why.
+                let contact = walk.scene.contact(target, walk.work).map(Outcome::Contact);
+                walk.report.outcome = contact.unwrap_or(walk.report.outcome);
                 walk.work.factored = false;
                 branch.unknowns.copy_from_slice(&walk.scratch.last);
                 return walk.report;
             }
+        }
+        walk.work.place(self.chain, &target.base, &branch.unknowns);
+        if let Some(contact) = walk.scene.contact(target, walk.work) {
+            walk.report.outcome = Outcome::Contact(contact);
+            walk.work.factored = false;
+            branch.unknowns.copy_from_slice(&walk.scratch.last);
+            return walk.report;
         }
         walk.report.progress = 1.0;
         (branch.margin, branch.stable) = (walk.report.margin, walk.report.stable);

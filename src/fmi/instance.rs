@@ -11,7 +11,7 @@ use super::state::{Call, Ending, State};
 use super::variable::{Role, Value, Variable};
 use super::variables::MARGIN;
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Status};
+use crate::manipulator::{Inputs, Manipulator, Outcome, Status};
 
 /// Times closer than this, relative to the larger of time and step, are the same: hosts add up their steps.
 const TIME_SLACK: f64 = 1e-9;
@@ -345,7 +345,7 @@ impl Instance {
             return Err(Error::Unsupported(format!("the model answers with other lengths: {lengths:?}")));
         }
         let (was_near_fold, time, margin) = (condition.near_fold, condition.time, outputs.stability_margin);
-        let (status, snapped) = (outputs.status, outputs.snaps > snaps);
+        let (status, outcome, snapped) = (outputs.status, outputs.outcome, outputs.snaps > snaps);
         if status == Status::NotSolved {
             if condition.state == State::Stepping {
                 condition.state = State::Failed;
@@ -358,6 +358,8 @@ impl Instance {
         condition.near_fold = status == Status::NearFold;
         if snapped {
             self.log.notice(&format!("snapped to another branch after t = {time}"));
+        } else if outcome == Outcome::Neutral && !was_near_fold {
+            self.log.notice(&format!("after t = {time}: {outcome}"));
         } else if status == Status::NearFold && !was_near_fold {
             self.log.notice(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
         }

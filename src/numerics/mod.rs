@@ -5,6 +5,7 @@ pub mod continuation;
 pub mod eigenvalue;
 pub mod lagrange;
 pub mod levenberg_marquardt;
+pub mod maximum;
 pub mod newton;
 pub mod quadrature;
 pub mod trust_region;
