@@ -16,7 +16,7 @@ const RADIUS: f64 = 2e-3;
 const RING: f64 = 1e-3;
 
 /// Points around a section.
-const AROUND: u32 = 4000;
+const AROUND: u32 = 2000;
 
 /// How deep the deepest point of a circle lies below the surface of one of the cylinders, negative outside.
 fn circle_in(magnets: &[AxialMagnet], at: &Pose, centre: &Pose) -> f64 {
@@ -38,9 +38,9 @@ fn circle_in(magnets: &[AxialMagnet], at: &Pose, centre: &Pose) -> f64 {
 
 /// The deepest ring and its depth.
 fn deepest_ring(magnets: &[AxialMagnet], at: &Pose, rings: impl Iterator<Item = Pose>) -> (usize, f64) {
-    let height = |i: u32| RING * (f64::from(i) / 500.0 - 0.5);
+    let height = |i: u32| RING * (f64::from(i) / 100.0 - 0.5);
     let depth = |centre: &Pose| {
-        (0..=500)
+        (0..=100)
             .map(|i| circle_in(magnets, at, &centre.advanced(height(i))))
             .fold(f64::NEG_INFINITY, f64::max)
     };
