@@ -8,7 +8,7 @@ use super::variable::Role;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
     /// Done; what is worth knowing beside it stands in the log, in `solver.status` and in `stability.snaps`. The standard's
-    /// `fmi2Warning` is never answered: OMSimulator and PyFMI take every status but `fmi2OK` for a failure.
+    /// `fmi2Warning` is never answered: `OMSimulator` and `PyFMI` take every status but `fmi2OK` for a failure.
     Ok,
     /// Not answered; nothing has changed.
     Discard,

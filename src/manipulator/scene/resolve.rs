@@ -101,7 +101,7 @@ impl SceneFile {
     fn settings(&self) -> Result<Settings, Error> {
         let ModelTable { interaction, method, bending_stop, time_budget_s } = self.model;
         let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
-        Ok(Settings { interaction, bending_stop, method, time_budget, ..Settings::default() })
+        Ok(Settings { interaction, bending_stop, time_budget, method, ..Settings::default() })
     }
 }
 
