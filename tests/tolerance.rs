@@ -359,3 +359,13 @@ pub(crate) const BUDGET_POINTS: f64 = 0.5;
 /// Effect of the recoil permeability beside that of the mean magnetisation by an integral equation: the uniform one is 5e-5 of the
 /// moment off, of which the effect is 2.7e-2.
 pub(crate) const BY_RECOIL: f64 = 3e-3;
+
+/// Depth of bodies in one another, mm: nested golden sections of 4e-11 of bodies of some centimetres.
+pub(crate) const DEPTH: f64 = 1e-8;
+
+/// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
+pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
+
+/// Depth of the manipulator in a magnet by points, m: circles of 2000 points, whose chords are 2.5 nm off, every 2 um of a
+/// bent segment (reached: 0.6 nm with circles of 4000).
+pub(crate) const CONTACT_DEPTH: f64 = 1e-6;

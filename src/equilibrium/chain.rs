@@ -6,7 +6,7 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Design, Ring, SpanKind};
 use crate::error::{Error, check};
 use crate::geometry::Pose;
-use crate::magnetics::{AxialSource, FieldTable};
+use crate::magnetics::{AxialSource, FieldTable, Outline};
 use crate::rod::{Element, Piece, Resolution, Sight};
 
 use super::settings::Settings;
@@ -69,6 +69,11 @@ impl RingBody {
         0.5 * self.ring.length
     }
 
+    /// Its outline; nothing of the manipulator or of a magnet is taken to fit into its bore.
+    pub(super) fn outline(&self) -> Outline {
+        Outline::new(0.0, self.ring.outer_radius, self.ring.length)
+    }
+
     /// Pose of its centre where that of its node is `node`.
     pub(super) fn centre(&self, node: &Pose) -> Pose {
         node.advanced(self.half_length())
@@ -91,6 +96,8 @@ pub(super) struct Chain {
     pub(super) metric: Vec<f64>,
     /// Elements of each segment's core, first and last.
     pub(super) cores: Vec<(usize, usize)>,
+    /// Outer radius of each element, m: that of its discs and windings.
+    pub(super) radii: Vec<f64>,
     /// Where rings act on elements.
     pub(super) views: Views,
 }
@@ -145,7 +152,10 @@ impl Chain {
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
         let views = Views::new(&elements, &chains, &rings, settings);
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, views })
+        let widest =
+            |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
+        let radii = chains.iter().map(widest).collect();
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, views })
     }
 
     /// Unstrained length, m.

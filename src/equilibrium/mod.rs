@@ -3,6 +3,7 @@
 mod chain;
 mod columns;
 mod condensed;
+mod contact;
 mod continuation;
 mod correction;
 mod dead;

@@ -4,6 +4,9 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+/// Depth that is told in numbers, m: half of the last digit in millimetres.
+const SHALLOWEST: f64 = 0.5e-6;
+
 /// How a search for an equilibrium ended.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
@@ -89,6 +92,9 @@ impl fmt::Display for Outcome {
 
 impl fmt::Display for Contact {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.depth < SHALLOWEST {
+            return write!(out, "{} touches {}", self.first, self.second);
+        }
         write!(out, "{} is {:.3} mm deep in {}", self.first, 1e3 * self.depth, self.second)
     }
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use super::chain::RingBody;
 use super::source::Source;
 use crate::geometry::{Pose, hat};
-use crate::magnetics::AxialRule;
+use crate::magnetics::{AxialRule, depth};
 use crate::rod::{Load, Order, turning};
 
 /// The energy of a pair as loads on its two nodes.
@@ -39,29 +39,14 @@ pub(super) struct Mixed {
     pub(super) matrix: Matrix6<f64>,
 }
 
-/// Whether two rings are closer than their material allows.
-pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> bool {
-    let from = first.centre(first_node);
-    let to = second.centre(second_node);
-    let reach = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
-    let distance = (to.position - from.position).norm();
-    if distance > reach(first) + reach(second) {
-        return false;
+/// How deep two rings are inside one another, m; 0 where they share no volume. Nothing fits into their bores.
+pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
+    let (from, to) = (first.centre(first_node), second.centre(second_node));
+    let extent = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
+    if (to.position - from.position).norm() > extent(first) + extent(second) {
+        return 0.0;
     }
-    rim_inside(&from, first, &to, second) || rim_inside(&to, second, &from, first)
-}
-
-/// Whether a point of one ring's outer edges lies inside the other's outline.
-fn rim_inside(from: &Pose, outline: &RingBody, to: &Pose, rim: &RingBody) -> bool {
-    const POINTS: usize = 24;
-    (0..2 * POINTS).any(|k| {
-        let (sine, cosine) = (core::f64::consts::TAU * (k / 2) as f64 / POINTS as f64).sin_cos();
-        let height = if k % 2 == 0 { 0.5 } else { -0.5 } * rim.ring.length;
-        let point =
-            to.transform(&Vector3::new(rim.ring.outer_radius * cosine, rim.ring.outer_radius * sine, height));
-        let local = from.rotation.tr_mul(&(point - from.position));
-        local.z.abs() < outline.half_length() && local.x.hypot(local.y) < outline.ring.outer_radius
-    })
+    depth(&first.outline(), &second.outline(), &to.seen_from(&from))
 }
 
 impl PairLoad {

@@ -34,7 +34,7 @@ pub(super) struct Workspace {
     pub(super) configurations: Vec<Configuration>,
     pub(super) nodes: Vec<Pose>,
     /// The unknowns for which they are placed; not a number before the first ones.
-    placed: Vec<f64>,
+    pub(super) placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     pub(super) internal: Internal,
@@ -266,7 +266,7 @@ impl Potential<'_> {
                 let (from, to) = (&self.work.nodes[first.node], &self.work.nodes[second.node]);
                 let rule = self.rules.pair(number, j);
                 number += 1;
-                if overlap(first, from, second, to) {
+                if overlap(first, from, second, to) > 0.0 {
                     return None;
                 }
                 let source = Source::ring(first, from, false);

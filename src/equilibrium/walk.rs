@@ -34,7 +34,8 @@ impl Walk<'_> {
         match end {
             End::Kept => {
                 (self.report.margin, self.report.stable) = (branch.margin, branch.stable);
-                self.report.outcome = Outcome::Solved;
+                let free = self.report.stable == Some(false);
+                self.report.outcome = if free { Outcome::Neutral } else { Outcome::Solved };
             }
             End::Held => self.judge(target, &branch.unknowns, &mut branch.softest),
             End::Neutral => {
@@ -43,16 +44,27 @@ impl Walk<'_> {
                 (self.report.stable, self.report.outcome) = (Some(false), Outcome::Neutral);
             }
             End::Lost => {
-                self.work.factored = false;
-                branch.unknowns.copy_from_slice(&self.scratch.last);
-                self.report.outcome =
-                    if self.may_go_on() { Outcome::BranchEnds } else { Outcome::OutOfBudget };
-                return self.report;
+                // The last shape that was tried may say why.
+                let contact = self.scene.contact(target, self.work).map(Outcome::Contact);
+                let otherwise = if self.may_go_on() { Outcome::BranchEnds } else { Outcome::OutOfBudget };
+                return self.give_up(branch, contact.unwrap_or(otherwise));
             }
+        }
+        self.work.place(self.scene.chain, &target.base, &branch.unknowns);
+        if let Some(contact) = self.scene.contact(target, self.work) {
+            return self.give_up(branch, Outcome::Contact(contact));
         }
         self.report.progress = 1.0;
         (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
         branch.advance(target, &self.scratch.last, self.report.snaps > 0);
+        self.report
+    }
+
+    /// Leaves `branch` where it was.
+    fn give_up(&mut self, branch: &mut Branch, outcome: Outcome) -> Report {
+        self.work.factored = false;
+        branch.unknowns.copy_from_slice(&self.scratch.last);
+        (self.report.outcome, self.report.stable, self.report.margin) = (outcome, None, 0.0);
         self.report
     }
 

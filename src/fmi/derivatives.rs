@@ -13,7 +13,7 @@ impl Instance {
     /// Sets time derivatives of inputs for the step to come: all of them, or none.
     ///
     /// `orders` are the orders of the derivatives. Inputs are taken as linear in time, so higher orders than the first
-    /// are left aside, with a warning if they are not zero.
+    /// are left aside, and the log says so if they are not zero.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Ending {
         let Some(variables) = self.find(references) else { return Ending::Error };
         let mut rates = self.condition.rates.clone();
@@ -39,9 +39,10 @@ impl Instance {
             }
         }
         self.condition.rates = rates;
-        let Some(name) = higher else { return Ending::Ok };
-        self.log.warning(&format!("derivatives of {name} above the first order are not used"));
-        Ending::Warning
+        if let Some(name) = higher {
+            self.log.notice(&format!("derivatives of {name} above the first order are not used"));
+        }
+        Ending::Ok
     }
 
     /// Time derivatives of outputs at the present time: by those of the inputs, and 0 where these are held.
@@ -90,7 +91,7 @@ impl Instance {
         if let Some(value) = seed.iter().find(|value| !value.is_finite()) {
             return Err(self.refuse(&Error::range("seed of a derivative", *value, "finite").to_string()));
         }
-        if self.is_live() && self.ensure_solved() == Ending::Error {
+        if self.is_live() && self.ensure_solved() != Ending::Ok {
             return Err(Ending::Error);
         }
         if seed.iter().all(|value| *value == 0.0) {

@@ -11,7 +11,7 @@ use super::state::{Call, Ending, State};
 use super::variable::{Role, Value, Variable};
 use super::variables::MARGIN;
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Status};
+use crate::manipulator::{Inputs, Manipulator, Outcome, Status};
 
 /// Times closer than this, relative to the larger of time and step, are the same: hosts add up their steps.
 const TIME_SLACK: f64 = 1e-9;
@@ -134,14 +134,17 @@ impl Instance {
     pub fn exit_initialization(&mut self) -> Ending {
         let ending = if self.condition.solved { Ok(Ending::Ok) } else { self.solve_here() };
         match ending {
-            Ok(Ending::Error) => self.condition.state = State::Failed,
-            Ok(_) => {
+            Ok(Ending::Ok) => {
                 self.condition.state = State::Stepping;
                 self.log.event(&format!("initialised at t = {}", self.condition.time));
+                Ending::Ok
             }
-            Err(error) => return self.refuse(&error.to_string()),
+            Ok(failed) => {
+                self.condition.state = State::Failed;
+                failed
+            }
+            Err(error) => self.refuse(&error.to_string()),
         }
-        ending.unwrap_or(Ending::Error)
     }
 
     /// The end.
@@ -172,14 +175,14 @@ impl Instance {
         let unexpected = (time - self.condition.time).abs() > slack && !self.surprised;
         if unexpected {
             let expected = self.condition.time;
-            self.log.warning(&format!("step from t = {time}, but the last one ended at t = {expected}"));
+            self.log.notice(&format!("step from t = {time}, but the last one ended at t = {expected}"));
             self.surprised = true;
         }
         // Inputs that have not changed are solved again: `Snapped` must not outlive its step.
         self.condition.solved &= self.condition.ahead;
         let moving = self.condition.rates.move_inputs() && step > 0.0;
         let ending = if moving { self.travel(step) } else { self.ensure_solved() };
-        if ending == Ending::Error {
+        if ending != Ending::Ok {
             return ending;
         }
         self.condition.rates.spend();
@@ -187,7 +190,7 @@ impl Instance {
         self.condition.time = end;
         self.condition.snaps = self.condition.device.as_ref().map_or(0, |device| device.outputs().snaps);
         self.log.relieve();
-        if unexpected { Ending::Warning } else { ending }
+        Ending::Ok
     }
 
     /// Follows the inputs' path for `duration`; then they keep the values reached.
@@ -201,11 +204,11 @@ impl Instance {
             Ok((points, end))
         });
         match path.and_then(|(points, end)| Ok((self.solve(&points)?, end))) {
-            Ok((Ending::Error, _)) => Ending::Error,
-            Ok((ending, end)) => {
+            Ok((Ending::Ok, end)) => {
                 self.condition.given = end;
-                ending
+                Ending::Ok
             }
+            Ok((failed, _)) => failed,
             Err(error) => self.refuse(&error.to_string()),
         }
     }
@@ -229,7 +232,8 @@ impl Instance {
 
     /// The values with these references, read by `read`, which knows values of one type (`kind` in words).
     ///
-    /// Solves first if an output is asked for and inputs have changed.
+    /// Solves first if an output is asked for and inputs have changed. Where no equilibrium was ever found, only what tells
+    /// of the search can be read.
     ///
     /// # Errors
     /// The ending, when there are no values.
@@ -238,30 +242,36 @@ impl Instance {
         references: &[u32],
         kind: &str,
         read: fn(Value) -> Option<T>,
-    ) -> Result<(Vec<T>, Ending), Ending> {
+    ) -> Result<Vec<T>, Ending> {
         let variables = self.find(references).ok_or(Ending::Error)?;
-        let mut ending = Ending::Ok;
         let margin = variables.iter().any(|variable| variable.name == MARGIN);
         if self.is_live() && variables.iter().any(|variable| variable.role == Role::Output) {
-            ending = self.ensure_solved();
-            if ending == Ending::Error {
+            let ending = self.ensure_solved();
+            if ending != Ending::Ok {
                 return Err(ending);
             }
         }
         if let Some(device) = self.condition.device.as_mut().filter(|_| margin) {
             device.measure_margin();
         }
-        let outputs = self.condition.device.as_ref().map(Manipulator::outputs);
+        let device = self.condition.device.as_ref();
+        let (outputs, has_shape) =
+            (device.map(Manipulator::outputs), device.is_some_and(Manipulator::has_shape));
         let variables = self.find(references).ok_or(Ending::Error)?;
         let mut values = Vec::with_capacity(variables.len());
         for variable in variables {
+            if variable.role == Role::Output && !has_shape && !variable.tells_of_search() {
+                return Err(
+                    self.refuse(&format!("{} has no value: no equilibrium was found yet", variable.name))
+                );
+            }
             let value = variable.given(&self.condition.given).or_else(|| variable.answer(outputs?));
             match value.and_then(read) {
                 Some(value) => values.push(value),
                 None => return Err(self.refuse(&format!("{} is no {kind}", variable.name))),
             }
         }
-        Ok((values, ending))
+        Ok(values)
     }
 
     /// Sets all of these variables, or none.
@@ -335,25 +345,40 @@ impl Instance {
             return Err(Error::Unsupported(format!("the model answers with other lengths: {lengths:?}")));
         }
         let (was_near_fold, time, margin) = (condition.near_fold, condition.time, outputs.stability_margin);
-        let (status, snapped) = (outputs.status, outputs.snaps > snaps);
+        let (status, outcome, snapped) = (outputs.status, outputs.outcome, outputs.snaps > snaps);
         if status == Status::NotSolved {
             if condition.state == State::Stepping {
                 condition.state = State::Failed;
             }
-            return Ok(self.refuse(&format!(
-                "no equilibrium found after t = {time}; the last good outputs can be read, reset or restore a state"
-            )));
+            let reason = reason(device, time);
+            return Ok(self.refuse(&reason));
         }
         condition.solved = true;
         condition.ahead = true;
         condition.near_fold = status == Status::NearFold;
         if snapped {
-            self.log.warning(&format!("snapped to another branch after t = {time}"));
+            self.log.notice(&format!("snapped to another branch after t = {time}"));
+        } else if outcome == Outcome::Neutral && !was_near_fold {
+            self.log.notice(&format!("after t = {time}: {outcome}"));
         } else if status == Status::NearFold && !was_near_fold {
-            self.log.warning(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
-        } else {
-            return Ok(Ending::Ok);
+            self.log.notice(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
         }
-        Ok(Ending::Warning)
+        Ok(Ending::Ok)
+    }
+}
+
+/// Why there is no equilibrium, and what is left.
+fn reason(device: &Manipulator, time: f64) -> String {
+    let (outcome, percent) = (device.outputs().outcome, 100.0 * device.outputs().progress);
+    if device.has_shape() {
+        format!(
+            "no equilibrium found after t = {time}, {percent:.0} % of the way: {outcome}; the last good outputs can be read, \
+             reset or restore a state"
+        )
+    } else {
+        format!(
+            "no equilibrium found for the first inputs, {percent:.0} % of the way from the unloaded shape: {outcome}; there \
+             are no outputs, reset and start elsewhere"
+        )
     }
 }

@@ -9,7 +9,7 @@ use super::state::Ending;
 pub enum Category {
     /// What happened, when all went well.
     Events,
-    /// Warnings.
+    /// What a user should know of a call that went well.
     Warning,
     /// Refusals and failures.
     Error,
@@ -37,7 +37,9 @@ impl Category {
     pub fn description(self) -> &'static str {
         match self {
             Self::Events => "What was instantiated and initialised",
-            Self::Warning => "Near a fold, snapped to another branch, unexpected communication point",
+            Self::Warning => {
+                "Near a fold, snapped to another branch, unexpected communication point, unused derivatives"
+            }
             Self::Error => "Refused calls, equilibria that were not found",
             Self::All => "All messages",
         }
@@ -56,8 +58,8 @@ const REPETITIONS: u32 = 10;
 
 /// The way to the host's log.
 ///
-/// The standard wants the logger called whenever a call ends with a warning or an error (section 2.1.3), so these go
-/// there unless the host has switched their category off; what is merely of interest goes there when the host asks.
+/// The standard wants the logger called whenever a call does not end well (section 2.1.3), so errors go there unless the
+/// host has switched their category off, and so do notices; what is merely of interest goes there when the host asks.
 pub struct Log {
     sink: Sink,
     on: [bool; 3],
@@ -76,9 +78,12 @@ impl Log {
         self.tell(Ending::Ok, Category::Events, message);
     }
 
-    /// Warns the host.
-    pub fn warning(&self, message: &str) {
-        self.tell(Ending::Warning, Category::Warning, message);
+    /// Tells the host what a user should know of a call that went well.
+    ///
+    /// The category is the standard's for warnings, by which a log is filtered; the status that goes with it is that of the
+    /// call, OK: a host that acts upon the statuses in its log must not see one that no call has answered.
+    pub fn notice(&self, message: &str) {
+        self.tell(Ending::Ok, Category::Warning, message);
     }
 
     /// Tells the host why a call failed.
@@ -112,7 +117,7 @@ impl Log {
         }
     }
 
-    /// Switches categories on or off; without names events alone, as warnings and errors explain a call's ending.
+    /// Switches categories on or off; without names events alone, as the others explain an answer.
     ///
     /// # Errors
     /// The name of the first category that does not exist; nothing has changed then.

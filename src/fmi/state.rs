@@ -7,10 +7,9 @@ use super::variable::Role;
 /// How a call ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// Done.
+    /// Done; what is worth knowing beside it stands in the log, in `solver.status` and in `stability.snaps`. The standard's
+    /// `fmi2Warning` is never answered: `OMSimulator` and `PyFMI` take every status but `fmi2OK` for a failure.
     Ok,
-    /// Done, and the host should look at the log.
-    Warning,
     /// Not answered; nothing has changed.
     Discard,
     /// Refused or failed; the log says why.
@@ -26,7 +25,7 @@ pub enum State {
     Initialization,
     /// At a communication point.
     Stepping,
-    /// An equilibrium was not found: the last good one can be read.
+    /// An equilibrium was not found: the last good one, if there is any, can be read.
     Failed,
     /// Terminated.
     Terminated,

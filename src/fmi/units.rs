@@ -37,6 +37,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "N.m", base: &[("kg", 1), ("m", 2), ("s", -2)], display: Some(("mN.m", 1e3)) },
     Unit { name: "m/s2", base: &[("m", 1), ("s", -2)], display: None },
     Unit { name: "Pa", base: &[("kg", 1), ("m", -1), ("s", -2)], display: Some(("MPa", 1e-6)) },
+    Unit { name: "s", base: &[("s", 1)], display: Some(("ms", 1e3)) },
     Unit { name: "kg/m3", base: &[("kg", 1), ("m", -3)], display: None },
 ];
 
@@ -81,6 +82,8 @@ pub const ACCELERATION: Quantity = quantity("Acceleration", "m/s2", Some(10.0), 
 pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", Some(1e6), "Young's modulus");
 /// Density.
 pub const DENSITY: Quantity = quantity("Density", "kg/m3", Some(1000.0), "Mass per volume");
+/// Processor time.
+pub const TIME: Quantity = quantity("ProcessorTime", "s", Some(1.0), "Processor time");
 
 /// All quantities, in the order of the model description.
 pub const QUANTITIES: &[Quantity] = &[
@@ -99,4 +102,5 @@ pub const QUANTITIES: &[Quantity] = &[
     ACCELERATION,
     MODULUS,
     DENSITY,
+    TIME,
 ];

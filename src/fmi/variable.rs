@@ -7,6 +7,9 @@ use super::slope::Slope;
 use super::units::Quantity;
 use crate::manipulator::Outputs;
 
+/// The count of jumps to another branch.
+pub(super) const SNAPS: &str = "stability.snaps";
+
 /// A typed value. An enumeration's value is an integer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Value {
@@ -175,6 +178,12 @@ impl Variable {
             Access::BooleanAnswer(get) => Some(Value::Boolean(get(outputs))),
             _ => None,
         }
+    }
+
+    /// Whether it tells of the search for an equilibrium, which has a meaning even if none was ever found.
+    #[must_use]
+    pub fn tells_of_search(&self) -> bool {
+        self.name.starts_with("solver.") || self.name == SNAPS
     }
 
     /// Sets what the host gives; false for a value that the variable cannot take.

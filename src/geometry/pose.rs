@@ -108,6 +108,13 @@ impl Pose {
         Self { position: self.transform(&local.position), rotation: self.rotation * local.rotation }
     }
 
+    /// This pose as seen from the frame `from`: `from.compose` of it is this pose again.
+    #[must_use]
+    pub fn seen_from(&self, from: &Self) -> Self {
+        let back = from.rotation.transpose();
+        Self { position: back * (self.position - from.position), rotation: back * self.rotation }
+    }
+
     /// The frame moved by `distance` (m) along its own axis.
     #[must_use]
     pub fn advanced(&self, distance: f64) -> Self {

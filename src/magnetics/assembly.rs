@@ -4,7 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axial_source::AxialSource;
 use super::jet::Jet;
+use super::overlap::{Outline, depth};
 use crate::error::{Error, check};
+use crate::geometry::Pose;
 
 /// One axially magnetised cylinder (or ring) of an assembly.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +68,10 @@ impl Assembly {
             )?);
         }
         for (index, first) in magnets.iter().enumerate() {
-            if magnets.iter().skip(index + 1).any(|second| overlap(first, second)) {
+            let body = |magnet: &AxialMagnet| Outline::new(magnet.inner_radius, magnet.radius, magnet.length);
+            let above = |second: &AxialMagnet| Pose::identity().advanced(second.offset - first.offset);
+            let overlaps = |second| depth(&body(first), &body(second), &above(second)) > 0.0;
+            if magnets.iter().skip(index + 1).any(overlaps) {
                 return Err(Error::Unsupported(format!(
                     "cylinder {} of the external magnet overlaps another one",
                     index + 1
@@ -138,17 +143,13 @@ impl Assembly {
         self.sources.iter().map(AxialSource::moment).sum()
     }
 
+    /// The cylinders as bodies, each with its centre, m.
+    pub fn outlines(&self) -> impl Iterator<Item = (Outline, Vector3<f64>)> {
+        self.placed().map(|(source, centre)| (source.outline(), centre))
+    }
+
     /// The sources with their centres.
     pub(super) fn placed(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         self.sources.iter().zip(&self.magnets).map(|(source, m)| (source, Vector3::new(0.0, 0.0, m.offset)))
     }
-}
-
-/// Whether two coaxial annular cylinders share volume; touching within rounding is allowed.
-fn overlap(first: &AxialMagnet, second: &AxialMagnet) -> bool {
-    let reach = 0.5 * (first.length + second.length);
-    let along = (first.offset - second.offset).abs() < reach * (1.0 - 1e-9);
-    let across = first.inner_radius < second.radius * (1.0 - 1e-9)
-        && second.inner_radius < first.radius * (1.0 - 1e-9);
-    along && across
 }

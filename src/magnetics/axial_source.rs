@@ -6,6 +6,7 @@ use super::axisymmetric::{Components, Meridian};
 use super::edge::{Edges, FIELD, GRADIENT, HESSIAN};
 use super::jet::Jet;
 use super::multipole::{Multipole, TERMS};
+use super::overlap::Outline;
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::{Error, check};
 
@@ -166,6 +167,12 @@ impl AxialSource {
         let across = (rho - self.outer).max(self.inner - rho).max(0.0);
         let along = (point.z.abs() - self.half).max(0.0);
         (across * across + along * along).sqrt()
+    }
+
+    /// The body without its magnetisation.
+    #[must_use]
+    pub fn outline(&self) -> Outline {
+        Outline::new(self.inner, self.outer, self.length())
     }
 
     /// Inner radius, m; 0 for a solid cylinder.

@@ -21,5 +21,6 @@ pub use axial_source::AxialSource;
 pub use dipole::Dipole;
 pub use field_table::FieldTable;
 pub use jet::{FieldHessian, Jet};
+pub use overlap::{Outline, depth};
 pub use uniform::LinearField;
 pub use wrench::Wrench;

@@ -70,7 +70,7 @@ impl AxialSource {
     /// (8640 nodes) does not reach because the bodies all but touch; [`Error::OnEdge`] when a node meets an edge.
     pub fn wrench_on(&self, body: &Self, pose: &Pose, accuracy: f64) -> Result<Wrench, Error> {
         check_accuracy(accuracy)?;
-        overlap::check(self, body, pose)?;
+        overlap::check(&self.outline(), &body.outline(), pose)?;
         adaptive(body, pose, accuracy, self.distance(&pose.position), |point| self.field(point))
     }
 }
@@ -84,7 +84,7 @@ impl Assembly {
         check_accuracy(accuracy)?;
         for (source, centre) in self.placed() {
             let seen = Pose { position: pose.position - centre, ..*pose };
-            overlap::check(source, body, &seen)?;
+            overlap::check(&source.outline(), &body.outline(), &seen)?;
         }
         adaptive(body, pose, accuracy, self.distance(&pose.position), |point| self.field(point))
     }

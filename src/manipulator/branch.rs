@@ -1,7 +1,7 @@
 //! Following a branch along a path of inputs, and locating the folds where it is left.
 
 use super::prediction::predicted;
-use super::{Inputs, Manipulator, Outputs, Status};
+use super::{Inputs, Manipulator, Outcome, Outputs, Status};
 use crate::error::{Error, check};
 
 /// Width of the interval in which a fold is located, of the path's span.
@@ -21,6 +21,8 @@ pub struct Fold {
     pub before: Outputs,
     /// The shape that was found next, and its value; `None`: the branch ends, and no stable shape was found.
     pub after: Option<(f64, Outputs)>,
+    /// How the solve next to it ended.
+    pub outcome: Outcome,
 }
 
 /// A manipulator whose inputs are functions of one number.
@@ -156,12 +158,12 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
             return Ok(off); // reached from closer by: no fold
         }
         self.margins.clear();
-        let after = found(off, &nearest).or(after);
+        let (after, outcome) = (found(off, &nearest).or(after), nearest.outputs().outcome);
         self.lost = after.is_none();
         let (reached, manipulator) = after.clone().unwrap_or((on, nearest));
         self.manipulator = manipulator;
         let after = after.map(|(value, manipulator)| (value, manipulator.outputs().clone()));
-        self.folds.push(Fold { value: 0.5 * (on + off), upwards: next > here, before, after });
+        self.folds.push(Fold { value: 0.5 * (on + off), upwards: next > here, before, after, outcome });
         Ok(reached)
     }
 

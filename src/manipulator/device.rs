@@ -33,6 +33,8 @@ use crate::magnetics::Assembly;
 pub struct Manipulator {
     solver: Solver,
     outputs: Outputs,
+    /// Whether the outputs are those of a shape that was found.
+    has_shape: bool,
 }
 
 /// What a manipulator remembers of its past, in numbers.
@@ -40,6 +42,7 @@ pub struct Manipulator {
 pub struct Snapshot {
     models: ladder::Snapshot,
     outputs: Outputs,
+    has_shape: bool,
 }
 
 impl Manipulator {
@@ -57,7 +60,7 @@ impl Manipulator {
     ) -> Result<Self, Error> {
         let solver = Solver::new(design, magnet, settings, shape_points)?;
         let outputs = solver.straight();
-        Ok(Self { solver, outputs })
+        Ok(Self { solver, outputs, has_shape: false })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -86,17 +89,23 @@ impl Manipulator {
         &self.outputs
     }
 
+    /// Whether any solve has succeeded since it was made or reset: before, the outputs are no answer.
+    #[must_use]
+    pub fn has_shape(&self) -> bool {
+        self.has_shape
+    }
+
     /// Follows the equilibrium along `path`, one point after the other; what happens on the way counts as one solve.
     ///
     /// It has snapped if there were more jumps than `snaps` in the end. If a point is not solved, the branch and all
-    /// outputs but how it ended are those from before the path.
+    /// outputs but how it ended are those from before the path; in [`Outputs::progress`] all points count equally.
     ///
     /// # Errors
     /// As [`Manipulator::solve`].
     pub fn follow(&mut self, path: &[Inputs], snaps: u32) -> Result<&Outputs, Error> {
         let before = (path.len() > 1).then(|| self.clone());
         let mut iterations = 0;
-        for inputs in path {
+        for (number, inputs) in path.iter().enumerate() {
             let solved = self.solve(inputs).map(|out| (out.status, out.residual, out.outcome, out.progress));
             iterations += self.outputs.iterations;
             if let Ok((Status::Solved | Status::NearFold | Status::Snapped, ..)) = solved {
@@ -107,7 +116,8 @@ impl Manipulator {
             }
             let (status, residual, outcome, progress) = solved?;
             (self.outputs.status, self.outputs.residual) = (status, residual);
-            (self.outputs.outcome, self.outputs.progress) = (outcome, progress);
+            self.outputs.outcome = outcome;
+            self.outputs.progress = (number as f64 + progress) / path.len() as f64;
             break;
         }
         self.outputs.iterations = iterations;
@@ -122,7 +132,11 @@ impl Manipulator {
     /// # Errors
     /// [`Error::Unsupported`] by another method than the potential one.
     pub fn snapshot(&self) -> Result<Snapshot, Error> {
-        Ok(Snapshot { models: self.solver.snapshot()?, outputs: self.outputs.clone() })
+        Ok(Snapshot {
+            models: self.solver.snapshot()?,
+            outputs: self.outputs.clone(),
+            has_shape: self.has_shape,
+        })
     }
 
     /// Remembers what another manipulator of the same design, magnet and settings did.
@@ -138,7 +152,7 @@ impl Manipulator {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
         self.solver.restore(&snapshot.models)?;
-        self.outputs = snapshot.outputs.clone();
+        (self.outputs, self.has_shape) = (snapshot.outputs.clone(), snapshot.has_shape);
         Ok(())
     }
 
@@ -193,10 +207,11 @@ impl Manipulator {
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.solver.reset();
-        self.outputs = self.solver.straight();
+        (self.outputs, self.has_shape) = (self.solver.straight(), false);
     }
 
     fn observe(&mut self, inputs: &Inputs, report: &Report) {
+        self.has_shape = true;
         let out = &mut self.outputs;
         self.solver.observe(inputs, out);
         out.tip_angle = inputs.base.axis().angle(&out.tip.axis());

@@ -6,6 +6,7 @@ pub mod continuation;
 pub mod eigenvalue;
 pub mod lagrange;
 pub mod levenberg_marquardt;
+pub mod maximum;
 pub mod newton;
 pub mod pseudo_transient;
 pub mod quadrature;

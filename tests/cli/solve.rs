@@ -7,7 +7,9 @@ use serde_json::Value;
 
 use super::{assert_status, stderr, with_scene};
 use crate::equilibrium::critical::{is_stable, last_true};
-use crate::tolerance::{DIFFERENCE, METHOD_ARCS, METHOD_COARSE, TWO_DECIMALS_DEG, assert_close};
+use crate::tolerance::{
+    DIFFERENCE, METHOD_ARCS, METHOD_COARSE, NEUTRAL_SHAPE, TWO_DECIMALS_DEG, assert_close,
+};
 
 const ONE_SEGMENT: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
 
@@ -83,10 +85,19 @@ fn json_has_the_promised_keys() {
         "error_estimate_m",
         "method",
         "jacobian",
+        "status",
+        "outcome",
+        "progress",
+        "stability",
     ];
     let keys: Vec<&String> = answer.as_object().unwrap().keys().collect();
-    assert_eq!(keys.len(), promised.len() + 1);
-    assert!(answer["jacobian_note"].is_null(), "null where there is nothing to say");
+    assert_eq!(keys.len(), promised.len() + 2);
+    for key in ["jacobian_note", "reason"] {
+        assert!(answer[key].is_null(), "{key} where there is nothing to say");
+    }
+    let verdict = ["status", "outcome", "stability"].map(|key| answer[key].as_str().unwrap());
+    assert_eq!(verdict, ["solved", "solved", "stable"]);
+    assert_eq!(answer["progress"], 1.0);
     for key in promised {
         assert!(!answer[key].is_null(), "{key}");
     }
@@ -112,7 +123,9 @@ fn table_is_for_people() {
 fn model_without_potential_has_no_verdict() {
     let scene =
         "[design]\nsegments = 2\n[model]\ninteraction = \"preceding\"\n[field]\nuniform_mt = [0, 10, 0]";
-    assert!(json("preceding", scene, 0)["stable"].is_null());
+    let answer = json("preceding", scene, 0);
+    assert!(answer["stable"].is_null());
+    assert_eq!(answer["stability"], "unknown");
 }
 
 #[test]
@@ -141,15 +154,79 @@ fn scene_of_the_readme_is_solved() {
 }
 
 #[test]
-fn past_the_last_fold_the_last_good_shape_is_printed_with_status_2() {
+fn past_the_last_fold_no_shape_is_shown_but_why() {
     // The attraction of rings and helix pulls one segment shut at 35.86 mT: there is no shape at 60 mT.
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
     let answer = json("shut", scene, 2);
     assert_eq!(answer["converged"], false);
-    assert!(answer["jacobian"].is_null());
+    assert_eq!(answer["status"], "not_converged");
     assert_eq!(answer["jacobian_note"], "no derivatives: the last inputs are not solved");
+    let progress = answer["progress"].as_f64().unwrap();
+    assert!((0.0..1.0).contains(&progress), "{progress}");
+    assert_ne!(answer["outcome"], "solved");
+    assert!(answer["reason"].as_str().unwrap().contains(if answer["outcome"] == "contact" {
+        "touch"
+    } else {
+        "ends"
+    }));
+    let told = [
+        "converged",
+        "status",
+        "outcome",
+        "reason",
+        "progress",
+        "iterations",
+        "residual",
+        "interaction",
+        "method",
+        "jacobian_note",
+    ];
+    for (key, value) in answer.as_object().unwrap() {
+        assert_eq!(value.is_null(), !told.contains(&key.as_str()), "{key}: {value}");
+    }
     let (_, output) = with_scene("shut", scene, &["solve", "scene.toml"]);
-    assert!(stderr(&output).contains("not converged"), "{}", stderr(&output));
+    assert!(stderr(&output).contains("not converged") && stderr(&output).contains("% of the way"));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.starts_with("not converged;") && text.contains("progress"), "{text}");
+    for word in ["stable", "margin", "force", "angle"] {
+        assert!(!text.contains(word), "{word} of no shape: {text}");
+    }
+}
+
+#[test]
+fn a_shape_that_may_turn_freely_is_neutral_and_not_unstable() {
+    // Turned over in a field against it, three segments may turn about its axis.
+    let scene = "[design]\nsegments = 3\n[model]\ninteraction = \"none\"\n[field]\nuniform_mt = [0, 0, -20]";
+    let answer = json("neutral", scene, 4);
+    assert_eq!(answer["converged"], true);
+    assert_eq!(answer["stable"], false);
+    assert_eq!(answer["stability"], "neutral");
+    assert_eq!(answer["outcome"], "neutral");
+    assert!(answer["reason"].as_str().unwrap().contains("neutral"));
+    assert!(answer["stability_margin"].as_f64().unwrap().abs() <= NEUTRAL_SHAPE);
+    let (_, output) = with_scene("neutral", scene, &["solve", "scene.toml"]);
+    assert_status(&output, 4);
+    let text = String::from_utf8(output.stdout.clone()).unwrap();
+    assert!(text.contains("; neutral: one direction is free;") && !text.contains("unstable"), "{text}");
+    assert!(stderr(&output).starts_with("warning: the equilibrium is neutral"), "{}", stderr(&output));
+}
+
+#[test]
+fn a_time_budget_is_read_and_checked() {
+    let scene = |budget: &str| format!("{ONE_SEGMENT}time_budget_s = {budget}\n");
+    json("budget", &scene("0.5"), 0);
+    for (budget, expected) in [
+        ("0", "model.time_budget_s = 0"),
+        ("-1", "model.time_budget_s = -1"),
+        ("inf", "model.time_budget_s = inf"),
+    ] {
+        let (_, output) = with_scene("budget", &scene(budget), &["solve", "scene.toml"]);
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+    let (_, output) =
+        with_scene("budget", &format!("{ONE_SEGMENT}time_budget = 1"), &["solve", "scene.toml"]);
+    assert!(stderr(&output).contains("did you mean `time_budget_s`?"), "{}", stderr(&output));
 }
 
 #[test]

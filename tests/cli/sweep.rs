@@ -29,6 +29,7 @@ fn first_key_is_followed_for_every_other() {
         assert_eq!(cells["converged"], "true");
         assert_eq!(cells["stable"], "true");
         assert_eq!(cells["snaps"], "0");
+        assert_eq!([&cells["stability"], &cells["outcome"], &cells["progress"]], ["stable", "solved", "1.0"]);
     }
     assert!((number(9, "design.helix.length_mm") - 4.0).abs() <= ROUNDING * 4.0);
     assert!(number(0, "alpha_deg").to_radians().abs() <= SAME_SHAPE);

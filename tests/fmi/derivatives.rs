@@ -73,7 +73,7 @@ fn orientations_follow_their_path_and_stay_normalised() {
             mcm::fmi::variable::Value::Integer(value) => Some(value),
             _ => None,
         });
-    assert!(iterations.unwrap().0[0] > 47, "3/2 pi in parts of 0.1 rad");
+    assert!(iterations.unwrap()[0] > 47, "3/2 pi in parts of 0.1 rad");
     // Through the zero quaternion there is no way.
     for (name, from) in names.iter().zip(read(&mut instance)) {
         assert_eq!(set_rate(&mut instance, &table, name, -from), Ending::Ok);
@@ -131,7 +131,7 @@ fn derivatives_that_are_none_are_refused_by_name() {
     assert_eq!(instance.set_input_derivatives(&[field], &[1], &[f64::NAN]), Ending::Error);
     assert!(last(&told).contains("field.uniform[2] = NaN"), "{}", last(&told));
     assert_eq!(instance.set_input_derivatives(&[field, field], &[1, 2], &[0.0, 0.0]), Ending::Ok);
-    assert_eq!(instance.set_input_derivatives(&[field, field], &[1, 2], &[0.0, 1.0]), Ending::Warning);
+    assert_eq!(instance.set_input_derivatives(&[field, field], &[1, 2], &[0.0, 1.0]), Ending::Ok);
     assert!(last(&told).contains("above the first"), "{}", last(&told));
     assert_eq!(instance.output_derivatives(&[of("tip.angle")], &[0]), Err(Ending::Error));
     assert_eq!(instance.output_derivatives(&[of("tip.angle")], &[2]), Ok(vec![0.0]));

@@ -18,7 +18,7 @@ fn heard(log: &Log, told: &Mutex<Vec<String>>) -> [bool; 3] {
     told.lock().unwrap().clear();
     log.relieve();
     log.event("e");
-    log.warning("w");
+    log.notice("w");
     log.error("x");
     let told = told.lock().unwrap();
     ["logEvents: e", "logStatusWarning: w", "logStatusError: x"].map(|said| told.iter().any(|t| t == said))

@@ -4,6 +4,8 @@ mod derivatives;
 
 mod description;
 
+mod endings;
+
 mod importer;
 
 mod instance;

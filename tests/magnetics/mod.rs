@@ -6,5 +6,6 @@ mod field;
 mod field_table;
 mod material;
 mod multipoles;
+mod overlap;
 mod reference;
 mod wrench;

@@ -7,6 +7,20 @@ import pytest
 from conftest import Archive, Device
 from fmpy.fmi1 import FMICallException
 
+NOT_SOLVED = 3  # `solver.status`
+CONTACT = 3  # `solver.outcome`
+
+# Nine segments, and a magnet that passes by with its field against them: they turn over, and back later.
+PASSING = """
+[design]
+segments = 9
+[magnet]
+position_mm = [0, -120, -80]
+turn_deg = 180
+[model]
+interaction = "none"
+"""
+
 
 def refused(device: Device, call: str, *arguments: object) -> str:
     """Asserts that a call is refused with an error; its message."""
@@ -114,14 +128,64 @@ def test_derivatives_that_there_are_not(device: Device) -> None:
 
 
 def test_magnet_upon_the_manipulator(device: Device) -> None:
-    """A pose inside the magnet has no field: an error, and a reset recovers."""
+    """A pose inside the magnet is refused with the reason; the last good outputs stay, and a reset recovers."""
     device.start()
     angle = device.get(["tip.angle"])
     device.set({"magnet.position[2]": -0.02, "magnet.position[3]": 0.02})
-    refused(device, "doStep", 0.0, 0.1)
-    if device.status() == 3:
-        values = dict(zip(device.reals(), device.get(device.reals()), strict=True))
-        assert {name: value for name, value in values.items() if not math.isfinite(value)} == {}
-        device.slave.reset()
-        device.start()
-        assert device.get(["tip.angle"]) == angle
+    message = refused(device, "doStep", 0.0, 0.1)
+    assert "% of the way: " in message
+    assert "the last good outputs can be read" in message
+    assert device.status() == NOT_SOLVED
+    assert device.get(["tip.angle"]) == angle
+    assert 0.0 <= device.get(["solver.progress"])[0] < 1.0
+    values = dict(zip(device.reals(), device.get(device.reals()), strict=True))
+    assert {name: value for name, value in values.items() if not math.isfinite(value)} == {}
+    device.slave.reset()
+    device.start()
+    assert device.get(["tip.angle"]) == angle
+
+
+def test_first_pose_inside_the_magnet(device: Device) -> None:
+    """There are no good outputs yet, so none are promised nor given; a reset recovers."""
+    device.slave.setupExperiment(startTime=0.0)
+    device.slave.enterInitializationMode()
+    device.set({"magnet.position[2]": -0.023, "magnet.strength": 1e-6})
+    message = refused(device, "exitInitializationMode")
+    assert "for the first inputs" in message
+    assert "bodies touch: " in message
+    assert "mm deep in cylinder" in message
+    assert "last good" not in message
+    assert device.status() == NOT_SOLVED
+    assert device.slave.getInteger(device.references(["solver.outcome"])) == [CONTACT]
+    assert "no equilibrium was found yet" in refused(device, "getReal", device.references(["tip.angle"]))
+    device.slave.reset()
+    device.start()
+    device.step(0.1)
+
+
+def test_nothing_but_ok_through_snaps_and_unexpected_steps(pack: Callable[..., Archive]) -> None:
+    """A host that stops at every status but OK runs on: what happened stands in outputs and in the log."""
+    device = Device(pack(PASSING))
+    codes = []
+
+    def heard(function: Callable[..., int], name: str) -> Callable[..., int]:
+        def call(*arguments: object) -> int:
+            codes.append((name, function(*arguments)))
+            return codes[-1][1]
+
+        return call
+
+    for name in ("fmi2DoStep", "fmi2GetReal", "fmi2ExitInitializationMode"):
+        setattr(device.slave, name, heard(getattr(device.slave, name), name))
+    device.start()
+    for z in [*range(-80, 71, 5), *range(65, -81, -5)]:
+        device.step(0.1, {"magnet.position[3]": 1e-3 * z})
+        device.get(["tip.angle"])
+    device.slave.doStep(device.time + 7.0, 0.1)
+    assert {status for _, status in codes} == {0}
+    assert len(codes) > 100
+    assert device.slave.getInteger(device.references(["stability.snaps"])) == [2]
+    said = [line for line in device.log if line.startswith("logStatusWarning: ")]
+    assert sum("snapped to another branch" in line for line in said) == 2
+    assert sum("but the last one ended at" in line for line in said) == 1
+    device.slave.freeInstance()

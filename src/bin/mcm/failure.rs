@@ -10,6 +10,8 @@ pub(crate) const NOT_CONVERGED: u8 = 2;
 /// Exit status of a solve that ended at an equilibrium known to be unstable, as only a method that is blind to
 /// stability can.
 pub(crate) const UNSTABLE: u8 = 3;
+/// Exit status of a solve that ended at a neutral equilibrium, which one direction may leave freely.
+pub(crate) const NEUTRAL: u8 = 4;
 
 /// A message for standard error.
 #[derive(Debug)]

@@ -14,6 +14,7 @@ mod solve;
 mod stability;
 mod study;
 mod sweep;
+mod verdict;
 
 use std::process::ExitCode;
 
@@ -28,7 +29,7 @@ use failure::Failure;
     after_help = "A scene is a TOML file; whatever it leaves out is Table 1 of the paper with nine \
 segments, without field or load. Example:\n\n    [design]\n    segments = 3\n    [field]\n    \
 uniform_mt = [0.0, 20.0, 0.0]\n\nExit status: 0 done (solve: solved and not known to be unstable), 1 bad input, 2 not converged, \
-3 solved but known to be unstable."
+3 solved but known to be unstable, 4 solved but neutral."
 )]
 struct Arguments {
     #[command(subcommand)]

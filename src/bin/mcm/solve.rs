@@ -9,8 +9,9 @@ use mcm::manipulator::{Jacobian, Outputs, Status};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
-use super::failure::{Failure, NOT_CONVERGED, UNSTABLE};
+use super::failure::Failure;
 use super::files::read_scene;
+use super::verdict;
 
 /// Solves one equilibrium, starting from the unloaded shape.
 #[derive(clap::Args)]
@@ -18,10 +19,12 @@ use super::files::read_scene;
 In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a magnet) and tip_by_uniform_field (6 x 3). \
 Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
 centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
-jacobian_note says why.\n\n\
+jacobian_note says why. stability is stable, unstable, neutral (one direction is free, as about the axis of an antiparallel \
+field) or unknown. Where nothing was found, converged is false, outcome, reason and progress say why and how far along the \
+way from the unloaded shape, and all numbers of the shape are null.\n\n\
 Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\", any \
 method but \"potential\"), 1 bad input, 2 not converged, \
-3 solved but known to be unstable.")]
+3 solved but known to be unstable, 4 solved but neutral.")]
 pub(crate) struct Solve {
     /// Scene file (TOML)
     scene: PathBuf,
@@ -55,24 +58,14 @@ impl Solve {
 }
 
 fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
-    let Some((status, message)) = warning(outputs.status, outputs.stable) else {
+    let Some((status, message)) = verdict::warning(outputs) else {
         return Ok(ExitCode::SUCCESS);
     };
     writeln!(std::io::stderr(), "warning: {message}")?;
     Ok(status.into())
 }
 
-/// Exit status and words for an answer that is not what was asked for; `None` when all is well.
-fn warning(status: Status, stable: Option<bool>) -> Option<(u8, &'static str)> {
-    match (status, stable) {
-        (Status::NotSolved, _) => {
-            Some((NOT_CONVERGED, "not converged: the answer is the last good shape on the way"))
-        }
-        (_, Some(false)) => Some((UNSTABLE, "the equilibrium is unstable")),
-        _ => None,
-    }
-}
-
+/// What the search did, and the shape if it found one: without, every number about a shape is null.
 fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) -> Value {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
     let derivatives = jacobian.as_ref().ok().map(|jacobian| {
@@ -81,32 +74,42 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
             "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
         })
     });
-    json!({
-        "alpha_rad": outputs.tip_angle,
-        "tip_position_m": vector(&outputs.tip.position),
-        "tip_orientation_wxyz": outputs.tip.quaternion(),
-        "magnetic_force_n": vector(&outputs.magnetic_force),
-        "magnetic_torque_nm": vector(&outputs.magnetic_torque),
-        "base_reaction_force_n": vector(&outputs.base_reaction_force),
-        "base_reaction_moment_nm": vector(&outputs.base_reaction_moment),
-        "magnet_reaction_force_n": vector(&outputs.magnet_reaction_force),
-        "magnet_reaction_torque_nm": vector(&outputs.magnet_reaction_torque),
-        "ring_positions_m": outputs.rings.iter().map(|ring| vector(&ring.position)).collect::<Vec<_>>(),
-        "core_angles_rad": outputs.core_angles,
-        "shape_m": outputs.shape.iter().map(vector).collect::<Vec<_>>(),
-        "stable": outputs.stable,
-        "stability_margin": outputs.stability_margin,
-        "snaps": outputs.snaps,
-        "converged": outputs.status != Status::NotSolved,
-        "iterations": outputs.iterations,
-        "residual": outputs.residual,
-        "energy_j": outputs.energy,
-        "interaction": outputs.interaction.name(),
-        "error_estimate_m": outputs.error_estimate,
-        "method": outputs.method.name(),
-        "jacobian": derivatives,
-        "jacobian_note": jacobian.as_ref().err().map(ToString::to_string),
-    })
+    let shape = [
+        ("alpha_rad", json!(outputs.tip_angle)),
+        ("tip_position_m", vector(&outputs.tip.position)),
+        ("tip_orientation_wxyz", json!(outputs.tip.quaternion())),
+        ("magnetic_force_n", vector(&outputs.magnetic_force)),
+        ("magnetic_torque_nm", vector(&outputs.magnetic_torque)),
+        ("base_reaction_force_n", vector(&outputs.base_reaction_force)),
+        ("base_reaction_moment_nm", vector(&outputs.base_reaction_moment)),
+        ("magnet_reaction_force_n", vector(&outputs.magnet_reaction_force)),
+        ("magnet_reaction_torque_nm", vector(&outputs.magnet_reaction_torque)),
+        ("ring_positions_m", outputs.rings.iter().map(|ring| vector(&ring.position)).collect()),
+        ("core_angles_rad", json!(outputs.core_angles)),
+        ("shape_m", outputs.shape.iter().map(vector).collect()),
+        ("stable", json!(outputs.stable)),
+        ("stability_margin", json!(outputs.stability_margin)),
+        ("snaps", json!(outputs.snaps)),
+        ("energy_j", json!(outputs.energy)),
+        ("error_estimate_m", json!(outputs.error_estimate)),
+    ];
+    let converged = verdict::converged(outputs);
+    let search = [
+        ("converged", json!(converged)),
+        ("status", json!(verdict::status(outputs))),
+        ("outcome", json!(outputs.outcome.name())),
+        ("reason", json!(verdict::reason(outputs))),
+        ("progress", json!(outputs.progress)),
+        ("stability", json!(verdict::stability(outputs))),
+        ("iterations", json!(outputs.iterations)),
+        ("residual", json!(outputs.residual)),
+        ("interaction", json!(outputs.interaction.name())),
+        ("method", json!(outputs.method.name())),
+        ("jacobian", json!(derivatives)),
+        ("jacobian_note", json!(jacobian.as_ref().err().map(ToString::to_string))),
+    ];
+    let shape = shape.map(|(key, value)| (key, if converged { value } else { Value::Null }));
+    shape.into_iter().chain(search).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// A matrix as a list of its rows.
@@ -120,25 +123,36 @@ fn as_table(outputs: &Outputs) -> String {
         let entry = |x: f64| format!("{:>12.4}", x * factor);
         row(name, [entry(v.x), entry(v.y), entry(v.z)].concat(), unit)
     };
-    let status = match outputs.status {
-        Status::Solved => "solved",
-        Status::NearFold => "solved, close to a fold: a little more load and the shape snaps",
-        Status::Snapped => "solved, after a snap to another branch",
-        Status::NotSolved => "not converged",
+    let search = format!(
+        "{} iterations, residual {:.1e}, interaction {}\n",
+        outputs.iterations,
+        outputs.residual,
+        outputs.interaction.name()
+    );
+    let Some(stability) = verdict::stability(outputs) else {
+        return format!(
+            "not converged; {search}\n{}{}",
+            row("outcome", outputs.outcome.name().replace('_', " "), ""),
+            row(
+                "progress",
+                format!("{:.1}", 100.0 * outputs.progress),
+                "% of the way from the unloaded shape"
+            )
+        );
     };
-    let stable = match outputs.stable {
-        Some(true) => "stable",
-        Some(false) => "unstable",
-        None => "stability unknown: this model has no potential",
+    let status = match (outputs.status, stability) {
+        (Status::NearFold, "stable") => "solved, close to a fold: a little more load and the shape snaps",
+        (Status::Snapped, _) => "solved, after a snap to another branch",
+        _ => "solved",
+    };
+    let stable = match stability {
+        "neutral" => "neutral: one direction is free",
+        "unknown" => "stability unknown: this model has no potential",
+        known => known,
     };
     let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
     [
-        format!(
-            "{status}; {stable}; {} iterations, residual {:.1e}, interaction {}\n\n",
-            outputs.iterations,
-            outputs.residual,
-            outputs.interaction.name()
-        ),
+        format!("{status}; {stable}; {search}\n"),
         row("tip angle", format!("{:.4}", outputs.tip_angle.to_degrees()), "deg"),
         vector("tip position", &outputs.tip.position, 1e3, "mm"),
         vector("tip direction", &outputs.tip.axis(), 1.0, ""),
@@ -155,19 +169,4 @@ fn as_table(outputs: &Outputs) -> String {
         row("energy", format!("{:.4}", outputs.energy * 1e6), "uJ"),
     ]
     .concat()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn exit_status_says_what_is_known() {
-        let status = |status, stable| warning(status, stable).map(|(number, _)| number);
-        assert_eq!(status(Status::Solved, Some(true)), None);
-        assert_eq!(status(Status::Snapped, Some(true)), None);
-        assert_eq!(status(Status::Solved, None), None, "no potential, no verdict");
-        assert_eq!(status(Status::Solved, Some(false)), Some(3));
-        assert_eq!(status(Status::NotSolved, Some(true)), Some(2));
-    }
 }

@@ -30,6 +30,7 @@ Examples, a field that grows, for three core lengths; a field that turns there a
 mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv\n    \
 mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
 mcm sweep scene.toml --vary magnet.turn_deg=0:90:91 --out sweep.csv\n\n\
+Rows that did not converge have no shape: outcome says why, progress how far the last step to them got.\n\n\
 Exit status: 0 done, 1 bad input, 2 some rows did not converge (all files are written)."
 )]
 pub(crate) struct Sweep {
@@ -159,12 +160,17 @@ impl Sweep {
             write!(stdout, "{}", summary::describe(keys, walk))?;
         }
         stdout.flush()?;
-        let lost = rows().filter(|row| !row.converged()).count();
-        if lost == 0 {
-            return Ok(ExitCode::SUCCESS);
-        }
-        let message = "rows did not converge: they repeat the last good shape, with converged = false";
-        writeln!(std::io::stderr(), "warning: {lost} of {} {message}", rows().count())?;
+        let lost = rows().filter(|row| !row.converged());
+        let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
+        writeln!(
+            std::io::stderr(),
+            "warning: {} of {} rows did not converge and hold no shape; at {} = {}: {}",
+            lost.count(),
+            rows().count(),
+            keys[0],
+            first.value(),
+            first.outcome()
+        )?;
         Ok(NOT_CONVERGED.into())
     }
 }

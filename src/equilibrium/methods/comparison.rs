@@ -12,10 +12,11 @@ use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
 use crate::equilibrium::chain::arc_lengths;
+use crate::equilibrium::contact::Placed;
 use crate::equilibrium::correction::Report;
 use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::outcome::Outcome;
+use crate::equilibrium::outcome::{Contact, Outcome};
 use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::{Interaction, Settings};
 use crate::equilibrium::source::Source;
@@ -142,15 +143,29 @@ impl Comparison {
             }
         }
         let answers = if done >= 1.0 { self.answers(inputs) } else { None };
-        let Some((energy, wrenches)) = answers else {
+        let contact = self.contact(inputs);
+        let (Some((energy, wrenches)), None) = (answers, contact) else {
             self.state = before;
-            report.progress = done;
+            (report.outcome, report.progress) = (contact.map_or(report.outcome, Outcome::Contact), done);
             return Ok(report);
         };
         self.state.inputs = Some(inputs.clone());
         self.state.wrenches = wrenches;
         (report.outcome, report.progress, report.energy) = (Outcome::Solved, 1.0, energy);
         Ok(report)
+    }
+
+    /// The deepest contact of the present shape.
+    fn contact(&self, inputs: &Inputs) -> Option<Contact> {
+        let (chain, shape) = (&self.line.chain, &self.state.shape);
+        let placed = Placed { chain, nodes: &shape.nodes };
+        let mut start = 0.0;
+        let mut starts = Vec::with_capacity(chain.elements.len());
+        for element in &chain.elements {
+            starts.push(start + element.offset);
+            start += element.offset + element.length;
+        }
+        placed.contact(&self.settings, self.magnet.as_ref(), inputs, |k, s| shape.trace.pose(starts[k] + s))
     }
 
     /// One solve without further parts; whether it succeeded.

@@ -152,7 +152,7 @@ impl Surroundings<'_> {
     fn add_pair(&self, out: &mut NodeLoad, rings: [usize; 2], poses: &[Pose], order: Order) -> Option<()> {
         let [first, second] = rings.map(|index| &self.line.chain.rings[index]);
         let (from, to) = (&poses[first.node], &poses[second.node]);
-        if overlap(first, from, second, to) {
+        if overlap(first, from, second, to) > 0.0 {
             return None;
         }
         let rule = self.rules.between(rings[0], rings[1]);

@@ -36,7 +36,6 @@ pub(super) fn c_string(text: &str) -> CString {
 pub(super) fn status(ending: Ending) -> fmi2Status {
     match ending {
         Ending::Ok => fmi2Status::fmi2OK,
-        Ending::Warning => fmi2Status::fmi2Warning,
         Ending::Discard => fmi2Status::fmi2Discard,
         Ending::Error => fmi2Status::fmi2Error,
     }

@@ -83,10 +83,7 @@ pub(super) unsafe fn get<T>(
     let Some(references) = references else { return instance.refuse(NO_ARRAY) };
     match instance.get(references, kind, read) {
         // SAFETY: by the contract of this function.
-        Ok((values, ending)) => match unsafe { write(instance, &values, target) } {
-            Ending::Ok => ending,
-            refused => refused,
-        },
+        Ok(values) => unsafe { write(instance, &values, target) },
         Err(ending) => ending,
     }
 }

@@ -4,10 +4,10 @@ use super::super::slope::Slope;
 use super::super::units::{
     ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
 };
-use super::super::variable::{Access, At, Kind, Reach, Role};
+use super::super::variable::{Access, At, Kind, Reach, Role, SNAPS};
 use super::parameters::INTERACTION;
 use super::{Counts, Draft, MARGIN, Rows};
-use crate::manipulator::{Output, Outputs, Status};
+use crate::manipulator::{Outcome, Output, Outputs, Status};
 
 /// An Integer and no enumeration, because some hosts hide those.
 fn status_number(status: Status) -> i32 {
@@ -19,13 +19,24 @@ fn status_number(status: Status) -> i32 {
     }
 }
 
+fn outcome_number(outcome: Outcome) -> i32 {
+    match outcome {
+        Outcome::Solved => 0,
+        Outcome::Neutral => 1,
+        Outcome::BranchEnds => 2,
+        Outcome::Contact(_) => 3,
+        Outcome::OutOfBudget => 4,
+    }
+}
+
 fn count(number: u32) -> i32 {
     i32::try_from(number).unwrap_or(i32::MAX)
 }
 
 type Vector = (&'static str, Quantity, &'static str, fn(&Outputs, At) -> f64, Reach, Output);
 
-type Whole = (&'static str, &'static str, fn(&Outputs) -> i32);
+/// Name, description, largest value.
+type Whole = (&'static str, &'static str, Option<f64>, fn(&Outputs) -> i32);
 
 impl Rows {
     pub(super) fn answers(&mut self, counts: &Counts) {
@@ -129,23 +140,39 @@ impl Rows {
         let stable = Access::BooleanAnswer(|o| o.stable == Some(true));
         let description = "Whether the equilibrium is known to be stable";
         self.real(Draft::new("stability.stable", Kind::Boolean, description, stable));
+        let neutral = Access::BooleanAnswer(|o| o.outcome == Outcome::Neutral);
+        let description = "Whether one direction is free, as about the axis of an antiparallel field: neither stable nor unstable";
+        self.real(Draft::new("stability.neutral", Kind::Boolean, description, neutral));
         self.real(Draft::real(
             MARGIN,
             RATIO,
             "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold",
             answer(|o, _| o.stability_margin),
         ));
-        let integers: [Whole; 3] = [
-            ("stability.snaps", "Jumps to another branch since initialisation", |o| count(o.snaps)),
-            ("solver.status", "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved", |o| {
-                status_number(o.status)
-            }),
-            ("solver.iterations", "Newton iterations of the last solve", |o| count(o.iterations)),
+        let integers: [Whole; 4] = [
+            (SNAPS, "Jumps to another branch since initialisation", None, |o| count(o.snaps)),
+            (
+                "solver.status",
+                "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved (the other outputs are the last good ones)",
+                Some(3.0),
+                |o| status_number(o.status),
+            ),
+            (
+                "solver.outcome",
+                "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget",
+                Some(4.0),
+                |o| outcome_number(o.outcome),
+            ),
+            ("solver.iterations", "Newton iterations of the last solve", None, |o| count(o.iterations)),
         ];
-        for (name, description, get) in integers {
+        for (name, description, max, get) in integers {
             let draft = Draft::new(name, Kind::Integer, description, Access::IntegerAnswer(get)).min(0.0);
-            self.real(if name == "solver.status" { draft.max(3.0) } else { draft });
+            self.real(Draft { max, ..draft });
         }
+        let progress = answer(|o, _| o.progress);
+        let description =
+            "How far along the last change of inputs an equilibrium was found: 1 where it is solved";
+        self.real(Draft::real("solver.progress", RATIO, description, progress).min(0.0).max(1.0));
         let residual = answer(|o, _| o.residual.min(f64::MAX)); // infinite when a solve never began
         let description = "Residual of the last solve relative to the elastic forces";
         self.real(Draft::real("solver.residual", RATIO, description, residual).min(0.0));

@@ -1,7 +1,7 @@
 //! Parameters: design, external magnet, model.
 
 use super::super::given::Given;
-use super::super::units::{ANGLE, DENSITY, HARDNESS, LENGTH, MODULUS, RATIO, REMANENCE};
+use super::super::units::{ANGLE, DENSITY, HARDNESS, LENGTH, MODULUS, RATIO, REMANENCE, TIME};
 use super::super::variable::{Access, Enumeration, Item, Kind, Role};
 use super::{Draft, Rows, place};
 use crate::design::Specification::{Cylinder, Segmented};
@@ -128,6 +128,18 @@ impl Rows {
                 set: |given, on| given.settings.bending_stop = on,
             },
         ));
+        self.fixed(
+            Draft::real(
+                "model.time_budget",
+                TIME,
+                "Processor time that a solve may take before it ends as out of budget",
+                Access::Real {
+                    get: |given, _| given.settings.time_budget,
+                    set: |given, _, value| given.settings.time_budget = value,
+                },
+            )
+            .min(0.0),
+        );
     }
 
     fn fixed(&mut self, draft: Draft) {

@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::{Interaction, Method};
+use crate::equilibrium::{Interaction, Method, Settings};
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///
@@ -246,7 +246,7 @@ pub(super) struct GravityTable {
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelTable {
     #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
@@ -254,11 +254,17 @@ pub(super) struct ModelTable {
     #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
     pub(super) method: Method,
     pub(super) bending_stop: bool,
+    pub(super) time_budget_s: f64,
 }
 
 impl Default for ModelTable {
     fn default() -> Self {
-        Self { interaction: Interaction::Auto, method: Method::Potential, bending_stop: false }
+        Self {
+            interaction: Interaction::Auto,
+            method: Method::Potential,
+            bending_stop: false,
+            time_budget_s: Settings::default().time_budget,
+        }
     }
 }
 

@@ -50,7 +50,7 @@ impl SceneFile {
         let specification = self.design.specification()?;
         let inputs = self.inputs(&Design::new(specification.clone())?)?;
         let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
-        Ok(Scene { specification, magnets, inputs, settings: self.settings() })
+        Ok(Scene { specification, magnets, inputs, settings: self.settings()? })
     }
 
     /// Writes down what `key` names if it was left out because it follows from the design.
@@ -98,9 +98,10 @@ impl SceneFile {
         Ok(inputs)
     }
 
-    fn settings(&self) -> Settings {
-        let ModelTable { interaction, method, bending_stop } = self.model;
-        Settings { interaction, bending_stop, method, ..Settings::default() }
+    fn settings(&self) -> Result<Settings, Error> {
+        let ModelTable { interaction, method, bending_stop, time_budget_s } = self.model;
+        let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
+        Ok(Settings { interaction, bending_stop, time_budget, method, ..Settings::default() })
     }
 }
 

@@ -1,15 +1,16 @@
 //! The columns of a sweep's table.
 
-use mcm::manipulator::{Outputs, Status};
-
+use mcm::manipulator::{Outcome, Outputs};
 use nalgebra::Vector3;
 
 use super::Way;
+use crate::verdict;
 
 /// Tips closer than this are those of one shape, mm: ten thousand times what a solve leaves.
 const SAME_TIP: f64 = 1e-4;
 
-const NUMBERS: [&str; 29] = [
+/// Those of the shape, which a row that did not converge has not.
+const NUMBERS: [&str; 28] = [
     "alpha_deg",
     "tip_x_mm",
     "tip_y_mm",
@@ -37,11 +38,21 @@ const NUMBERS: [&str; 29] = [
     "tip_field_y_mt",
     "tip_field_z_mt",
     "energy_j",
-    "residual",
     "stability_margin",
 ];
 
-const FLAGS: [&str; 4] = ["stable", "snaps", "converged", "iterations"];
+/// Those of the search.
+const SEARCH: [&str; 9] = [
+    "predicted_fold",
+    "stable",
+    "stability",
+    "snaps",
+    "converged",
+    "outcome",
+    "progress",
+    "iterations",
+    "residual",
+];
 
 /// One line of the table.
 pub(super) struct Row {
@@ -49,18 +60,28 @@ pub(super) struct Row {
     way: Way,
     numbers: Vec<f64>,
     predicted_fold: Option<f64>,
-    flags: (Option<bool>, u32, bool, u32),
+    stable: Option<bool>,
+    stability: Option<&'static str>,
+    snaps: u32,
+    outcome: Outcome,
+    progress: f64,
+    iterations: u32,
+    residual: f64,
 }
 
 /// The table's header for these keys.
 pub(super) fn header<'a>(keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
-    keys.chain(["way"]).chain(NUMBERS).chain(["predicted_fold"]).chain(FLAGS)
+    keys.chain(["way"]).chain(NUMBERS).chain(SEARCH)
 }
 
 impl Row {
     /// The cells in the order of [`header`].
     pub(super) fn cells(&self) -> impl serde::Serialize + '_ {
-        (&self.varied, self.way, &self.numbers, self.predicted_fold, self.flags)
+        let converged = self.converged();
+        let numbers: Vec<_> = self.numbers.iter().map(|number| converged.then_some(number)).collect();
+        let verdict = (self.predicted_fold, self.stable.filter(|_| converged), self.stability, self.snaps);
+        let search = (converged, self.outcome.name(), self.progress, self.iterations, self.residual);
+        (&self.varied, self.way, numbers, verdict, search)
     }
 
     pub(super) fn new(varied: Vec<f64>, way: Way, outputs: &Outputs, predicted_fold: Option<f64>) -> Self {
@@ -81,10 +102,20 @@ impl Row {
         ] {
             numbers.extend(vector);
         }
-        numbers.extend([outputs.energy, outputs.residual, outputs.stability_margin]);
-        let converged = outputs.status != Status::NotSolved;
-        let flags = (outputs.stable, outputs.snaps, converged, outputs.iterations);
-        Self { varied, way, numbers, predicted_fold, flags }
+        numbers.extend([outputs.energy, outputs.stability_margin]);
+        Self {
+            varied,
+            way,
+            numbers,
+            predicted_fold,
+            stable: outputs.stable,
+            stability: verdict::stability(outputs),
+            snaps: outputs.snaps,
+            outcome: outputs.outcome,
+            progress: outputs.progress,
+            iterations: outputs.iterations,
+            residual: outputs.residual,
+        }
     }
 
     /// The first key's value.
@@ -92,7 +123,11 @@ impl Row {
         self.varied[0]
     }
 
-    /// The tip angle, deg.
+    pub(super) fn outcome(&self) -> Outcome {
+        self.outcome
+    }
+
+    /// The tip angle of the last shape that was found, deg.
     pub(super) fn angle(&self) -> f64 {
         self.numbers[0]
     }
@@ -102,7 +137,7 @@ impl Row {
     }
 
     pub(super) fn converged(&self) -> bool {
-        self.flags.2
+        self.outcome.is_solved()
     }
 
     /// Whether the tip is elsewhere, or one of the two is no solved shape.

@@ -59,7 +59,7 @@ fn fold_in_words(key: &str, fold: &Fold, way: Way) -> String {
             let at = if far { format!(", found at {value}") } else { String::new() };
             format!("{there}, it snaps to {angle:.2} deg{at}")
         }
-        None => format!("{there}, the branch ends: no stable shape was found beyond"),
+        None => format!("{there}, the way ends: {}", fold.outcome),
     }
 }
 

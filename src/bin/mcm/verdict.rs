@@ -1,0 +1,74 @@
+//! What is known of an answer, in the words of JSON and CSV, and the exit status that follows.
+
+use mcm::manipulator::{Outcome, Outputs, Status};
+
+use super::failure::{NEUTRAL, NOT_CONVERGED, UNSTABLE};
+
+/// Whether there is a shape at the inputs asked for.
+pub(crate) fn converged(outputs: &Outputs) -> bool {
+    outputs.status != Status::NotSolved
+}
+
+/// How the solve ended.
+pub(crate) fn status(outputs: &Outputs) -> &'static str {
+    match outputs.status {
+        Status::Solved => "solved",
+        Status::NearFold => "near_fold",
+        Status::Snapped => "snapped",
+        Status::NotSolved => "not_converged",
+    }
+}
+
+/// What is known of the shape's stability; `None` without a shape.
+///
+/// Of a neutral shape one direction is free to rounding, so that it is neither stable nor unstable.
+pub(crate) fn stability(outputs: &Outputs) -> Option<&'static str> {
+    converged(outputs).then_some(match (outputs.outcome, outputs.stable) {
+        (Outcome::Neutral, _) => "neutral",
+        (_, Some(true)) => "stable",
+        (_, Some(false)) => "unstable",
+        (_, None) => "unknown",
+    })
+}
+
+/// What happened and what to do about it; `None` where an equilibrium was found that is not neutral.
+pub(crate) fn reason(outputs: &Outputs) -> Option<String> {
+    (outputs.outcome != Outcome::Solved).then(|| outputs.outcome.to_string())
+}
+
+/// Exit status and words for an answer that is not what was asked for; `None` when all is well.
+pub(crate) fn warning(outputs: &Outputs) -> Option<(u8, String)> {
+    match stability(outputs) {
+        None => {
+            let (percent, outcome) = (100.0 * outputs.progress, outputs.outcome);
+            let there = format!("not converged, {percent:.1} % of the way from the unloaded shape");
+            Some((NOT_CONVERGED, format!("{there}: {outcome}")))
+        }
+        Some("neutral") => Some((NEUTRAL, outputs.outcome.to_string())),
+        Some("unstable") => Some((UNSTABLE, "the equilibrium is unstable".into())),
+        Some(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mcm::manipulator::Scene;
+
+    use super::*;
+
+    #[test]
+    fn exit_status_says_what_is_known() -> Result<(), mcm::error::Error> {
+        let scene = Scene::parse("[design]\nsegments = 1", "one segment")?;
+        let straight = scene.manipulator(2)?.outputs().clone();
+        let exit = |status, stable, outcome| {
+            warning(&Outputs { status, stable, outcome, ..straight.clone() }).map(|(number, _)| number)
+        };
+        assert_eq!(exit(Status::Solved, Some(true), Outcome::Solved), None);
+        assert_eq!(exit(Status::Snapped, Some(true), Outcome::Solved), None);
+        assert_eq!(exit(Status::Solved, None, Outcome::Solved), None, "no potential, no verdict");
+        assert_eq!(exit(Status::Solved, Some(false), Outcome::Solved), Some(3));
+        assert_eq!(exit(Status::NearFold, Some(false), Outcome::Neutral), Some(4));
+        assert_eq!(exit(Status::NotSolved, Some(true), Outcome::BranchEnds), Some(2));
+        Ok(())
+    }
+}

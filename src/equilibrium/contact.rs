@@ -1,0 +1,130 @@
+//! Bodies that share volume: rings with one another, and all of the manipulator with the external magnet.
+
+use nalgebra::Vector3;
+
+use super::chain::Chain;
+use super::correction::Scene;
+use super::inputs::Inputs;
+use super::outcome::{Body, Contact};
+use super::pair::overlap;
+use super::potential::Workspace;
+use super::settings::{Interaction, Settings};
+use crate::geometry::Pose;
+use crate::magnetics::{Assembly, Outline};
+use crate::numerics::maximum::largest;
+
+/// Parts of an element at whose ends its sections are looked at.
+const PARTS: usize = 16;
+
+/// How long an element may be, in unstrained lengths, to be sure to be far from a magnet: the model's strains are less than
+/// a tenth.
+const STRETCHED: f64 = 2.0;
+
+/// Share of a radius by which a section may lie below a magnet's surface by rounding.
+const TOUCHING: f64 = 1e-9;
+
+/// Nodes and elements of a chain that is placed in the world.
+pub(super) struct Placed<'a> {
+    pub(super) chain: &'a Chain,
+    pub(super) nodes: &'a [Pose],
+}
+
+impl Scene<'_> {
+    /// The deepest contact of the shape that was placed last, at these inputs.
+    pub(super) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
+        let placed = Placed { chain: self.chain, nodes: &work.nodes };
+        placed.contact(self.settings, self.magnet, inputs, |k, s| {
+            let element = &self.chain.elements[k];
+            let amplitudes = self.chain.part(k, &work.placed);
+            work.nodes[k].compose(&work.configurations[k].pose_at(element, &element.row(s), amplitudes))
+        })
+    }
+}
+
+impl Placed<'_> {
+    /// The deepest contact; `section` is the pose of an element's section at an arc length (m) from the element's start.
+    ///
+    /// Rings count among themselves where they act on each other. A magnet of strength 0 is not there.
+    pub(super) fn contact(
+        &self,
+        settings: &Settings,
+        magnet: Option<&Assembly>,
+        inputs: &Inputs,
+        section: impl Fn(usize, f64) -> Pose,
+    ) -> Option<Contact> {
+        let mut deepest = None;
+        if settings.interaction != Interaction::None {
+            self.among_rings(&mut deepest);
+        }
+        if let Some(magnet) = magnet.filter(|_| inputs.magnet_strength != 0.0) {
+            self.with_magnet(magnet, &inputs.magnet, section, &mut deepest);
+        }
+        deepest
+    }
+
+    fn among_rings(&self, deepest: &mut Option<Contact>) {
+        for (i, first) in self.chain.rings.iter().enumerate() {
+            for (j, second) in self.chain.rings.iter().enumerate().skip(i + 1) {
+                let depth = overlap(first, &self.nodes[first.node], second, &self.nodes[second.node]);
+                add(deepest, Contact { first: Body::Ring(i), second: Body::Ring(j), depth });
+            }
+        }
+    }
+
+    fn with_magnet(
+        &self,
+        magnet: &Assembly,
+        at: &Pose,
+        section: impl Fn(usize, f64) -> Pose,
+        deepest: &mut Option<Contact>,
+    ) {
+        let distance = |pose: &Pose| magnet.distance(&at.rotation.tr_mul(&(pose.position - at.position)));
+        for (i, ring) in self.chain.rings.iter().enumerate() {
+            let centre = ring.centre(&self.nodes[ring.node]);
+            let outline = ring.outline();
+            if distance(&centre) < ring.ring.outer_radius + ring.half_length() {
+                for (number, (cylinder, place)) in magnet.outlines().enumerate() {
+                    let depth = outline.depth_in(&cylinder, &seen(&centre, at, &place));
+                    add(deepest, with_cylinder(Body::Ring(i), number, depth));
+                }
+            }
+        }
+        for (k, (element, &radius)) in self.chain.elements.iter().zip(&self.chain.radii).enumerate() {
+            let reach = STRETCHED * element.length + radius;
+            if distance(&self.nodes[k + 1]) > reach {
+                continue;
+            }
+            for (number, (cylinder, place)) in magnet.outlines().enumerate() {
+                let disc = Outline::new(0.0, radius, 0.0);
+                let level = |s: f64| {
+                    let pose = seen(&section(k, s), at, &place);
+                    disc.level_in(&cylinder, &pose, reach).unwrap_or(f64::NEG_INFINITY)
+                };
+                // Between two sections nothing comes closer by more than their distance and the turn between them, at
+                // most half a circle in all.
+                let worth = -(STRETCHED * element.length + core::f64::consts::PI * radius) / PARTS as f64;
+                let (depth, _) = largest(level, [0.0, element.length], PARTS, worth);
+                if depth > TOUCHING * radius {
+                    add(deepest, with_cylinder(Body::Segment(k), number, depth));
+                }
+            }
+        }
+    }
+}
+
+/// The pose as seen from a cylinder whose centre is at `place` in the magnet's frame, that at `at` in the world.
+fn seen(pose: &Pose, at: &Pose, place: &Vector3<f64>) -> Pose {
+    let pose = pose.seen_from(at);
+    Pose { position: pose.position - place, ..pose }
+}
+
+fn with_cylinder(first: Body, cylinder: usize, depth: f64) -> Contact {
+    Contact { first, second: Body::MagnetCylinder(cylinder), depth }
+}
+
+/// Keeps the deeper contact.
+fn add(deepest: &mut Option<Contact>, contact: Contact) {
+    if contact.depth > deepest.map_or(0.0, |deepest| deepest.depth) {
+        *deepest = Some(contact);
+    }
+}
