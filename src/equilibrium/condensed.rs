@@ -58,7 +58,39 @@ impl Objective for Potential<'_> {
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.solve_with(x, true);
+        let spans = self.settings.interaction.acts_on_spans();
+        let mutual = self.settings.interaction == Interaction::Full;
+        let work = &mut *self.work;
+        work.rhs.fill(0.0);
+        for (k, reduction) in work.reductions.iter().enumerate() {
+            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
+            let mut nodes = reduction.eliminate(part);
+            turn_nodes(&work.axes[k], &mut nodes);
+            for (i, value) in nodes.iter().enumerate() {
+                if let Some(row) = free(6 * k + i) {
+                    work.rhs[row] += value;
+                }
+            }
+            if mutual {
+                reduction.eliminate_outer(part, &mut work.rhs);
+            }
+        }
+        match &work.lu {
+            Some(lu) => {
+                let size = work.rhs.len();
+                lu.solve_mut(&mut DVectorViewMut::from_slice(&mut work.rhs, size));
+            }
+            None => cholesky::solve(&work.factor, work.rhs.len(), &mut work.rhs),
+        }
+        for (k, reduction) in work.reductions.iter().enumerate() {
+            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
+            let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| work.rhs[row]));
+            turn_nodes(&work.axes[k].transpose(), &mut nodes);
+            if spans {
+                reduction.recover_outer(&work.rhs, part);
+            }
+            reduction.recover(&nodes, part);
+        }
     }
 
     fn metric(&self) -> &[f64] {
@@ -67,11 +99,6 @@ impl Objective for Potential<'_> {
 }
 
 impl Potential<'_> {
-    /// Solves with the symmetric part of the matrix alone, which decides on stability.
-    pub(super) fn solve_symmetric(&mut self, x: &mut [f64]) {
-        self.solve_with(x, false);
-    }
-
     /// Condenses element `k` and adds it to the matrix of the nodes.
     fn condense(&mut self, k: usize, shift: f64) -> bool {
         let work = &mut *self.work;
@@ -130,42 +157,6 @@ impl Potential<'_> {
         let mut tip = matrix.view_mut((size - 3, size - 3), (3, 3));
         tip += turning;
         matrix
-    }
-
-    fn solve_with(&mut self, x: &mut [f64], asymmetric: bool) {
-        let spans = self.settings.interaction.acts_on_spans();
-        let mutual = self.settings.interaction == Interaction::Full;
-        let work = &mut *self.work;
-        work.rhs.fill(0.0);
-        for (k, reduction) in work.reductions.iter().enumerate() {
-            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
-            let mut nodes = reduction.eliminate(part);
-            turn_nodes(&work.axes[k], &mut nodes);
-            for (i, value) in nodes.iter().enumerate() {
-                if let Some(row) = free(6 * k + i) {
-                    work.rhs[row] += value;
-                }
-            }
-            if mutual {
-                reduction.eliminate_outer(part, &mut work.rhs);
-            }
-        }
-        match &work.lu {
-            Some(lu) if asymmetric => {
-                let size = work.rhs.len();
-                lu.solve_mut(&mut DVectorViewMut::from_slice(&mut work.rhs, size));
-            }
-            _ => cholesky::solve(&work.factor, work.rhs.len(), &mut work.rhs),
-        }
-        for (k, reduction) in work.reductions.iter().enumerate() {
-            let part = &mut x[self.chain.first[k]..self.chain.first[k + 1]];
-            let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| work.rhs[row]));
-            turn_nodes(&work.axes[k].transpose(), &mut nodes);
-            if spans {
-                reduction.recover_outer(&work.rhs, part);
-            }
-            reduction.recover(&nodes, part);
-        }
     }
 }
 

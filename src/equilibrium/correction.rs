@@ -116,6 +116,8 @@ impl Report {
 pub(super) struct Scratch {
     pub(super) last: Vec<f64>,
     pub(super) trial: Vec<f64>,
+    /// The way between two shapes, and back.
+    pub(super) between: Vec<f64>,
     /// Steps with one factorisation.
     steps: Vec<Vec<f64>>,
     lanczos: Lanczos,
@@ -127,6 +129,7 @@ impl Scratch {
         Self {
             last: zeros.clone(),
             trial: zeros.clone(),
+            between: zeros.clone(),
             steps: vec![zeros; CORRECTIONS],
             lanczos: Lanczos::default(),
         }

@@ -93,7 +93,7 @@ impl Walk<'_> {
     }
 
     /// Whether a descent from the shape `last`, at `before`, has led to another branch: a branch that goes on, however
-    /// steeply, leads back when the inputs do, and what has come down stays down.
+    /// steeply, leads back when the inputs do; a shape that drifts along a neutral branch comes down by nothing.
     fn has_left(&mut self, before: &Inputs, inputs: &Inputs, last: &[f64], reached: &[f64]) -> bool {
         let metric = &self.scene.chain.metric;
         let apart = |a: &[f64], b: &[f64]| {
@@ -107,16 +107,15 @@ impl Walk<'_> {
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
         self.go_downhill(before, &mut back, PASSING);
-        let mut potential = self.potential(before);
-        let (start, end) = (potential.slope(last), potential.slope(&back));
+        self.choose_rules(inputs, reached);
+        let mut potential = self.potential(inputs);
+        let (start, end) = (potential.slope(last), potential.slope(reached));
         let released = !potential.conservative()
             || start.zip(end).is_none_or(|(start, end)| start - end > RELEASED * distance * distance);
         let left = released && apart(&back, last) > RETURNED * distance;
-        // What is read from the solved shape must be that of its own inputs; its factorisation is gone.
-        self.choose_rules(inputs, reached);
-        let again = self.potential(inputs).chord_slope(reached).is_some();
+        // The factorisation is that of the way back.
         self.work.factored = false;
         (self.report.residual, self.report.energy) = (residual, energy);
-        left || !again
+        left
     }
 }

@@ -23,7 +23,7 @@ use crate::rod::{Configuration, Load, Order, START, Tangent};
 const TABLE_RESIDUAL: f64 = 5e-8;
 
 /// Arnoldi vectors for the eigenvalues of a matrix that is not symmetric.
-const ARNOLDI: usize = 64;
+const ARNOLDI: usize = 48;
 
 /// The look at the margin when it is asked for.
 pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
@@ -143,19 +143,19 @@ impl Potential<'_> {
     /// The smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper bound by `search`;
     /// positive where the shape is stable, NaN where none is found. `softest` is the first guess, and then its vector.
     ///
-    /// Of forces without a potential, the symmetric part decides where it is positive definite: then no displacement gains
-    /// energy. Else it is the smallest real part of the whole matrix' eigenvalues: where that is negative the shape diverges in
-    /// overdamped motion. Whether a shape flutters, in a pair of complex eigenvalues of the undamped motion, is another
+    /// Of forces without a potential it is the smallest real part of the eigenvalues: where that is negative the shape diverges
+    /// in overdamped motion. Whether a shape flutters, in a pair of complex eigenvalues of the undamped motion, is another
     /// question: it takes the masses and the damping, which statics does not know.
     pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.chain.metric;
-        if self.work.definite {
-            return lanczos.smallest(metric, 0.0, softest, search, |x| self.solve_symmetric(x));
+        if self.conservative() {
+            return lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
         }
         smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
     }
 
-    /// Whether the shape factorised last is stable, for all that its factorisation tells; see [`Potential::margin`].
+    /// Whether the shape factorised last is stable, for all that its factorisation tells; see [`Potential::margin`]. Where the
+    /// symmetric part is positive definite no displacement gains energy, with a potential or without.
     pub(super) fn is_stable(&mut self) -> bool {
         if self.work.definite {
             return true;
@@ -174,11 +174,12 @@ impl Potential<'_> {
         energy
     }
 
-    /// The Newton step from the last gradient with the last factorisation.
-    pub(super) fn newton_step(&mut self) -> Vec<f64> {
-        let mut step: Vec<f64> = self.work.gradient.iter().map(|slope| -slope).collect();
+    /// Adds the Newton step from the last gradient with the last factorisation to `x`; the gradient is spent.
+    pub(super) fn add_newton_step(&mut self, x: &mut [f64]) {
+        let mut step = std::mem::take(&mut self.work.gradient);
         self.solve(&mut step);
-        step
+        x.iter_mut().zip(&step).for_each(|(x, s)| *x -= s);
+        self.work.gradient = step;
     }
 
     /// Places the chain and adds up all loads; the energy, or `None` where something touches.

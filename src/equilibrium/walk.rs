@@ -189,19 +189,21 @@ impl Walk<'_> {
     /// does not: there the step of the inputs moves the shape by far less than the two are apart.
     fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
         let metric = &self.scene.chain.metric;
-        let between: Vec<f64> = now.iter().zip(last).map(|(a, b)| a - b).collect();
+        let mut between = std::mem::take(&mut self.scratch.between);
+        between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
         let distance = norm(metric, &between);
         // So near, the last factorisation would have held for both.
         if distance <= self.reach * self.scene.chain.unit() {
+            self.scratch.between = between;
             return true;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut potential = self.potential(before);
-        let back = potential.chord_slope(now).map(|_| potential.newton_step());
-        let returned = back.is_some_and(|back| {
-            let missed: Vec<f64> = between.iter().zip(&back).map(|(a, b)| a + b).collect();
-            norm(metric, &missed) <= MISSED * distance
-        });
+        let returned = potential.chord_slope(now).is_some() && {
+            potential.add_newton_step(&mut between);
+            norm(metric, &between) <= MISSED * distance
+        };
+        self.scratch.between = between;
         // What is read from the solved shape must be that of its own inputs.
         let again = self.potential(inputs).chord_slope(now).is_some();
         (self.report.residual, self.report.energy) = (residual, energy);

@@ -7,6 +7,13 @@ use super::eigenvalue::inner;
 /// Sweeps of the QR algorithm at most, by row.
 const SWEEPS: usize = 100;
 
+/// Relative size of a subdiagonal entry that counts as zero, tried one after the other: clusters of nearly defective eigenvalues
+/// do not come apart to rounding.
+const NEGLIGIBLE: [f64; 3] = [1e-13, 1e-11, 1e-9];
+
+/// Norm of what is left of a vector, relative to what it was, from which on it is rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// The smallest real part of the eigenvalues, by `vectors` Arnoldi vectors at most; `start` is the first one.
 ///
 /// `solve` replaces its argument by `H^-1` times it. The method is Arnoldi's on `H^-1 K` in the inner product of the diagonal
@@ -28,7 +35,7 @@ pub fn smallest_real_part(
         if !(norm.is_finite() && norm > 0.0) {
             return None;
         }
-        let small = column > 0 && norm <= f64::EPSILON * projected.column(column - 1).amax();
+        let small = column > 0 && norm <= ROUNDING * projected.column(column - 1).amax();
         if small {
             // The vectors span an invariant space: its eigenvalues are all that the start can tell.
             projected = projected.view((0, 0), (column, column)).into_owned();
@@ -53,7 +60,7 @@ pub fn smallest_real_part(
         return None;
     }
     let rows = projected.nrows();
-    let schur = Schur::try_new(projected, f64::EPSILON, SWEEPS * rows)?;
-    let real_parts = schur.complex_eigenvalues().iter().map(|mu| mu.re / mu.norm_sqr()).collect::<Vec<_>>();
-    real_parts.into_iter().filter(|part| part.is_finite()).min_by(f64::total_cmp)
+    let schur = NEGLIGIBLE.iter().find_map(|eps| Schur::try_new(projected.clone(), *eps, SWEEPS * rows))?;
+    let eigenvalues = schur.complex_eigenvalues();
+    eigenvalues.iter().map(|mu| mu.re / mu.norm_sqr()).filter(|part| part.is_finite()).min_by(f64::total_cmp)
 }
