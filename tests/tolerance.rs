@@ -78,6 +78,24 @@ pub(crate) const STATICS_ENERGY: f64 = 1e-5;
 /// are resolved twice as finely.
 pub(crate) const STATICS_SPANS_ENERGY: f64 = 1e-3;
 
+/// Default accuracy of the ring pairs.
+pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
+
+/// Force, torque and energy of ring pairs by their faces at that accuracy: a tenth of it (reached: 3e-7).
+pub(crate) const FACES: f64 = 1e-6;
+
+/// The same at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
+pub(crate) const FACES_TIGHT: f64 = 1e-9;
+
+/// Shapes that such pairs decide, over what they do: softened by up to the same again.
+pub(crate) const FACES_BALANCE: f64 = 5e-6;
+
+/// Slope of an energy of such pairs by differences of fourth order with steps of 2e-4, which rounding makes out of 1e-15.
+pub(crate) const FACES_SLOPE: f64 = 5e-9;
+
+/// Slope of the gradient by differences of second order with steps of 1e-5.
+pub(crate) const FACES_HESSIAN: f64 = 1e-6;
+
 /// Accuracy that the ring pairs are asked for beside a table: the best that they have.
 pub(crate) const PAIRS: f64 = 1e-10;
 
