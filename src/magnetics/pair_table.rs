@@ -13,7 +13,7 @@ const BISECTIONS: usize = 40;
 
 /// How often the bound of the last rule on the axis, the error for a dipole at the nearest point of the other ring, exceeds
 /// the error of force and torque between two rings: measured for the paper's, where the bound is 1e-5 to 1e-4.
-const BOUND_OVER_ERROR: f64 = 3.0;
+const BOUND_OVER_ERROR: f64 = 2.8;
 
 /// Part of the accuracy that is asked for of the faces: force and torque of close pairs are to be as good as their energy.
 const FACE_SHARE: f64 = 0.1;

@@ -9,8 +9,9 @@ use nalgebra::Vector3;
 use crate::magnetics::face_integral::by_faces;
 use crate::tolerance::{FACES_BALANCE, FACES_HESSIAN, FACES_SLOPE, PAIRS, assert_close};
 
-/// Helix lengths, m: the rings' centres are a millimetre further apart.
-const LENGTHS: [f64; 2] = [1.6e-3, 2.2e-3];
+/// Helix lengths (m) and how many such segments stay straight under their attraction: the rings' centres are a millimetre
+/// further apart than that. Three of the shorter ones pull themselves shut.
+const CHAINS: [(f64, usize); 4] = [(1.6e-3, 1), (1.6e-3, 2), (2.2e-3, 1), (2.2e-3, 3)];
 
 fn design(length: f64, segments: usize) -> Design {
     let paper = Segmented::paper(segments);
@@ -55,30 +56,28 @@ fn heights(design: &Design) -> Vec<f64> {
 
 #[test]
 fn attraction_and_axial_stiffness_balance() {
-    for length in LENGTHS {
-        for segments in [1, 3] {
-            let design = design(length, segments);
-            let mut equilibrium = Equilibrium::new(&design, None, Settings::default(), 2).expect("allowed");
-            let report = equilibrium.solve(&Inputs::unloaded(segments + 1)).expect("finite");
-            assert!(report.solved && report.stable == Some(true), "{report:?}");
-            let rings: Vec<Pose> = equilibrium.rings().collect();
-            let expected = heights(&design);
-            let free = design.rings().next().expect("rings").length + length;
-            for (k, height) in expected.iter().enumerate().skip(1) {
-                let got = rings[k].position.z - rings[0].position.z;
-                let [got, expected] = [got, *height].map(|height| free * k as f64 - height);
-                let name = format!("{length} m, ring {k} of {segments}");
-                println!("{name}: {expected:e} m shorter, {:e}", got / expected - 1.0);
-                assert!(expected > 1e-6, "{name}: the attraction counts");
-                assert_close(&name, &[got], &[expected], FACES_BALANCE);
-            }
+    for (length, segments) in CHAINS {
+        let design = design(length, segments);
+        let mut equilibrium = Equilibrium::new(&design, None, Settings::default(), 2).expect("allowed");
+        let report = equilibrium.solve(&Inputs::unloaded(segments + 1)).expect("finite");
+        assert!(report.solved && report.stable == Some(true), "{report:?}");
+        let rings: Vec<Pose> = equilibrium.rings().collect();
+        let expected = heights(&design);
+        let free = design.rings().next().expect("rings").length + length;
+        for (k, height) in expected.iter().enumerate().skip(1) {
+            let got = rings[k].position.z - rings[0].position.z;
+            let [got, expected] = [got, *height].map(|height| free * k as f64 - height);
+            let name = format!("{length} m, ring {k} of {segments}");
+            println!("{name}: {expected:e} m shorter, {:e}", got / expected - 1.0);
+            assert!(expected > 1e-6, "{name}: the attraction counts");
+            assert_close(&name, &[got], &[expected], FACES_BALANCE);
         }
     }
 }
 
-/// A bent chain, its unknowns, and a direction.
-fn bent(length: f64, settings: Settings) -> (Equilibrium, Vec<f64>, Vec<f64>) {
-    let equilibrium = Equilibrium::new(&design(length, 3), None, settings, 2).expect("allowed");
+/// A chain, the unknowns of a bent shape, and a direction.
+fn bent(length: f64, segments: usize, settings: Settings) -> (Equilibrium, Vec<f64>, Vec<f64>) {
+    let equilibrium = Equilibrium::new(&design(length, segments), None, settings, 2).expect("allowed");
     let metric = equilibrium.metric();
     let vector = |seed: f64, size: f64| {
         let unit = |k: &f64| size * (metric[0] / k).sqrt();
@@ -98,13 +97,17 @@ fn moved(shape: &[f64], direction: &[f64], distance: f64) -> Vec<f64> {
 
 #[test]
 fn energy_gradient_and_hessian_are_of_one_function() {
-    let mut inputs = Inputs::unloaded(4);
-    inputs.uniform_field = Vector3::new(0.004, 0.012, -0.003);
-    for length in LENGTHS {
-        let (mut equilibrium, shape, direction) = bent(length, Settings::default());
+    for (length, segments) in CHAINS {
+        let mut inputs = Inputs::unloaded(segments + 1);
+        inputs.uniform_field = Vector3::new(0.004, 0.012, -0.003);
+        // Of two segments on there are pairs on the axis by default, whose large weights make a noise out of rounding.
+        let default = Settings::default();
+        let pair_accuracy = if segments == 1 { default.pair_accuracy } else { PAIRS };
+        let (mut equilibrium, shape, direction) =
+            bent(length, segments, Settings { pair_accuracy, ..default });
         let mut at = |s: f64| equilibrium.gradient(&inputs, &moved(&shape, &direction, s)).expect("apart");
         let mut spread = |s: f64| (at(s).0 - at(-s).0) / (2.0 * s);
-        let step = 2e-4;
+        let step = 1e-4;
         let difference = (4.0 * spread(step) - spread(2.0 * step)) / 3.0;
         let slope: f64 = at(0.0).1.iter().zip(&direction).map(|(g, d)| g * d).sum();
         println!("{length} m: gradient {:e}", slope / difference - 1.0);
@@ -127,14 +130,16 @@ fn energy_gradient_and_hessian_are_of_one_function() {
 
 #[test]
 fn a_short_helix_follows_a_field_as_the_best_rules_have_it() {
-    for length in LENGTHS {
+    // Two of the shorter ones are all but pulled shut: a field does the rest.
+    for (length, segments) in CHAINS.into_iter().filter(|chain| *chain != (1.6e-3, 2)) {
         let solve = |pair_accuracy: f64| {
             let settings = Settings { pair_accuracy, ..Settings::default() };
-            let mut equilibrium = Equilibrium::new(&design(length, 3), None, settings, 2).expect("allowed");
+            let mut equilibrium =
+                Equilibrium::new(&design(length, segments), None, settings, 2).expect("allowed");
             let mut iterations = 0;
             for step in 0..=10 {
-                let mut inputs = Inputs::unloaded(4);
-                inputs.uniform_field = Vector3::new(0.0, 1e-3 * f64::from(step), 0.0);
+                let mut inputs = Inputs::unloaded(segments + 1);
+                inputs.uniform_field = Vector3::new(0.0, 3e-4 * f64::from(step), 0.0);
                 let report = equilibrium.solve(&inputs).expect("finite");
                 assert!(report.solved && report.snaps == 0, "{length} m, step {step}: {report:?}");
                 iterations += report.iterations;
@@ -142,7 +147,7 @@ fn a_short_helix_follows_a_field_as_the_best_rules_have_it() {
             (equilibrium.tip().position, iterations)
         };
         let (default, best) = (solve(Settings::default().pair_accuracy), solve(PAIRS));
-        let error = (default.0 - best.0).norm() / design(length, 3).length();
+        let error = (default.0 - best.0).norm() / design(length, segments).length();
         println!("{length} m: {} and {} iterations, {error:e} of the length apart", default.1, best.1);
         assert!(error <= FACES_BALANCE, "{length} m: {error:e}");
         assert!(default.1 <= 11 * 12, "Newton's method converges: {} iterations", default.1);
