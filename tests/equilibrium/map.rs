@@ -19,7 +19,7 @@ const CELLS: u64 = 2400;
 const STRONGEST: f64 = 0.04;
 
 /// Steps of the differences of energies and of gradients, in radians of the first mode.
-const LONG_STEPS: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-3];
+const LONG_STEPS: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 const STEP: f64 = 1e-5;
 
 /// A manipulator and the fields that it is led through.
@@ -111,8 +111,8 @@ fn weights(equilibrium: &Equilibrium) -> (Vec<f64>, f64) {
 
 /// Norm of the slope of the energy by differences, in turns of one element by a radian.
 ///
-/// Where a pair of rings changes its quadrature within a step the energy jumps; shorter steps, whose noise is larger, then tell,
-/// and where it does so at the shape itself, a longer one, over which the jump counts less. A slope that is there is seen by all.
+/// Where a pair of rings changes its quadrature within a step the energy jumps; shorter steps, whose noise is larger, then tell.
+/// A slope that is there is seen by all.
 fn slope_of_energy(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64]) -> f64 {
     let slopes = LONG_STEPS.iter().map(|step| slope_by_steps(equilibrium, inputs, shape, *step));
     let mut least = f64::INFINITY;
