@@ -77,7 +77,7 @@ pub struct Settings {
     pub cylinder_elements: usize,
     /// Largest error of the energy of a ring or of a span in a field, relative to that energy, and of the energy of two
     /// rings, relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Of rings too close for nodes on
-    /// an axis, by default 3.9 mm between the paper's, force, torque and energy are good to a tenth of it, down to gaps of
+    /// an axis, by default 3.8 mm between the faces of the paper's, force, torque and energy are good to a tenth of it, down to gaps of
     /// a fortieth of the outer radius; the paper's own, 4 mm apart, to 7e-6 of their force by default. What can be
     /// reached is 1e-10.
     pub pair_accuracy: f64,
