@@ -78,10 +78,28 @@ pub(crate) const STATICS_ENERGY: f64 = 1e-5;
 /// are resolved twice as finely.
 pub(crate) const STATICS_SPANS_ENERGY: f64 = 1e-3;
 
+/// Default accuracy of the ring pairs.
+pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
+
+/// Force, torque and energy of ring pairs by their faces at that accuracy: a tenth of it (reached: 3e-7).
+pub(crate) const FACES: f64 = 1e-6;
+
+/// The same at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
+pub(crate) const FACES_TIGHT: f64 = 1e-9;
+
+/// Shapes that such pairs decide, over what they do: softened by up to the same again.
+pub(crate) const FACES_BALANCE: f64 = 5e-6;
+
+/// Slope of an energy of such pairs by differences of fourth order with steps of 1e-4.
+pub(crate) const FACES_SLOPE: f64 = 2e-9;
+
+/// Slope of the gradient by differences of second order with steps of 1e-5.
+pub(crate) const FACES_HESSIAN: f64 = 1e-6;
+
 /// Accuracy that the ring pairs are asked for beside a table: the best that they have.
 pub(crate) const PAIRS: f64 = 1e-10;
 
-/// Forces between adjacent rings: the rule of most nodes on the axis leaves 5e-6 there, whatever is asked for.
+/// Forces between adjacent rings at the default accuracy: the rule of most nodes on the axis leaves 5e-6 there.
 pub(crate) const ADJACENT: f64 = 1e-5;
 
 /// Where a turned field loses the branch, deg.
@@ -252,10 +270,6 @@ pub(crate) const ON_BRANCH: f64 = 1e-14;
 
 /// Parameter at singular points, of order one: located until what vanishes there is 1e-10.
 pub(crate) const SINGULAR: f64 = 1e-9;
-
-/// A segment whose rings are closer than the paper's, 3 mm apart or more, beside a beam column with the exact wrench: what
-/// the rule of most nodes leaves there (reached: 1.4e-4 at 3 mm).
-pub(crate) const CLOSER: f64 = 2e-4;
 
 /// Folds of a dipole on a core beside closed forms, which leave out nothing.
 pub(crate) const CLOSED_FORM_OF_FOLDS: f64 = 1e-7;

@@ -158,6 +158,8 @@ pub(super) struct Walk<'a> {
     pub(super) scratch: &'a mut Scratch,
     pub(super) report: Report,
     pub(super) deadline: &'a Deadline,
+    /// The last equilibrium on the way to the target.
+    pub(super) reached: Option<(Inputs, Vec<f64>)>,
     /// How far loads and shape may drift from the last factorisation.
     pub(super) reach: f64,
 }

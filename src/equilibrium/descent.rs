@@ -1,6 +1,6 @@
 //! Beyond the end of a branch: downhill to the next stable shape, and whether that was a snap.
 
-use super::correction::{End, NEARLY, Walk};
+use super::correction::{End, NEARLY, ROUNDING, Walk};
 use super::inputs::Inputs;
 use crate::numerics::pseudo_transient::settle;
 use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
@@ -11,9 +11,11 @@ const FIRST_RADIUS: f64 = 0.1;
 /// Part of the distance of a descent within which its way back leads to the start where the branch has not been left.
 const RETURNED: f64 = 0.5;
 
-/// Energy that a snap over some distance sets free at least, of the elastic energy of that distance. From a fold to a minimum of
-/// margin `m` it is `m/12` in a quartic potential; along a neutral branch, where a shape may drift, it is rounding.
-const RELEASED: f64 = 1e-3;
+/// Least margin at which a way back is told from none: the residual, over the distance, at which it ends.
+const SOFT: f64 = 1e-6;
+
+/// Difference of two energies, in the chain's unit squared, that is none: what the residuals leave open.
+const SAME_ENERGY: f64 = 1e-7;
 
 /// Residual (in the chain's unit) at which a descent on the way ends: a nearly neutral valley is not followed to its bottom
 /// before the inputs have come to rest.
@@ -74,13 +76,7 @@ impl Walk<'_> {
 
     fn go_downhill(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> Minimum {
         self.choose_rules(inputs, unknowns);
-        let (unit, deadline) = (self.scene.chain.unit(), self.deadline);
-        let region = Region {
-            radius: FIRST_RADIUS * unit,
-            largest: unit,
-            tolerance: tolerance * unit,
-            iterations: self.left(),
-        };
+        let (region, deadline) = (self.region(tolerance), self.deadline);
         let mut potential = self.potential(inputs);
         let proceed = || !deadline.has_passed();
         let minimum = if potential.conservative() {
@@ -93,29 +89,57 @@ impl Walk<'_> {
     }
 
     /// Whether a descent from the shape `last`, at `before`, has led to another branch: a branch that goes on, however
-    /// steeply, leads back when the inputs do; a shape that drifts along a neutral branch comes down by nothing.
+    /// steeply, leads back when the inputs do.
     fn has_left(&mut self, before: &Inputs, inputs: &Inputs, last: &[f64], reached: &[f64]) -> bool {
-        let metric = &self.scene.chain.metric;
-        let apart = |a: &[f64], b: &[f64]| {
-            let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-            norm(metric, &between)
-        };
-        let distance = apart(reached, last);
+        let distance = self.apart(reached, last);
         if distance <= NEARLY * self.scene.chain.unit() {
             return false;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
-        self.go_downhill(before, &mut back, PASSING);
-        self.choose_rules(inputs, reached);
-        let mut potential = self.potential(inputs);
-        let (start, end) = (potential.slope(last), potential.slope(reached));
-        let released = !potential.conservative()
-            || start.zip(end).is_none_or(|(start, end)| start - end > RELEASED * distance * distance);
-        let left = released && apart(&back, last) > RETURNED * distance;
-        // The factorisation is that of the way back.
+        // Where the branch is soft, little force is left halfway.
+        let tolerance = (SOFT * distance / self.scene.chain.unit()).clamp(ROUNDING, PASSING);
+        self.go_downhill(before, &mut back, tolerance);
+        let left = self.apart(&back, last) > RETURNED * distance
+            && !self.has_drifted(inputs, last, reached, RETURNED * distance);
+        // The factorisation is that of another shape.
         self.work.factored = false;
         (self.report.residual, self.report.energy) = (residual, energy);
         left
+    }
+
+    /// Whether a shape as low as `reached` lies within `reach` of `last`, where overdamped motion leads: then the branch goes on
+    /// there, and the descent has drifted along a direction that is neutral.
+    fn has_drifted(&mut self, inputs: &Inputs, last: &[f64], reached: &[f64], reach: f64) -> bool {
+        if !self.potential(inputs).conservative() {
+            return false;
+        }
+        let mut settled = last.to_vec();
+        let region = self.region(PASSING);
+        let deadline = self.deadline;
+        settle(&mut self.potential(inputs), &mut settled, &region, || !deadline.has_passed());
+        if self.apart(&settled, last) > reach {
+            return false;
+        }
+        let unit = self.scene.chain.unit();
+        let mut potential = self.potential(inputs);
+        let energies = potential.slope(&settled).zip(potential.slope(reached));
+        energies.is_some_and(|(settled, reached)| settled - reached <= SAME_ENERGY * unit * unit)
+    }
+
+    /// Distance of two shapes in the elastic energy's norm.
+    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+        norm(&self.scene.chain.metric, &between)
+    }
+
+    fn region(&self, tolerance: f64) -> Region {
+        let unit = self.scene.chain.unit();
+        Region {
+            radius: FIRST_RADIUS * unit,
+            largest: unit,
+            tolerance: tolerance * unit,
+            iterations: self.left(),
+        }
     }
 }

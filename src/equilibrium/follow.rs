@@ -66,6 +66,13 @@ impl Branch {
         here.copy_from(inputs);
     }
 
+    /// Rests at an equilibrium on the way to inputs that were not reached.
+    pub(super) fn rest_at(&mut self, inputs: Inputs, unknowns: Vec<f64>) {
+        (self.inputs, self.unknowns) = (Some(inputs), unknowns);
+        self.earlier.clear();
+        (self.margin, self.stable) = (0.0, None);
+    }
+
     /// Writes to `shape` where the last steps lead to at `target`, as far along as the inputs go on; the length of that step
     /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
     ///

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use super::chain::RingBody;
 use super::source::Source;
 use crate::geometry::{Pose, hat};
-use crate::magnetics::{AxialRule, depth};
+use crate::magnetics::{PairRule, depth};
 use crate::rod::{Load, Order, turning};
 
 /// The energy of a pair as loads on its two nodes.
@@ -57,10 +57,13 @@ impl PairLoad {
         first: &Source<'_>,
         nodes: [&Pose; 2],
         second: &RingBody,
-        rule: &AxialRule,
+        rule: PairRule<'_>,
         order: Order,
     ) -> Option<Self> {
-        let load = first.on_ring(second, nodes[1], rule, order)?;
+        let load = match rule {
+            PairRule::Axis(rule) => first.on_ring(second, nodes[1], rule, order)?,
+            PairRule::Faces(rules) => first.on_faces(second, nodes[1], rules, order)?,
+        };
         Some(Self::reciprocal(&load, nodes[1].position - nodes[0].position))
     }
 

@@ -120,7 +120,7 @@ impl Equilibrium {
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
         let report = Report::start();
-        let mut walk = Walk { scene, work, rules, scratch, report, deadline, reach: 0.0 };
+        let mut walk = Walk { scene, work, rules, scratch, report, deadline, reached: None, reach: 0.0 };
         Ok(walk.follow(&mut self.branch, inputs))
     }
 

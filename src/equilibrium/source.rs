@@ -7,8 +7,8 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::chain::{Chain, RingBody};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, FieldTable, LinearField};
-use crate::rod::{Load, Matter, Order, Sample, Sheet, Station};
+use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable, LinearField};
+use crate::rod::{Charges, Load, Matter, Order, Sample, Sheet, Station};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -164,6 +164,42 @@ impl<'a> Source<'a> {
             let near = self.near(&(local.position + arm), &axis, order)?;
             let moment = body.magnetisation * volume;
             load.add_dipole(moment, &axis, &arm, &near.field, &near.gradient, near.along.as_ref());
+        }
+        Some(load.in_axes(&self.frame.rotation.transpose()))
+    }
+
+    /// The same for a ring in the field of this one, by the magnetic charges of its two faces, proximal and distal.
+    pub(super) fn on_faces(
+        &self,
+        body: &RingBody,
+        node: &Pose,
+        rules: [&FaceRule; 2],
+        order: Order,
+    ) -> Option<Load> {
+        let Magnet::Ring(ring, _) = self.magnet else { return None };
+        let local = self.locate(node);
+        let [d1, d2, axis]: [Vector3<f64>; 3] =
+            core::array::from_fn(|i| local.rotation.column(i).into_owned());
+        let mut load = Load::zero();
+        for (rule, height, charge) in
+            [(rules[0], 0.0, -body.magnetisation), (rules[1], body.ring.length, body.magnetisation)]
+        {
+            let centre = local.position + axis * height;
+            let mut charges = Charges::new(order == Order::Hessian);
+            for (position, area) in rule.points() {
+                let point = centre + d1 * position.x + d2 * position.y;
+                if ring.contains(&point) {
+                    return None;
+                }
+                if order == Order::Hessian {
+                    let (potential, field, gradient) = ring.potential_field_gradient(&point).ok()?;
+                    charges.add(charge * area, &position, potential, &field, Some(&gradient));
+                } else {
+                    let (potential, field) = ring.potential_field(&point).ok()?;
+                    charges.add(charge * area, &position, potential, &field, None);
+                }
+            }
+            load += charges.load(&local.rotation, height);
         }
         Some(load.in_axes(&self.frame.rotation.transpose()))
     }

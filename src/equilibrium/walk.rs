@@ -27,6 +27,7 @@ const MISSED: f64 = 0.5;
 impl Walk<'_> {
     /// Moves `branch` to the equilibrium at `target`; on failure the branch stays where it was.
     pub(super) fn follow(&mut self, branch: &mut Branch, target: &Inputs) -> Report {
+        self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
         let foreseen = self.foreseen(branch, target);
@@ -60,10 +61,13 @@ impl Walk<'_> {
         self.report
     }
 
-    /// Leaves `branch` where it was.
+    /// Leaves `branch` where it was or, where only the budget ended the way, at the last shape on it: asked again, it goes on.
     fn give_up(&mut self, branch: &mut Branch, outcome: Outcome) -> Report {
         self.work.factored = false;
-        branch.unknowns.copy_from_slice(&self.scratch.last);
+        match self.reached.take().filter(|_| outcome == Outcome::OutOfBudget) {
+            Some((inputs, unknowns)) => branch.rest_at(inputs, unknowns),
+            None => branch.unknowns.copy_from_slice(&self.scratch.last),
+        }
         (self.report.outcome, self.report.stable, self.report.margin) = (outcome, None, 0.0);
         self.report
     }
@@ -115,14 +119,14 @@ impl Walk<'_> {
         let (smallest, resting) = (self.scene.settings.smallest_part, self.resting());
         let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
         let mut here = start.clone();
-        let mut neutral = false;
+        let (mut neutral, mut shortened) = (false, false);
         while self.left() > self.scene.settings.iterations / RESERVE && self.may_go_on() {
             self.report.progress = stage[0] + done * (stage[1] - stage[0]);
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             let corrected = if neutral { None } else { self.try_to_correct([&here, &inputs], unknowns) };
             if corrected.is_none() && !neutral && part > floor {
-                part *= 0.5;
+                (part, shortened) = (0.5 * part, true);
                 continue;
             }
             let tolerance = if next < 1.0 { PASSING } else { resting };
@@ -139,10 +143,14 @@ impl Walk<'_> {
                 End::Neutral if self.report.residual <= ROUNDING => return End::Neutral,
                 End::Neutral | End::Lost => return End::Lost,
             }
-            (done, here) = (next, inputs);
-            part = floor.max(2.0 * part);
+            // A length that was just too long is not tried again at once.
+            part = floor.max(if shortened { part } else { 2.0 * part });
+            (done, here, shortened) = (next, inputs, false);
             if done >= 1.0 {
                 return end;
+            }
+            if end != End::Neutral {
+                self.reached = Some((here.clone(), unknowns.to_vec()));
             }
         }
         // Too many small steps along the branch: downhill all the way.

@@ -117,6 +117,41 @@ impl AxialSource {
         })
     }
 
+    /// The scalar potential `psi` (T m) and `B` (T) at a point (m) outside the material: `B = -grad psi` there.
+    ///
+    /// Inside the material `-grad psi` is `mu_0 H`, as everywhere, which `B` exceeds by the remanence. Like `H` the potential
+    /// is that of the magnetic charge on the end faces.
+    ///
+    /// ```
+    /// use mcm::magnetics::AxialSource;
+    /// use nalgebra::Vector3;
+    /// let disc = AxialSource::new(0.0, 2.0e-3, 1.0e-3, 1.35)?;
+    /// let (above, _) = disc.potential_field(&Vector3::new(0.0, 0.0, 2.0e-3))?;
+    /// // On the axis the potential of a charged disc is half of what is further to its rim than to its centre.
+    /// let end = |u: f64| 0.5 * 1.35 * (u.hypot(2.0e-3) - u);
+    /// assert!((above / (end(1.5e-3) - end(2.5e-3)) - 1.0).abs() < 1e-14);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`AxialSource::field`].
+    pub fn potential_field(&self, point: &Vector3<f64>) -> Result<(f64, Vector3<f64>), Error> {
+        let (at, potential, components) = self.with_potential::<FIELD>(point)?;
+        Ok((potential, components.field(&at)))
+    }
+
+    /// The same with the gradient `dB_i/dx_j` (T/m).
+    ///
+    /// # Errors
+    /// As [`AxialSource::field`].
+    pub fn potential_field_gradient(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<(f64, Vector3<f64>, Matrix3<f64>), Error> {
+        let (at, potential, components) = self.with_potential::<GRADIENT>(point)?;
+        Ok((potential, components.field(&at), components.gradient(&at)))
+    }
+
     /// `B` (T) at a point (m) by the axial multipoles up to an odd `degree` from 1, the dipole, to 17, and by no more.
     ///
     /// A comparison: the field is exact with as few of them as matter far away, and in closed form close by.
@@ -220,6 +255,30 @@ impl AxialSource {
             return Err(Error::range("distance from the magnet's centre (m)", r2.sqrt(), allowed));
         }
         Ok((Meridian::of(point.x, point.y), self.multipole.sum::<ORDER>(point.z, r2, degree.div_ceil(2))))
+    }
+
+    #[inline]
+    fn with_potential<const ORDER: u8>(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<(Meridian, f64, Components), Error> {
+        if !point.iter().all(|coordinate| coordinate.abs() <= FARTHEST) {
+            return Err(refused(point));
+        }
+        let at = Meridian::of(point.x, point.y);
+        let r2 = at.rho * at.rho + point.z * point.z;
+        if r2 > self.far2 {
+            let potential = self.multipole.potential(point.z, r2);
+            return Ok((at, potential, self.multipole.components::<ORDER>(point.z, r2)));
+        }
+        let sum = match &self.edges {
+            SourceEdges::Cylinder(edges) => edges.with_potential::<ORDER>(at.rho, point.z),
+            SourceEdges::Ring(edges) => edges.with_potential::<ORDER>(at.rho, point.z),
+        };
+        match sum {
+            Some((potential, components)) => Ok((at, potential, components)),
+            None => Err(Error::OnEdge { x: point.x, y: point.y, z: point.z }),
+        }
     }
 
     #[inline]

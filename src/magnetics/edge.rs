@@ -43,6 +43,18 @@ impl<const N: usize> Edges<N> {
     /// `ORDER` is the highest derivative; components of higher ones stay zero.
     #[inline]
     pub(super) fn components<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<Components> {
+        self.sum::<ORDER, false>(rho, z).map(|(_, sum)| sum)
+    }
+
+    /// The same with the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
+    #[inline]
+    pub(super) fn with_potential<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
+        self.sum::<ORDER, true>(rho, z)
+    }
+
+    /// The potential, zero unless `POTENTIAL`, and the components.
+    #[inline]
+    fn sum<const ORDER: u8, const POTENTIAL: bool>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
         let place = Place::new(Lanes(self.radius), z - Lanes(self.position), rho);
         if (0..N).any(|i| place.near2.0[i] <= ON_EDGE * ON_EDGE * place.far2.0[i]) {
             return None;
@@ -56,8 +68,10 @@ impl<const N: usize> Edges<N> {
             axial: axial.weighted_sum(weights),
             ..Components::default()
         };
+        let potential =
+            if POTENTIAL { place.potential(&integrals, radial, axial).weighted_sum(weights) } else { 0.0 };
         if ORDER == FIELD {
-            return Some(sum);
+            return Some((potential, sum));
         }
         let close: [bool; N] = from_fn(|i| m.0[i] > NEAR_EDGE);
         let any_close = close.contains(&true);
@@ -81,7 +95,7 @@ impl<const N: usize> Edges<N> {
             sum.axial_dzz = axial_dzz.weighted_sum(weights);
             sum.twist = twist.weighted_sum(weights);
         }
-        Some(sum)
+        Some((potential, sum))
     }
 }
 
@@ -140,6 +154,19 @@ impl<const N: usize> Place<N> {
         let radial = (-8.0 / PI) * self.a2 * i.first * i.t * self.inverse_far3;
         let axial = (1.0 / PI) * self.u * self.radius * i.third * self.inverse_sum * self.inverse_far;
         (radial, axial)
+    }
+
+    /// Potential of `mu_0 H` per unit remanence, of which `radial` and `axial` are the field.
+    ///
+    /// For `H` the edge is a disc of magnetic charge, minus one in units of the remanence: its field is `B` but for the
+    /// half of the remanence within the solenoid, counted from both sides. The potential is homogeneous of degree
+    /// one in the lengths: it is what Euler's theorem makes of the field and of `a K / (pi R)`, its derivative
+    /// by the radius, the potential of a charged circle.
+    #[inline]
+    fn potential(&self, i: &Integrals<N>, radial: Lanes<N>, axial: Lanes<N>) -> Lanes<N> {
+        let within = self.ratio.map(|ratio| if ratio > 0.0 { 0.5 } else { 0.25 * f64::from(ratio == 0.0) });
+        let circle = (1.0 / PI) * self.a2 * i.first * self.inverse_far;
+        within * self.u.map(f64::abs) - circle - self.rho2 * radial - self.u * axial
     }
 
     /// `dB_rho/dz / rho` and `dB_z/dz`: a current loop's field.

@@ -45,7 +45,16 @@ impl Multipole {
         self.sum::<ORDER>(z, r2, terms)
     }
 
-    /// The same by so many terms, anywhere beyond the extent.
+    /// The scalar potential there by all terms, T m: the sum of `beta_l S^0_l / (l+1)`.
+    #[inline]
+    pub(super) fn potential(&self, z: f64, r2: f64) -> f64 {
+        let inverse2 = 1.0 / r2;
+        let zonal = solid::<0>(inverse2.sqrt(), z * inverse2, inverse2, 2 * TERMS);
+        let degrees = (1..).step_by(2);
+        self.beta.iter().zip(degrees).map(|(beta, l)| beta * zonal[l] / (l as f64 + 1.0)).sum()
+    }
+
+    /// The components by so many terms, anywhere beyond the extent.
     ///
     /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is the
     /// sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ladder;
 use super::solver::Solver;
-use super::{Inputs, Jacobian, Outputs, Status};
+use super::{Inputs, Jacobian, Outcome, Outputs, Status};
 use crate::design::Design;
 use crate::equilibrium::{Gap, Report, Settings};
 use crate::error::Error;
@@ -77,6 +77,9 @@ impl Manipulator {
             self.observe(inputs, &report);
         } else {
             self.outputs.status = Status::NotSolved;
+            if report.outcome == Outcome::OutOfBudget {
+                self.outputs.snaps += report.snaps; // the branch has gone as far as it got
+            }
             self.outputs.iterations = report.iterations;
             self.outputs.residual = report.residual;
         }

@@ -2,6 +2,7 @@
 
 mod basis;
 mod bending;
+mod charges;
 mod cubature;
 mod element;
 mod kinematics;
@@ -12,6 +13,7 @@ mod sheet;
 mod stop;
 mod tangent;
 
+pub use charges::Charges;
 pub use cubature::{Sample, SectionPoint, Sight};
 pub use element::{COMPONENTS, Element, Piece, Resolution, Row, Station};
 pub use kinematics::{Configuration, StationState};

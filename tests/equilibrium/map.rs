@@ -19,7 +19,7 @@ const CELLS: u64 = 2400;
 const STRONGEST: f64 = 0.04;
 
 /// Steps of the differences of energies and of gradients, in radians of the first mode.
-const LONG_STEPS: [f64; 3] = [1e-3, 3e-4, 1e-4];
+const LONG_STEPS: [f64; 5] = [1e-3, 3e-4, 1e-4, 3e-5, 1e-5];
 const STEP: f64 = 1e-5;
 
 /// A manipulator and the fields that it is led through.

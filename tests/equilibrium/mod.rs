@@ -17,5 +17,6 @@ mod robustness;
 pub(crate) mod rows;
 mod scaling;
 mod sensitivity;
+mod short_helix;
 mod spacing;
 mod stop;

@@ -7,7 +7,7 @@ use mcm::magnetics::{AxialSource, Wrench};
 use nalgebra::Vector3;
 
 use super::rows::pair;
-use crate::tolerance::{ADJACENT, PAIRS, RECIPROCITY, WRENCH_ACCURACY, assert_close};
+use crate::tolerance::{PAIRS, RECIPROCITY, WRENCH_ACCURACY, assert_close};
 
 /// Chains in which only the rings are magnetised.
 fn rings_alone(segments: usize) -> Design {
@@ -90,8 +90,8 @@ fn the_rings_attraction_is_a_load_like_any_other() {
     let mut with_loads = Equilibrium::new(&design, None, settings, 2).expect("allowed");
     solved(&mut with_loads, &inputs);
     let (one, two) = (with_rings.tip(), with_loads.tip());
-    assert_close("position", two.position.as_slice(), one.position.as_slice(), ADJACENT);
-    assert_close("rotation", two.rotation.as_slice(), one.rotation.as_slice(), ADJACENT);
+    assert_close("position", two.position.as_slice(), one.position.as_slice(), RECIPROCITY);
+    assert_close("rotation", two.rotation.as_slice(), one.rotation.as_slice(), RECIPROCITY);
     assert!(wrench.force.norm() > 0.05, "{wrench:?}: no test of the attraction");
 }
 
@@ -108,5 +108,5 @@ fn the_attraction_shortens_the_core_by_hookes_law() {
     let compliance: f64 =
         design.segments()[0].spans.iter().map(|span| span.length / span.stiffness.axial).sum();
     let shortening = design.length() - equilibrium.tip().position.z;
-    assert_close("shortening", &[shortening], &[-force.z * compliance], ADJACENT);
+    assert_close("shortening", &[shortening], &[-force.z * compliance], RECIPROCITY);
 }

@@ -2,10 +2,12 @@
 
 mod axial_rule;
 mod consistency;
+pub(crate) mod face_integral;
 mod field;
 mod field_table;
 mod material;
 mod multipoles;
 mod overlap;
+mod pair_table;
 mod reference;
 mod wrench;
