@@ -11,6 +11,9 @@ const FIRST_RADIUS: f64 = 0.1;
 /// Part of the distance of a descent within which its way back leads to the start where the branch has not been left.
 const RETURNED: f64 = 0.5;
 
+/// Part of that distance within which overdamped motion ends where the descent has drifted along a neutral branch.
+const DRIFTED: f64 = 0.9;
+
 /// Least margin at which a way back is told from none: the residual, over the distance, at which it ends.
 const SOFT: f64 = 1e-6;
 
@@ -61,9 +64,11 @@ impl Walk<'_> {
         let end = if self.correct(inputs, &mut corrected, self.scene.settings.follow_step).is_some() {
             reached = corrected;
             End::Held
-        } else {
+        } else if conservative {
             self.report.residual = residual;
             End::Neutral
+        } else {
+            return End::Lost; // in balance, but not stable
         };
         unknowns.copy_from_slice(&reached);
         end
@@ -101,7 +106,7 @@ impl Walk<'_> {
         let tolerance = (SOFT * distance / self.scene.chain.unit()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
         let left = self.apart(&back, last) > RETURNED * distance
-            && !self.has_drifted(inputs, last, reached, RETURNED * distance);
+            && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
         // The factorisation is that of another shape.
         self.work.factored = false;
         (self.report.residual, self.report.energy) = (residual, energy);

@@ -134,12 +134,9 @@ impl Walk<'_> {
             // Where the branch has to be descended again and again, it is steep or nearly neutral: shorter steps are no help.
             floor = if corrected.is_some() { smallest } else { FURTHER * floor };
             neutral = end == End::Neutral && next < 1.0;
-            if neutral {
-                part = floor.max(part);
-                continue;
-            }
             match end {
                 End::Kept | End::Held => {}
+                End::Neutral if neutral => {}
                 End::Neutral if self.report.residual <= ROUNDING => return End::Neutral,
                 End::Neutral | End::Lost => return End::Lost,
             }

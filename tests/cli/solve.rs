@@ -120,12 +120,12 @@ fn table_is_for_people() {
 }
 
 #[test]
-fn model_without_potential_has_no_verdict() {
+fn model_without_potential_is_judged_by_its_whole_matrix() {
     let scene =
         "[design]\nsegments = 2\n[model]\ninteraction = \"preceding\"\n[field]\nuniform_mt = [0, 10, 0]";
     let answer = json("preceding", scene, 0);
-    assert!(answer["stable"].is_null());
-    assert_eq!(answer["stability"], "unknown");
+    assert_eq!(answer["stable"], true);
+    assert_eq!(answer["stability"], "stable");
 }
 
 #[test]

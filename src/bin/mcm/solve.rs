@@ -22,7 +22,7 @@ centre, or the field (T); all along the world's axes. Where they do not exist, a
 jacobian_note says why. stability is stable, unstable, neutral (one direction is free, as about the axis of an antiparallel \
 field) or unknown. Where nothing was found, converged is false, outcome, reason and progress say why and how far along the \
 way from the unloaded shape, and all numbers of the shape are null.\n\n\
-Exit status: 0 solved and stable (or stability unknown: interaction \"preceding\", any \
+Exit status: 0 solved and stable (or stability unknown: any \
 method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable, 4 solved but neutral.")]
 pub(crate) struct Solve {
