@@ -120,6 +120,8 @@ impl Walk<'_> {
         let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
         let mut here = start.clone();
         let (mut neutral, mut shortened) = (false, false);
+        // Snaps when the last descent began: what comes down in several steps has snapped once.
+        let mut before_descent = None;
         while self.left() > self.scene.settings.iterations / RESERVE && self.may_go_on() {
             self.report.progress = stage[0] + done * (stage[1] - stage[0]);
             let next = f64::min(1.0, done + part);
@@ -130,7 +132,15 @@ impl Walk<'_> {
                 continue;
             }
             let tolerance = if next < 1.0 { PASSING } else { resting };
-            let end = corrected.unwrap_or_else(|| self.descend_from([&here, &inputs], unknowns, tolerance));
+            let end = if let Some(end) = corrected {
+                before_descent = None;
+                end
+            } else {
+                let before = *before_descent.get_or_insert(self.report.snaps);
+                let end = self.descend_from([&here, &inputs], unknowns, tolerance);
+                self.report.snaps = self.report.snaps.min(before + 1);
+                end
+            };
             // Where the branch has to be descended again and again, it is steep or nearly neutral: shorter steps are no help.
             floor = if corrected.is_some() { smallest } else { FURTHER * floor };
             neutral = end == End::Neutral && next < 1.0;
