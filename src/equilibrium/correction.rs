@@ -40,7 +40,7 @@ const RULE_CHOICES: u32 = 3;
 pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Margin up to which nothing holds a shape: what the tolerance leaves open of it.
-const FREE: f64 = 1e-7;
+pub(super) const FREE: f64 = 1e-7;
 
 /// Margin below which a shape is looked at again with its own Hessian.
 const DOUBTFUL: f64 = 1e-4;

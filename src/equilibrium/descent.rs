@@ -1,6 +1,6 @@
 //! Beyond the end of a branch: downhill to the next stable shape, and whether that was a snap.
 
-use super::correction::{End, NEARLY, Walk};
+use super::correction::{End, FREE, NEARLY, Walk, measure};
 use super::inputs::Inputs;
 use crate::numerics::pseudo_transient::settle;
 use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
@@ -59,12 +59,21 @@ impl Walk<'_> {
         let end = if self.correct(inputs, &mut corrected, self.scene.settings.follow_step).is_some() {
             reached = corrected;
             End::Held
+        } else if !conservative && self.diverges(inputs, &reached) {
+            End::Lost
         } else {
             self.report.residual = residual;
             End::Neutral
         };
         unknowns.copy_from_slice(&reached);
         end
+    }
+
+    /// Whether the damped motion leaves this shape in balance: without a potential it may circle around it for ever.
+    fn diverges(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
+        let mut potential = self.potential(inputs);
+        let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
+        regular && measure(&mut potential) < -FREE
     }
 
     fn is_confirmed(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
