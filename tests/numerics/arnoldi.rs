@@ -60,7 +60,15 @@ fn few_vectors_find_the_one_next_to_zero() {
     for follower in [-1.2, -0.9, 0.4] {
         let mut matrix = DMatrix::from_fn(size, size, |i, j| {
             let stiffness = 1.0 + i as f64;
-            if i == j { stiffness } else if j == i + 1 { 0.3 } else if i == j + 1 { -0.3 } else { 0.0 }
+            if i == j {
+                stiffness
+            } else if j == i + 1 {
+                0.3
+            } else if i == j + 1 {
+                -0.3
+            } else {
+                0.0
+            }
         });
         matrix[(0, 0)] += follower;
         let metric = vec![1.0; size];

@@ -148,12 +148,11 @@ fn gorge(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
         (1.0 - a).powi(2) + steep * off * off,
         DVector::from_vec(vec![-2.0 * (1.0 - a) - 4.0 * steep * a * off, 2.0 * steep * off]),
         steep
-            * DMatrix::from_row_slice(2, 2, &[
-                2.0 / steep - 4.0 * (off - 2.0 * a * a),
-                -4.0 * a,
-                -4.0 * a,
-                2.0,
-            ]),
+            * DMatrix::from_row_slice(
+                2,
+                2,
+                &[2.0 / steep - 4.0 * (off - 2.0 * a * a), -4.0 * a, -4.0 * a, 2.0],
+            ),
     ))
 }
 
@@ -272,7 +271,8 @@ fn a_refused_trial_leaves_no_trace_in_the_next_step() {
         let problem =
             Problem { function: funnel, metric, gradient, hessian: DMatrix::zeros(2, 2), factor: None };
         let slope = DVector::zeros(2);
-        let mut watched = Watched { problem, here: start.to_vec(), slope, tried: 0, refused: 0, bends: false };
+        let mut watched =
+            Watched { problem, here: start.to_vec(), slope, tried: 0, refused: 0, bends: false };
         let mut x = start;
         let region = Region { radius: 20.0, largest: 20.0, tolerance: 1e-9, iterations: 200 };
         let end = minimise(&mut watched, &mut x, &region, || true);

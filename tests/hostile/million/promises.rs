@@ -150,7 +150,9 @@ impl Twin {
             || matches!(report.outcome, Outcome::OutOfBudget)
             || out.outcome == Outcome::OutOfBudget;
         if !same_ending {
-            verdict.broken.push(format!("{:?} by the same model again, not {:?}", report.outcome, out.outcome));
+            verdict
+                .broken
+                .push(format!("{:?} by the same model again, not {:?}", report.outcome, out.outcome));
         }
         if !report.solved() || out.status == Status::NotSolved {
             return verdict;

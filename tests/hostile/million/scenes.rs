@@ -17,7 +17,8 @@ const SEGMENT_MM: f64 = 5.0;
 const SEGMENTS: [u32; 9] = [50, 18, 18, 5, 3, 2, 1, 1, 2];
 
 /// How likely each level is.
-const LEVELS: [(&str, u32); 5] = [("none", 520), ("rings", 420), ("preceding", 40), ("full", 10), ("auto", 10)];
+const LEVELS: [(&str, u32); 5] =
+    [("none", 520), ("rings", 420), ("preceding", 40), ("full", 10), ("auto", 10)];
 
 /// Warm steps after the cold solve: part of the way from the last loads to new ones.
 const STEPS: [f64; 4] = [1e-3, 1e-3, 0.05, 1.0];
@@ -71,11 +72,7 @@ fn size(random: &mut StdRng, powers: [f64; 2]) -> f64 {
 }
 
 fn sometimes(random: &mut StdRng, likely: f64, powers: [f64; 2]) -> Vector3<f64> {
-    if random.random_bool(likely) {
-        direction(random) * size(random, powers)
-    } else {
-        Vector3::zeros()
-    }
+    if random.random_bool(likely) { direction(random) * size(random, powers) } else { Vector3::zeros() }
 }
 
 impl Loads {
@@ -88,11 +85,8 @@ impl Loads {
             9 => Vector3::new(0.0, strongest, 0.0),
             _ => direction(random) * strongest,
         };
-        let gradient = if random.random_bool(0.2) {
-            [0; 5].map(|_| random.random_range(-1.0..=1.0))
-        } else {
-            [0.0; 5]
-        };
+        let gradient =
+            if random.random_bool(0.2) { [0; 5].map(|_| random.random_range(-1.0..=1.0)) } else { [0.0; 5] };
         let middle = Vector3::new(0.0, 0.0, random.random_range(-0.2..=1.2) * length);
         // From inside over touching to far away.
         let magnet = middle + direction(random) * size(random, [1.0, 2.5]);
@@ -120,9 +114,14 @@ impl Loads {
         let mix = |a: &Vector3<f64>, b: &Vector3<f64>| a.lerp(b, part);
         Self {
             field: mix(&self.field, &other.field),
-            gradient: core::array::from_fn(|i| self.gradient[i] + part * (other.gradient[i] - self.gradient[i])),
+            gradient: core::array::from_fn(|i| {
+                self.gradient[i] + part * (other.gradient[i] - self.gradient[i])
+            }),
             magnet: mix(&self.magnet, &other.magnet),
-            orientation: self.orientation.try_slerp(&other.orientation, part, 1e-9).unwrap_or(other.orientation),
+            orientation: self
+                .orientation
+                .try_slerp(&other.orientation, part, 1e-9)
+                .unwrap_or(other.orientation),
             strength: self.strength + part * (other.strength - self.strength),
             tip_force: mix(&self.tip_force, &other.tip_force),
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
@@ -182,10 +181,15 @@ impl Walk {
                 loads.strength
             ));
         }
-        add(format!("[load]\ntip_force_n = {}\ntip_moment_nm = {}", list(&loads.tip_force), list(&loads.tip_moment)));
+        add(format!(
+            "[load]\ntip_force_n = {}\ntip_moment_nm = {}",
+            list(&loads.tip_force),
+            list(&loads.tip_moment)
+        ));
         if self.rings > 0 {
             let zero = Vector3::zeros();
-            let forces = (0..self.rings).map(|k| list(if k == loads.ring { &loads.ring_force } else { &zero }));
+            let forces =
+                (0..self.rings).map(|k| list(if k == loads.ring { &loads.ring_force } else { &zero }));
             add(format!("ring_force_n = [{}]", forces.collect::<Vec<_>>().join(", ")));
         }
         add(format!("[gravity]\nacceleration_m_s2 = {}", list(&loads.gravity)));

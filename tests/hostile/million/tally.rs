@@ -105,7 +105,11 @@ impl fmt::Display for Tally {
             writeln!(out, "{level:>10} {name:<20} {count:>8} {seconds:>8.1} s: {}", list(slowest))?;
         }
         writeln!(out, "solves with a snap: {}; answers judged: {}", self.snaps, self.judged)?;
-        writeln!(out, "tip off the finer model's over the length, times the margin: {}", list(&self.farthest))?;
+        writeln!(
+            out,
+            "tip off the finer model's over the length, times the margin: {}",
+            list(&self.farthest)
+        )?;
         writeln!(out, "least margin by the finer model, negated: {}", list(&self.softest))?;
         write!(out, "defects: {}", self.defects.len())?;
         self.defects.iter().try_for_each(|defect| write!(out, "\n  {defect}"))
