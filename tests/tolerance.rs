@@ -407,8 +407,8 @@ pub(crate) const NOISE_OF_EIGENVALUES: f64 = 1e-6;
 /// An angle that is stated with two decimals, deg.
 pub(crate) const TURNED_OVER_DEG: f64 = 0.01;
 
-/// Strength of the magnet at a fold, which is within the step where the walk snaps.
-pub(crate) const FOLD_OF_A_STEP: f64 = 0.5e-5;
+/// Strength of the magnet at a fold, which is within the step of 2e-5 where the walk snaps.
+pub(crate) const FOLD_OF_A_STEP: f64 = 1e-5;
 
 /// Field at which one segment with the rings' attraction loses its straight shape, T, within half a step of 0.05 mT.
 pub(crate) const NO_FOLD_BEFORE_T: f64 = 0.029_251;

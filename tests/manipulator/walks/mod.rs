@@ -18,7 +18,7 @@ const STEPS: usize = 40;
 #[test]
 fn coarse_walks_snap_where_fine_ones_do() {
     let (mut alike, mut snapped) = (0, 0);
-    for index in 0..20 {
+    for index in 0..12 {
         let way = Way::random(SEED, index);
         match way.compare(STEPS) {
             Comparison::Unfit => {}
@@ -26,13 +26,13 @@ fn coarse_walks_snap_where_fine_ones_do() {
             Comparison::Differs(how) => panic!("seed {SEED}, way {index}: {how}; {way:?}"),
         }
     }
-    println!("{alike} of 20 alike, {snapped} snaps");
-    assert!(alike > 10, "{alike}");
+    println!("{alike} of 12 alike, {snapped} snaps");
+    assert!(alike > 6, "{alike}");
 }
 
 /// Nine segments above the paper's pair of magnets.
 fn above() -> Scene {
-    let text = "[design]\nsegments = 9\n[magnet]\nposition_mm = [0, -40, 3]\n[model]\ninteraction = \"none\"";
+    let text = "[design]\nsegments = 9\n[magnet]\nposition_mm = [0, -50, 3]\n[model]\ninteraction = \"none\"";
     Scene::parse(text, "above").expect("a scene")
 }
 
@@ -57,17 +57,17 @@ fn snaps(manipulator: &mut Manipulator, scene: &Scene, strengths: impl Iterator<
 fn a_stronger_magnet_snaps_at_one_strength_and_back_at_another() {
     let scene = above();
     let mut manipulator = scene.manipulator(2).expect("allowed");
-    assert_eq!(snaps(&mut manipulator, &scene, 102..=116), [115]);
-    assert_eq!(snaps(&mut manipulator, &scene, (100..116).rev()), [102]);
+    assert_eq!(snaps(&mut manipulator, &scene, (180..=260).step_by(2)), [252]);
+    assert_eq!(snaps(&mut manipulator, &scene, (180..=260).rev().step_by(2)), [188]);
     let path = |strength: f64| Ok(of_strength(&scene, strength));
-    let mut branch = Branch::new(scene.manipulator(2).expect("allowed"), path, 1.6e-4, 1e-5).expect("a path");
-    for strength in [1.02e-3, 1.16e-3, 1.00e-3] {
+    let mut branch = Branch::new(scene.manipulator(2).expect("allowed"), path, 8e-4, 2e-5).expect("a path");
+    for strength in [1.8e-3, 2.6e-3, 1.8e-3] {
         branch.to(strength).expect("finite inputs");
     }
     let folds: Vec<(f64, bool)> = branch.folds().iter().map(|fold| (fold.value, fold.upwards)).collect();
     println!("{folds:?}");
     let [(up, true), (down, false)] = folds[..] else { panic!("folds at {folds:?}") };
-    assert!((up - 1.145e-3).abs() < FOLD_OF_A_STEP && (down - 1.025e-3).abs() < FOLD_OF_A_STEP, "{folds:?}");
+    assert!((up - 2.51e-3).abs() < FOLD_OF_A_STEP && (down - 1.89e-3).abs() < FOLD_OF_A_STEP, "{folds:?}");
 }
 
 /// Beyond 29.25 mT the straight shape is no longer stable, and the bent ones leave it continuously.
