@@ -58,7 +58,7 @@ impl Walk<'_> {
         let residual = minimum.residual / unit;
         self.report.residual = residual;
         if !minimum.converged {
-            return if residual <= NEARLY { End::Neutral } else { End::Lost };
+            return if conservative && residual <= NEARLY { End::Neutral } else { End::Lost };
         }
         let mut corrected = reached.clone();
         let end = if self.correct(inputs, &mut corrected, self.scene.settings.follow_step).is_some() {

@@ -32,14 +32,13 @@ pub fn smallest_real_part(
     let mut next = start.to_vec();
     for column in 0..most {
         let norm = inner(metric, &next, &next).sqrt();
-        if !(norm.is_finite() && norm > 0.0) {
-            return None;
-        }
-        let small = column > 0 && norm <= ROUNDING * projected.column(column - 1).amax();
-        if small {
+        if column > 0 && norm <= ROUNDING * projected.column(column - 1).amax() {
             // The vectors span an invariant space: its eigenvalues are all that the start can tell.
             projected = projected.view((0, 0), (column, column)).into_owned();
             break;
+        }
+        if !(norm.is_finite() && norm > 0.0) {
+            return None;
         }
         if column > 0 {
             projected[(column, column - 1)] = norm;

@@ -10,6 +10,7 @@ mod loads;
 mod lost;
 mod map;
 mod methods;
+mod moments;
 mod neglected;
 mod reciprocity;
 mod reference;

@@ -4,6 +4,8 @@
 
 pub(crate) mod host;
 
+pub(crate) mod judge;
+
 use std::path::Path;
 use std::time::Duration;
 

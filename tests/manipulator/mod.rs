@@ -9,3 +9,5 @@ mod scene;
 mod snapshot;
 
 mod steps;
+
+mod walks;

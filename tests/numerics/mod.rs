@@ -1,6 +1,8 @@
 //! Tests of `numerics`.
 
+mod arnoldi;
 mod continuation;
 mod linear;
+mod pseudo_transient;
 mod quadrature;
 mod trust_region;

@@ -138,3 +138,145 @@ fn where_the_function_ends_steps_are_shortened() {
     let mut outside = [1.5, 0.0];
     assert!(!run(wall, &[1.0, 1.0], &mut outside).converged, "a start behind the wall");
 }
+
+/// Rosenbrock's valley with walls a hundred times as steep.
+#[expect(clippy::unnecessary_wraps, reason = "the signature of every landscape")]
+fn gorge(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
+    let (a, b, steep) = (x[0], x[1], 1e4);
+    let off = b - a * a;
+    Some((
+        (1.0 - a).powi(2) + steep * off * off,
+        DVector::from_vec(vec![-2.0 * (1.0 - a) - 4.0 * steep * a * off, 2.0 * steep * off]),
+        steep
+            * DMatrix::from_row_slice(
+                2,
+                2,
+                &[2.0 / steep - 4.0 * (off - 2.0 * a * a), -4.0 * a, -4.0 * a, 2.0],
+            ),
+    ))
+}
+
+/// Iterations of a plain trust region with the same radii: steps by the eigenvectors of the Hessian, none of them bent.
+fn plain_iterations(function: Function, x: &mut [f64]) -> u32 {
+    let (mut radius, mut iterations) = (0.1, 0);
+    loop {
+        let (value, gradient, hessian) = function(x).expect("defined everywhere");
+        if gradient.norm() <= 1e-9 {
+            return iterations;
+        }
+        iterations += 1;
+        let eigen = hessian.clone().symmetric_eigen();
+        let along = eigen.eigenvectors.tr_mul(&gradient);
+        let step = |shift: f64| {
+            let parts = along.zip_map(&eigen.eigenvalues, |slope, lambda| -slope / (lambda + shift));
+            &eigen.eigenvectors * parts
+        };
+        let least = (-eigen.eigenvalues.min()).max(0.0);
+        let (mut low, mut high) = (least, least + 1.0 + gradient.norm() / radius);
+        for _ in 0..200 {
+            let middle = 0.5 * (low + high);
+            if step(middle).norm() > radius { low = middle } else { high = middle }
+        }
+        let step = if least > 0.0 || step(0.0).norm() > radius { step(high) } else { step(0.0) };
+        let predicted = -gradient.dot(&step) - 0.5 * step.dot(&(&hessian * &step));
+        let trial: Vec<f64> = x.iter().zip(step.iter()).map(|(a, b)| a + b).collect();
+        let gain = (value - function(&trial).expect("defined everywhere").0) / predicted;
+        if gain > 0.05 {
+            x.copy_from_slice(&trial);
+        }
+        if gain > 0.75 {
+            radius = f64::min(1.0, radius.max(2.0 * step.norm()));
+        } else if gain < 0.25 {
+            radius = 0.5 * radius.min(step.norm());
+        }
+        assert!(iterations < 2000, "the plain method ends, too");
+    }
+}
+
+#[test]
+fn bent_steps_follow_a_narrow_valley_in_far_fewer_iterations() {
+    for (function, fewer) in [(valley as Function, 0.9), (gorge as Function, 1.5)] {
+        let (mut bent, mut plain) = ([-1.2, 1.0], [-1.2, 1.0]);
+        let end = run(function, &[1.0, 1.0], &mut bent);
+        let straight = plain_iterations(function, &mut plain);
+        println!("{} iterations, {straight} by steps that are not bent", end.iterations);
+        assert!(end.converged, "{end:?}");
+        assert!((bent[0] - plain[0]).hypot(bent[1] - plain[1]) < 1e-5, "{bent:?}, {plain:?}");
+        assert!(f64::from(straight) > fewer * f64::from(end.iterations), "{} of {straight}", end.iterations);
+    }
+}
+
+/// What was asked of an objective: its value and slopes at a point, or these and the Hessian.
+struct Watched {
+    problem: Problem,
+    here: Vec<f64>,
+    slope: DVector<f64>,
+    tried: u32,
+    refused: u32,
+    /// Whether the next trial may be a bent one: the matrix has been factorised last to bend a step.
+    bends: bool,
+}
+
+impl Objective for Watched {
+    fn slope(&mut self, x: &[f64]) -> Option<f64> {
+        // Whatever was tried before, a first trial is along the way down from where it starts; bent ones go on from it.
+        let step = DVector::from_row_slice(x) - DVector::from_row_slice(&self.here);
+        assert!(self.bends || self.slope.dot(&step) < 0.0, "uphill from {:?} to {x:?}", self.here);
+        (self.tried, self.bends) = (self.tried + 1, true);
+        self.problem.slope(x)
+    }
+
+    fn linearise(&mut self, x: &[f64]) -> Option<f64> {
+        let value = self.problem.linearise(x)?;
+        self.refused += self.tried.saturating_sub(1);
+        (self.here, self.tried) = (x.to_vec(), 0);
+        self.slope = DVector::from_row_slice(self.problem.gradient());
+        Some(value)
+    }
+
+    fn gradient(&self) -> &[f64] {
+        self.problem.gradient()
+    }
+
+    fn factorise(&mut self, shift: f64) -> bool {
+        self.bends &= shift != 0.0; // every iteration begins without a shift
+        self.problem.factorise(shift)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.problem.solve(x);
+    }
+
+    fn metric(&self) -> &[f64] {
+        self.problem.metric()
+    }
+}
+
+/// `ln(1 + x^2)` in both directions, whose Newton steps from far away lead to the other side and further.
+#[expect(clippy::unnecessary_wraps, reason = "the signature of every landscape")]
+fn funnel(x: &[f64]) -> Option<(f64, DVector<f64>, DMatrix<f64>)> {
+    let slope = |a: f64| 2.0 * a / (1.0 + a * a);
+    let curve = |a: f64| 2.0 * (1.0 - a * a) / (1.0 + a * a).powi(2);
+    Some((
+        x.iter().map(|a| (a * a).ln_1p()).sum(),
+        DVector::from_iterator(2, x.iter().map(|a| slope(*a))),
+        DMatrix::from_diagonal(&DVector::from_iterator(2, x.iter().map(|a| curve(*a)))),
+    ))
+}
+
+#[test]
+fn a_refused_trial_leaves_no_trace_in_the_next_step() {
+    for start in [[0.9, 0.95], [3.0, -2.0], [0.1, 7.0]] {
+        let (metric, gradient) = (vec![1.0; 2], vec![0.0; 2]);
+        let problem =
+            Problem { function: funnel, metric, gradient, hessian: DMatrix::zeros(2, 2), factor: None };
+        let slope = DVector::zeros(2);
+        let mut watched =
+            Watched { problem, here: start.to_vec(), slope, tried: 0, refused: 0, bends: false };
+        let mut x = start;
+        let region = Region { radius: 20.0, largest: 20.0, tolerance: 1e-9, iterations: 200 };
+        let end = minimise(&mut watched, &mut x, &region, || true);
+        assert!(end.converged && x[0].hypot(x[1]) < 1e-8, "{start:?}: {end:?} at {x:?}");
+        assert!(watched.refused > 0, "{start:?}: no trial was refused");
+    }
+}

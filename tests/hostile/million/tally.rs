@@ -1,0 +1,117 @@
+//! Counts of many walks.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use mcm::manipulator::{Outcome, Outputs, Status};
+
+use super::promises::{Defect, Figures};
+use super::scenes::Walk;
+
+/// How many of the worst are told.
+const WORST: usize = 5;
+
+/// A number and the walk and step where it was met.
+type Place = (f64, u64, usize);
+
+/// Solves that ended alike.
+#[derive(Debug, Default, Clone)]
+struct Ending {
+    count: u64,
+    seconds: f64,
+    /// The longest ones.
+    slowest: Vec<Place>,
+}
+
+impl Ending {
+    fn add(&mut self, more: &Self) {
+        self.count += more.count;
+        self.seconds += more.seconds;
+        keep(&mut self.slowest, &more.slowest);
+    }
+}
+
+/// What was done and found.
+#[derive(Debug, Default, Clone)]
+pub(crate) struct Tally {
+    pub(crate) walks: u64,
+    /// By level and ending.
+    endings: BTreeMap<(&'static str, &'static str), Ending>,
+    snaps: u64,
+    judged: u64,
+    pub(crate) defects: Vec<Defect>,
+    farthest: Vec<Place>,
+    softest: Vec<Place>,
+}
+
+/// Keeps the largest.
+fn keep(list: &mut Vec<Place>, more: &[Place]) {
+    list.extend_from_slice(more);
+    list.sort_by(|a, b| b.0.total_cmp(&a.0));
+    list.truncate(WORST);
+}
+
+impl Tally {
+    /// Of a walk that begins.
+    pub(crate) fn of_one_walk() -> Self {
+        Self { walks: 1, ..Self::default() }
+    }
+
+    /// Adds an answer.
+    pub(crate) fn count(&mut self, walk: &Walk, out: &Outputs, seconds: f64, (index, step): (u64, usize)) {
+        let ending = match (out.outcome, out.status) {
+            (Outcome::Solved, Status::Snapped) => "solved after a snap",
+            (Outcome::Solved, Status::NearFold) => "solved near a fold",
+            (outcome, _) => outcome.name(),
+        };
+        let one = Ending { count: 1, seconds, slowest: vec![(seconds, index, step)] };
+        self.endings.entry((walk.level, ending)).or_default().add(&one);
+        self.snaps += u64::from(out.status == Status::Snapped);
+    }
+
+    /// Adds a judgement.
+    pub(crate) fn judged(&mut self, figures: Figures, (index, step): (u64, usize)) {
+        self.judged += 1;
+        keep(&mut self.farthest, &[(figures.distance * figures.margin.min(1.0), index, step)]);
+        keep(&mut self.softest, &[(-figures.margin, index, step)]);
+    }
+
+    /// Both.
+    pub(crate) fn with(mut self, more: Self) -> Self {
+        self.walks += more.walks;
+        for (key, ending) in more.endings {
+            self.endings.entry(key).or_default().add(&ending);
+        }
+        self.snaps += more.snaps;
+        self.judged += more.judged;
+        self.defects.extend(more.defects);
+        keep(&mut self.farthest, &more.farthest);
+        keep(&mut self.softest, &more.softest);
+        self
+    }
+}
+
+impl fmt::Display for Tally {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let solves: u64 = self.endings.values().map(|ending| ending.count).sum();
+        let seconds: f64 = self.endings.values().map(|ending| ending.seconds).sum();
+        writeln!(out, "{} walks, {solves} solves in {seconds:.0} s of processor time", self.walks)?;
+        let list = |places: &[Place]| {
+            let each = places.iter().map(|(value, index, step)| format!("{value:.1e} ({index}.{step})"));
+            each.collect::<Vec<_>>().join(", ")
+        };
+        for ((level, name), ending) in &self.endings {
+            let Ending { count, seconds, slowest } = ending;
+            writeln!(out, "{level:>10} {name:<20} {count:>8} {seconds:>8.1} s: {}", list(slowest))?;
+        }
+        writeln!(out, "solves with a snap: {}; answers judged: {}", self.snaps, self.judged)?;
+        writeln!(
+            out,
+            "tip off the finer model's over the length, times the margin: {}",
+            list(&self.farthest)
+        )?;
+        writeln!(out, "least margin by the finer model, negated: {}", list(&self.softest))?;
+        write!(out, "defects: {}", self.defects.len())?;
+        self.defects.iter().try_for_each(|defect| write!(out, "\n  {defect}"))
+    }
+}

@@ -1,0 +1,51 @@
+//! Snaps of random slow walks beside walks in steps a hundred times as fine:
+//!
+//! ```text
+//! cargo run --release --example walks 1000     # so many ways; further: first number, seed
+//! ```
+//!
+//! Every snap of the fine walk is told in the coarse one, in the step that contains it, and none else. The exit status tells.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a broken promise stops the run")]
+#![allow(clippy::print_stdout, reason = "tells what it measured")]
+#![allow(missing_docs, reason = "a program")]
+
+#[path = "../manipulator/walks/ways.rs"]
+mod ways;
+
+use std::process::ExitCode;
+use std::time::Instant;
+
+use rayon::prelude::*;
+use ways::{Comparison, Way};
+
+/// Coarse steps of a way.
+const STEPS: usize = 120;
+
+fn main() -> ExitCode {
+    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
+    let Some(count) = arguments.first() else {
+        println!("say: COUNT [FIRST [SEED]]");
+        return ExitCode::FAILURE;
+    };
+    let argument = |at: usize, unless: u64| arguments.get(at).copied().unwrap_or(unless);
+    let (first, seed, start) = (argument(1, 0), argument(2, 1), Instant::now());
+    let compared = (first..first + count).into_par_iter().map(|index| {
+        let comparison = Way::random(seed, index).compare(STEPS);
+        if let Comparison::Differs(how) = &comparison {
+            println!("DEFECT way {index}: {how}");
+        }
+        comparison
+    });
+    let compared: Vec<Comparison> = compared.collect();
+    let number = |wanted: &dyn Fn(&Comparison) -> bool| compared.iter().filter(|c| wanted(c)).count();
+    let unfit = number(&|c| *c == Comparison::Unfit);
+    let plain = number(&|c| *c == Comparison::Alike(0));
+    let differing = number(&|c| matches!(c, Comparison::Differs(_)));
+    let snapped = compared.len() - unfit - plain - differing;
+    println!(
+        "seed {seed}: {count} ways in {:.0} s: {plain} without a snap and {snapped} with one alike, {unfit} neither solved nor \
+         slow, {differing} defects",
+        start.elapsed().as_secs_f64()
+    );
+    if differing == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

@@ -1,0 +1,175 @@
+//! Random slow ways of the inputs, walked in coarse steps beside steps a hundred times as fine.
+
+use core::f64::consts::TAU;
+
+use mcm::design::Design;
+use mcm::design::Specification;
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::geometry::{Pose, RotationVector};
+use mcm::magnetics::{Assembly, AxialMagnet};
+use nalgebra::Vector3;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+/// Fine steps in a coarse one.
+const FINE: usize = 100;
+
+/// Longest way of the fine walk's tip over the length within a coarse step, snaps aside, of a slow way.
+const SLOW: f64 = 0.02;
+
+/// Tips that are the same, over the length.
+const SAME: f64 = 1e-6;
+
+/// What of the inputs changes along a way from 0 to 1, by sines of whole waves and halves.
+#[derive(Debug, Clone)]
+pub(crate) struct Way {
+    pub(crate) segments: usize,
+    pub(crate) interaction: Interaction,
+    has_magnet: bool,
+    magnet: [Vector3<f64>; 3],
+    turn: [Vector3<f64>; 2],
+    strength: [f64; 2],
+    field: [Vector3<f64>; 3],
+}
+
+/// How a coarse walk went beside the fine one.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Comparison {
+    /// The fine walk is not solved all the way, or is too fast between its snaps.
+    Unfit,
+    /// Both agree; so many snaps were told.
+    Alike(u32),
+    /// They do not.
+    Differs(String),
+}
+
+fn direction(random: &mut StdRng) -> Vector3<f64> {
+    let height: f64 = random.random_range(-1.0..=1.0);
+    let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
+    let across = (1.0 - height * height).sqrt();
+    Vector3::new(across * cosine, across * sine, height)
+}
+
+impl Way {
+    /// The way of this number.
+    pub(crate) fn random(seed: u64, index: u64) -> Self {
+        let mut random = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        let random = &mut random;
+        let segments = [1, 1, 1, 2, 3, 3, 4, 5, 6, 9][random.random_range(0..10)];
+        let rings = random.random_bool(0.5);
+        let has_magnet = random.random_bool(0.6);
+        let length = 0.005 * segments as f64;
+        let middle = Vector3::new(0.0, 0.0, random.random_range(0.0..=1.0) * length);
+        let mut vector = |most: f64| direction(random) * random.random_range(0.0..=most);
+        let (turn, shift) = ([vector(3.0), vector(0.5)], [vector(0.02), vector(0.01)]);
+        let strongest = if has_magnet { 0.005 } else { 0.03 };
+        let mut field = [vector(strongest), vector(strongest), vector(0.5 * strongest)];
+        if !has_magnet && random.random_bool(0.7) {
+            // Nearly against the manipulator, with a part across that changes its side: the bent shape snaps over.
+            let axis = Vector3::z();
+            let across = direction(random).cross(&axis) * 0.1 * strongest;
+            field =
+                [-axis * random.random_range(0.1..=2.0) * strongest + across, -2.0 * across, field[2] * 0.05];
+        }
+        // Weak and close, or strong and far away.
+        let away = direction(random) * random.random_range(0.04..0.2);
+        let weak = if random.random_bool(0.5) { 0.02 } else { 1.0 };
+        let strength = [weak * random.random_range(0.1..1.0), weak * random.random_range(-0.5..0.5)];
+        let interaction = if rings { Interaction::Rings } else { Interaction::None };
+        let mut way = Self {
+            segments,
+            interaction,
+            has_magnet,
+            magnet: [middle + away, shift[0], shift[1]],
+            turn,
+            strength,
+            field,
+        };
+        if has_magnet && random.random_bool(0.6) {
+            // Beside the base and against the manipulator, the weaker the longer that is: it turns over and back.
+            let aside = direction(random) * 0.005;
+            way.magnet = [Vector3::new(0.0, -0.04, 0.003) + aside, aside * 0.1, aside * 0.05];
+            way.turn = [Vector3::x() * 0.5 * TAU + direction(random) * 0.2, direction(random) * 0.02];
+            let weak = 1e-3 * (9.0 / segments as f64).powi(2);
+            way.strength = [weak * random.random_range(0.1..0.9), weak * random.random_range(0.2..1.5)];
+            way.field = [Vector3::zeros(); 3];
+        }
+        way
+    }
+
+    fn inputs(&self, part: f64) -> Inputs {
+        let (half, whole) = ((0.5 * TAU * part).sin(), (TAU * part).sin());
+        let mut out = Inputs::unloaded(self.segments + 1);
+        out.uniform_field = self.field[0] + self.field[1] * half + self.field[2] * whole;
+        if self.has_magnet {
+            out.magnet = Pose {
+                position: self.magnet[0] + self.magnet[1] * half + self.magnet[2] * whole,
+                rotation: RotationVector::new(self.turn[0] + self.turn[1] * half).matrix(),
+            };
+            out.magnet_strength = self.strength[0] + self.strength[1] * half;
+        }
+        out
+    }
+
+    /// Walks it twice from the same shape; in `steps` coarse ones; only the first part of it where all of it is not slow.
+    pub(crate) fn compare(&self, steps: usize) -> Comparison {
+        let (model, length) = self.model();
+        [1.0, 0.25, 0.06]
+            .iter()
+            .map(|part| self.compare_part(&model, length, steps, *part))
+            .find(|c| *c != Comparison::Unfit)
+            .unwrap_or(Comparison::Unfit)
+    }
+
+    fn model(&self) -> (Equilibrium, f64) {
+        let design = Design::new(Specification::paper(self.segments)).expect("allowed");
+        let cylinder =
+            |offset| AxialMagnet { inner_radius: 0.0, radius: 0.0225, length: 0.03, offset, remanence: 1.35 };
+        let pair = Assembly::new(vec![cylinder(-0.02), cylinder(0.02)]).expect("allowed");
+        let settings = Settings { interaction: self.interaction, ..Settings::default() };
+        let model = Equilibrium::new(&design, Some(&pair), settings, 2).expect("allowed");
+        (model, design.length())
+    }
+
+    fn compare_part(&self, model: &Equilibrium, length: f64, steps: usize, part: f64) -> Comparison {
+        let at = |step: usize| self.inputs(part * step as f64 / (steps * FINE) as f64);
+        let mut fine = model.clone();
+        if !fine.solve(&at(0)).expect("finite inputs").solved() {
+            return Comparison::Unfit;
+        }
+        let mut coarse = fine.clone();
+        let mut hurries = false;
+        for step in 0..steps {
+            let (mut snaps, mut way) = (0, 0.0);
+            for small in 1..=FINE {
+                let before = fine.tip().position;
+                let report = fine.solve(&at(step * FINE + small)).expect("finite inputs");
+                if !report.solved() || report.stable != Some(true) {
+                    return Comparison::Unfit;
+                }
+                snaps += report.snaps;
+                if report.snaps == 0 {
+                    way += (fine.tip().position - before).norm() / length;
+                }
+            }
+            // Just before a snap the shape hurries.
+            if hurries && snaps == 0 {
+                return Comparison::Unfit;
+            }
+            hurries = way > SLOW;
+            let report = coarse.solve(&at((step + 1) * FINE)).expect("finite inputs");
+            let apart = (coarse.tip().position - fine.tip().position).norm() / length;
+            if !report.solved() || report.snaps != snaps || apart > SAME {
+                return Comparison::Differs(format!(
+                    "part {part}, step {}: {snaps} snaps in fine steps; {report:?}, tips {apart:e} of the length apart",
+                    step + 1
+                ));
+            }
+            if snaps > 0 {
+                // Beyond, both go on alike: from the same shape.
+                return Comparison::Alike(snaps);
+            }
+        }
+        if hurries { Comparison::Unfit } else { Comparison::Alike(0) }
+    }
+}
