@@ -394,21 +394,11 @@ pub(crate) const REAL_PART: f64 = 1e-9;
 /// The same by half as many vectors as rows, where the eigenvalue is next to zero.
 pub(crate) const REAL_PART_OF_FEW: f64 = 1e-8;
 
-/// Way of the tip by a moment of 1 N m over the length of a segment, for one segment without other stiffness: its bending
-/// stiffness is 3.6e-5 N m2, so that a moment of 1 N m turns it by 110 rad; over the margin and by the square of their number, twice that.
-pub(crate) const LIMIT_OF_MOMENT: f64 = 250.0;
-
-/// The same without a moment: residuals of 1e-11 times a compliance, as [`WAY`].
-pub(crate) const LIMIT_ROUNDING: f64 = 1e-7;
-
-/// Real parts of eigenvalues by differences of gradients with steps of 1e-5, relative to the elastic energy.
-pub(crate) const NOISE_OF_EIGENVALUES: f64 = 1e-6;
-
-/// An angle that is stated with two decimals, deg.
-pub(crate) const TURNED_OVER_DEG: f64 = 0.01;
-
 /// Strength of the magnet at a fold, which is within the step of 2e-5 where the walk snaps.
 pub(crate) const FOLD_OF_A_STEP: f64 = 1e-5;
 
 /// Field at which one segment with the rings' attraction loses its straight shape, T, within half a step of 0.05 mT.
 pub(crate) const NO_FOLD_BEFORE_T: f64 = 0.029_251;
+
+/// Tip angle with a moment of 1e-11 N m: it turns a core by 2e-8 rad, over the margin; `auto` ends its cheaper models at 1e-7.
+pub(crate) const VANISHING_MOMENT_DEG: f64 = 1e-3;

@@ -4,8 +4,6 @@
 
 pub(crate) mod host;
 
-pub(crate) mod judge;
-
 use std::path::Path;
 use std::time::Duration;
 
