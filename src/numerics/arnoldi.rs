@@ -43,7 +43,9 @@ pub fn smallest_real_part(
         if column > 0 {
             projected[(column, column - 1)] = norm;
         }
-        next.iter_mut().for_each(|entry| *entry /= norm);
+        for entry in &mut next {
+            *entry /= norm;
+        }
         basis.push(next.clone());
         next.iter_mut().zip(metric).for_each(|(entry, k)| *entry *= k);
         solve(&mut next);

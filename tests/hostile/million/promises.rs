@@ -203,7 +203,7 @@ impl Verdict {
         if neutral {
             return;
         }
-        if !(margin >= UNSTABLE) {
+        if margin.is_nan() || margin < UNSTABLE {
             self.broken.push(format!("unstable in the finer model: {margin:e}, tip {distance:e} away"));
         } else if distance * margin.min(1.0) > FINER {
             self.broken.push(format!("tip {distance:e} from the finer model's, margin {margin:e}"));
