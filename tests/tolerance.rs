@@ -350,8 +350,7 @@ pub(crate) const FIRST_MOMENT: f64 = 1e-4;
 /// Mean error of the tabulated field of a ring and of its gradient, over their size (reached: 3e-6).
 pub(crate) const TABLE_MEAN: f64 = 1e-5;
 
-/// Demagnetising factors by two formulas, absolute: quadrature to rounding, and a difference of elliptic integrals that loses two
-/// digits where the cylinder is a hundred times as long as wide or the reverse.
+/// Demagnetising factors by two formulas, absolute: elliptic integrals lose two digits for very long or flat cylinders.
 pub(crate) const DEMAGNETISATION: f64 = 1e-12;
 
 /// Coefficients that are printed with six decimals.
@@ -360,8 +359,7 @@ pub(crate) const PRINTED_NAGAOKA: f64 = 1e-6;
 /// Mean of the field within a ring by 96 Gauss points each way, which at the logarithms of its edges leave 1e-5.
 pub(crate) const MEAN_FIELD: f64 = 3e-5;
 
-/// Moment of rings of recoil permeability `mu_r`, taken as uniformly magnetised, over `(mu_r - 1)^2`: a variation that the mean field
-/// leaves out counts to second order (reached: 0.025 by a solid cylinder as long as wide).
+/// Moment of uniformly magnetised rings over `(mu_r - 1)^2`: second order (reached: 0.025 by a cylinder as long as wide).
 pub(crate) const UNIFORM_MAGNETISATION: f64 = 0.03;
 
 /// Changes of the tip angle, percent, by the same solve of a scene file: its millimetres and millitesla are rounded.
@@ -370,8 +368,7 @@ pub(crate) const BUDGET_SOLVES: f64 = 1e-6;
 /// The same as an independent model states them, to one digit or two.
 pub(crate) const BUDGET_POINTS: f64 = 0.5;
 
-/// Effect of the recoil permeability beside that of the mean magnetisation by an integral equation: the uniform one is 5e-5 of the
-/// moment off, of which the effect is 2.7e-2.
+/// Effect of the recoil permeability by an integral equation: the moment is 5e-5 off, the effect 2.7e-2 of it.
 pub(crate) const BY_RECOIL: f64 = 3e-3;
 
 /// Depth of bodies in one another, mm: nested golden sections of 4e-11 of bodies of some centimetres.
@@ -380,8 +377,7 @@ pub(crate) const DEPTH: f64 = 1e-8;
 /// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
 pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
 
-/// Depth of the manipulator in a magnet by points, m: circles of 2000 points, whose chords are 2.5 nm off, every 2 um of a
-/// bent segment (reached: 0.6 nm with circles of 4000).
+/// Depth of the manipulator in a magnet by circles of points, m, whose chords are 2.5 nm off (reached: 0.6 nm).
 pub(crate) const CONTACT_DEPTH: f64 = 1e-6;
 
 /// Rest of a damped motion: its slopes end at 1e-11 beside stiffnesses of order one.
