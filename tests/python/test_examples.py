@@ -165,9 +165,13 @@ def test_c_under_address_sanitizer(
 
 
 def test_c_under_valgrind(
-    default: Archive, driven: Table, compile_c: Callable[..., Path], tmp_path: Path
+    pack: Callable[..., Archive], driven: Table, compile_c: Callable[..., Path], tmp_path: Path
 ) -> None:
     program = compile_c()
+    # Every instruction takes many times as long.
+    scene = (EXAMPLES.parent / "default.toml").read_text()
+    assert "[model]" not in scene
+    patient = pack(f"{scene}\n[model]\ntime_budget_s = 1000.0\n")
     inputs = (EXAMPLES / "magnet_pass.csv").read_text().splitlines()
     (tmp_path / "few.csv").write_text("\n".join(inputs[:12]) + "\n")
     done = run(
@@ -175,7 +179,7 @@ def test_c_under_valgrind(
         "--leak-check=full",
         "--errors-for-leak-kinds=definite,indirect,possible",
         "--error-exitcode=9",
-        *(program, default.folder, tmp_path / "few.csv", tmp_path / "driven.csv"),
+        *(program, patient.folder, tmp_path / "few.csv", tmp_path / "driven.csv"),
     )
     assert done.returncode == 0, done.stderr
     assert "ERROR SUMMARY: 0 errors" in done.stderr
