@@ -40,7 +40,8 @@ impl Walk<'_> {
             }
             End::Held => self.judge(target, &branch.unknowns, &mut branch.softest),
             End::Neutral => {
-                // The factorisation is that of a shape on the way.
+                // Factorisation and loads are those of a shape on the way, or on the way back.
+                self.potential(target).chord_slope(&branch.unknowns);
                 self.work.factored = false;
                 (self.report.stable, self.report.outcome) = (Some(false), Outcome::Neutral);
             }
