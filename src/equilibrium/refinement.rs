@@ -6,7 +6,8 @@
 //! the rest of the forces do to the coarser modes follows by the factorisation that the solve has left. So two gradients
 //! of the finer model suffice, without a Hessian of it.
 
-use super::settings::Settings;
+use super::inputs::Inputs;
+use super::settings::{Interaction, Settings};
 use super::solver::Equilibrium;
 use super::transfer::{Gap, NEAR};
 use crate::design::Design;
@@ -43,6 +44,14 @@ impl Settings {
     }
 }
 
+impl Equilibrium {
+    /// Whether there are fields that vary over a ring.
+    fn has_quadratures(&self, inputs: &Inputs) -> bool {
+        let magnet = self.magnet.is_some() && inputs.magnet_strength != 0.0;
+        magnet || self.settings.interaction != Interaction::None
+    }
+}
+
 impl Refinement {
     /// Of `coarse`, which is of this design and magnet.
     ///
@@ -66,7 +75,8 @@ impl Refinement {
         Ok(Self { shape: zeros.clone(), step: zeros, coarse, model, projection })
     }
 
-    /// How far the tip of `coarse` at its last solved shape is from where the finer model would put it, to first order.
+    /// How far the tip of `coarse` at its last solved shape is from where the finer model would put it, to first order, and
+    /// what the quadratures of that one may be off.
     ///
     /// Neither branch is touched. `None` before the first solve, where `coarse` cannot be factorised, and where the step
     /// is too long to tell.
@@ -77,7 +87,7 @@ impl Refinement {
         error
     }
 
-    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &super::Inputs) -> Option<Gap> {
+    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<Gap> {
         let Self { model, projection, shape, step, coarse: own } = self;
         let unknowns = std::mem::take(&mut coarse.branch.unknowns);
         let mut potential = coarse.potential_as_ruled(inputs);
@@ -112,6 +122,11 @@ impl Refinement {
         }
         shape.iter_mut().zip(&*step).for_each(|(x, by)| *x += by);
         model.work.place(&model.chain, &inputs.base, shape);
-        Some(Gap::between(&model.tip(), &coarse.tip())).filter(Gap::is_finite)
+        let seen = Gap::between(&model.tip(), &coarse.tip());
+        // Between two accuracies the quadratures may well stay the same: what the finer ones may be off is added.
+        let unseen =
+            if model.has_quadratures(inputs) { QUADRATURE * coarse.settings.pair_accuracy } else { 0.0 };
+        let unseen = Gap { distance: unseen * model.chain.length(), angle: unseen };
+        Some(seen.plus(unseen)).filter(Gap::is_finite)
     }
 }

@@ -8,7 +8,7 @@
 //! It is judged again once the shape, the field or the loads have changed by a few percent, and left when it is no longer
 //! good; a cheaper model of the interaction also when it does not solve, snaps or comes near a fold. A cheaper rung is tried
 //! as seldom, and must be clearly better than needed, so that rungs do not alternate. Both rungs of a change are
-//! within the tolerance of the judge by [`CLIMB`] and [`DESCEND`], and so is the jump between them.
+//! within the tolerance of the judge by [`CLIMB`], [`REFINE`] and [`DESCEND`], and so is the jump between them.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,8 +19,11 @@ use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Report, Setti
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
-/// Part of the tolerance beyond which a rung is left.
+/// Part of the tolerance beyond which a cheaper model of the interaction is left.
 pub(super) const CLIMB: f64 = 0.5;
+
+/// The same for a discretisation of the richest, whose error is told with a margin.
+const REFINE: f64 = 1.0;
 
 /// Part of the tolerance within which a cheaper rung is taken.
 const DESCEND: f64 = 0.25;
@@ -156,7 +159,7 @@ impl Ladder {
         let report = self.models.at_mut(from).solve_before(&deadline, inputs)?;
         let changed = report.solved() && self.has_changed(inputs);
         if let Some((before, shape)) = way_back
-            && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)?))
+            && !(self.is_sound(&report) && (!changed || self.holds(inputs)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
             return self.ascend(next, inputs, &deadline, |models, rung| {
@@ -172,7 +175,7 @@ impl Ladder {
         if !changed {
             return Ok(report);
         }
-        if from >= richest && !self.judge(inputs, CLIMB)? {
+        if from >= richest && !self.holds(inputs)? {
             return self.refine(inputs, report, &deadline);
         }
         if from > 0 && self.wait.is_over() {
@@ -201,7 +204,7 @@ impl Ladder {
                 self.judged = None;
                 return Ok(report);
             }
-            if (at_richest || self.is_sound(&report)) && self.judge(inputs, CLIMB)? {
+            if (at_richest || self.is_sound(&report)) && self.holds(inputs)? {
                 return Ok(report);
             }
             if at_richest {
@@ -225,7 +228,7 @@ impl Ladder {
             let iterations = report.iterations + next.iterations;
             report = Report { iterations, snaps: report.snaps, ..next };
             self.present += 1;
-            if self.judge(inputs, CLIMB)? {
+            if self.holds(inputs)? {
                 break;
             }
         }
@@ -259,6 +262,12 @@ impl Ladder {
     fn is_sound(&self, report: &Report) -> bool {
         let held = report.stable.is_none_or(|stable| stable && report.margin >= self.fold_margin);
         report.solved() && held && report.snaps == 0
+    }
+
+    /// Whether the present rung may go on.
+    fn holds(&mut self, inputs: &Inputs) -> Result<bool, Error> {
+        let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
+        self.judge(inputs, part)
     }
 
     /// Whether the present rung is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
