@@ -369,3 +369,9 @@ pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
 /// Depth of the manipulator in a magnet by points, m: circles of 2000 points, whose chords are 2.5 nm off, every 2 um of a
 /// bent segment (reached: 0.6 nm with circles of 4000).
 pub(crate) const CONTACT_DEPTH: f64 = 1e-6;
+
+/// Part of random scenes whose error is below what is told: the estimate is one of first order, with a factor for doubt.
+pub(crate) const ESTIMATED_SHARE: f64 = 0.99;
+
+/// Median of the error that is told over the error that is: that factor is 2, and what is added to it where errors are tiny.
+pub(crate) const ESTIMATED_MEDIAN: f64 = 3.0;

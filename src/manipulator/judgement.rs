@@ -14,7 +14,11 @@ const CHANGED: f64 = 0.02;
 const MOVED: f64 = 0.02;
 
 /// How many times as long a rung stands that is as much better than needed.
-const STANDING: f64 = 5.0;
+const STANDING: f64 = 10.0;
+
+/// Power of the loads with which an error is taken to grow until it is judged again: that of strain modes of degree 2 grows with
+/// the fourth of a small bend, with the seventh from 65 to 87 deg a core.
+const GROWTH: i32 = 5;
 
 /// When a model was judged last, and its error there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -41,27 +45,35 @@ impl Judgement {
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
     }
 
-    /// Whether enough has changed since to judge again: the better it was, beside the tolerance, the more may.
-    pub(super) fn is_old(
-        &self,
-        model: &Equilibrium,
-        inputs: &Inputs,
-        (tolerance, length): (&Gap, f64),
-    ) -> bool {
-        let room = tolerance.room(&self.gap, CLIMB).clamp(1.0, STANDING);
+    /// How much has changed since: 1 where it is enough to judge again unless the model was much better than needed.
+    pub(super) fn age(&self, model: &Equilibrium, inputs: &Inputs, length: f64) -> f64 {
         let (tip, then) = (model.tip(), &self.inputs);
-        let far = |change: f64, a: f64, b: f64| change > room * CHANGED * a.max(b);
-        let other = |a: &Vector3<f64>, b: &Vector3<f64>| far((a - b).norm(), a.norm(), b.norm());
+        let part =
+            |change: f64, a: f64, b: f64| if change == 0.0 { 0.0 } else { change / (CHANGED * a.max(b)) };
+        let other = |a: &Vector3<f64>, b: &Vector3<f64>| part((a - b).norm(), a.norm(), b.norm());
         let moved = Gap::between(&tip, &self.tip);
         let [gradient, before] = [inputs, then].map(|i| SVector::from(i.field_gradient));
-        let field = || model.field_at(inputs, &tip.position).unwrap_or_default();
-        moved.distance > room * MOVED * length
-            || moved.angle > room * MOVED
-            || far((gradient - before).norm(), gradient.norm(), before.norm())
-            || other(&inputs.tip_force, &then.tip_force)
-            || other(&inputs.tip_moment, &then.tip_moment)
-            || other(&inputs.gravity, &then.gravity)
-            || inputs.ring_forces.iter().zip(&then.ring_forces).any(|(a, b)| other(a, b))
-            || other(&field(), &self.field)
+        let field = model.field_at(inputs, &tip.position).unwrap_or_default();
+        let changes = [
+            moved.distance / (MOVED * length),
+            moved.angle / MOVED,
+            part((gradient - before).norm(), gradient.norm(), before.norm()),
+            other(&inputs.tip_force, &then.tip_force),
+            other(&inputs.tip_moment, &then.tip_moment),
+            other(&inputs.gravity, &then.gravity),
+            other(&field, &self.field),
+        ];
+        let forces = inputs.ring_forces.iter().zip(&then.ring_forces).map(|(a, b)| other(a, b));
+        changes.into_iter().chain(forces).fold(0.0, f64::max)
+    }
+
+    /// Whether that is enough to judge again: the better it was, beside the tolerance, the older it may be.
+    pub(super) fn is_old(&self, age: f64, tolerance: &Gap) -> bool {
+        age > tolerance.room(&self.gap, CLIMB).clamp(1.0, STANDING)
+    }
+
+    /// What the error may be at that age.
+    pub(super) fn error(&self, age: f64) -> Gap {
+        self.gap.times((1.0 + CHANGED * age).powi(GROWTH))
     }
 }

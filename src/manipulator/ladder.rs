@@ -42,6 +42,8 @@ pub(super) struct Ladder {
     models: Models,
     present: usize,
     judged: Option<Judgement>,
+    /// How much has changed since.
+    age: f64,
     wait: Wait,
     length: f64,
     fold_margin: f64,
@@ -80,6 +82,7 @@ pub(super) struct Snapshot {
     wait: Wait,
     equilibrium: equilibrium::Snapshot,
     judged: Option<Judgement>,
+    age: f64,
 }
 
 impl Ladder {
@@ -95,6 +98,7 @@ impl Ladder {
             models: Models::new(design, magnet, &settings, shape_points)?,
             present: 0,
             judged: None,
+            age: 0.0,
             wait: Wait::NONE,
             length: design.length(),
             fold_margin: settings.fold_margin,
@@ -122,7 +126,7 @@ impl Ladder {
     /// Estimated distance of the tip (m) from the converged answer of the model; at most the length, which is told where
     /// nothing is known.
     pub(super) fn error_estimate(&self) -> f64 {
-        self.judged.as_ref().map_or(0.0, |judged| judged.gap.distance.min(self.length))
+        self.judged.as_ref().map_or(0.0, |judged| judged.error(self.age).distance.min(self.length))
     }
 
     /// New tolerances; the next solve judges by them.
@@ -135,7 +139,7 @@ impl Ladder {
 
     /// Forgets the shape.
     pub(super) fn reset(&mut self) {
-        (self.present, self.judged, self.wait) = (0, None, Wait::NONE);
+        (self.present, self.judged, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
         self.models.reset();
     }
 
@@ -282,6 +286,7 @@ impl Ladder {
 
     fn note(&mut self, inputs: &Inputs, gap: Gap) {
         let model = self.models.at(self.present);
+        self.age = 0.0;
         match &mut self.judged {
             Some(judged) => judged.renew(model, inputs, gap),
             None => self.judged = Some(Judgement::new(model, inputs, gap)),
@@ -289,15 +294,22 @@ impl Ladder {
     }
 
     /// Whether enough has changed since the last judgement to judge again.
-    fn has_changed(&self, inputs: &Inputs) -> bool {
-        let old = |judged: &Judgement| judged.is_old(self.present(), inputs, (&self.tolerance, self.length));
-        self.judged.as_ref().is_none_or(old)
+    fn has_changed(&mut self, inputs: &Inputs) -> bool {
+        let Some(judged) = &self.judged else { return true };
+        self.age = judged.age(self.models.at(self.present), inputs, self.length);
+        judged.is_old(self.age, &self.tolerance)
     }
 
     /// What it remembers.
     pub(super) fn snapshot(&self) -> Snapshot {
         let equilibrium = self.present().snapshot();
-        Snapshot { present: self.present, wait: self.wait, equilibrium, judged: self.judged.clone() }
+        Snapshot {
+            present: self.present,
+            wait: self.wait,
+            equilibrium,
+            judged: self.judged.clone(),
+            age: self.age,
+        }
     }
 
     /// Goes on from there.
@@ -312,6 +324,7 @@ impl Ladder {
         self.models.make(snapshot.present)?;
         self.models.at_mut(snapshot.present).restore(&snapshot.equilibrium)?;
         (self.present, self.wait, self.judged) = (snapshot.present, snapshot.wait, snapshot.judged.clone());
+        self.age = snapshot.age;
         Ok(())
     }
 }

@@ -112,13 +112,13 @@ fn targets(criterion: &mut Criterion<CpuTime>) {
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
 const COARSE: fn(&mut Settings) = |settings| {
     (settings.degree, settings.pair_accuracy, settings.tolerance) = (0, 1e-2, 1e-5);
-    (settings.tolerance_position, settings.tolerance_angle) = (1e-4, 0.1_f64.to_radians());
+    *settings = settings.as_discretised();
 };
 
 /// For 1 um.
 const MICROMETRE: fn(&mut Settings) = |settings| {
     (settings.pair_accuracy, settings.tolerance) = (1e-4, 1e-6);
-    settings.tolerance_position = 1e-6;
+    *settings = settings.as_discretised();
 };
 
 /// What those are compared with.

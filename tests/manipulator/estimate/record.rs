@@ -11,7 +11,7 @@ mod scenes;
 
 use mcm::equilibrium::Interaction;
 use rayon::prelude::*;
-use scenes::{Scene, Told};
+use scenes::{ANOTHER_SHAPE, Scene, Told};
 
 /// Segments at most.
 const SEGMENTS: usize = 9;
@@ -38,11 +38,12 @@ fn main() {
             row.tolerance
         );
     }
-    eprintln!("{} of {count} scenes solved", told.len());
+    let (same, other): (Vec<Told>, Vec<Told>) = told.into_iter().partition(|row| row.error < ANOTHER_SHAPE);
+    eprintln!("{} of {count} scenes solved, {} of them another shape", same.len() + other.len(), other.len());
     for (level, name, _) in Interaction::ALL {
-        summarise(name, told.iter().filter(|row| row.level == *level));
+        summarise(name, same.iter().filter(|row| row.level == *level));
     }
-    summarise("all", told.iter());
+    summarise("all", same.iter());
 }
 
 fn summarise<'a>(name: &str, rows: impl Iterator<Item = &'a Told>) {
