@@ -27,11 +27,31 @@ const FINEST: f64 = 1e-10;
 pub struct Refinement {
     /// The finer model.
     pub model: Equilibrium,
-    /// Unknown here, unknown there, and how much of a unit amplitude of the second the first one takes up.
-    projection: Vec<(usize, usize, f64)>,
+    projection: Projection,
     shape: Vec<f64>,
     step: Vec<f64>,
     coarse: Vec<f64>,
+}
+
+/// Unknown of the finer model, unknown of the coarser one, and how much of a unit amplitude of the second the first takes up.
+#[derive(Debug, Clone)]
+struct Projection(Vec<(usize, usize, f64)>);
+
+impl Projection {
+    /// Adds the shape `coarse` to `fine`.
+    fn raise(&self, coarse: &[f64], fine: &mut [f64]) {
+        for (i, j, part) in &self.0 {
+            fine[*i] += part * coarse[*j];
+        }
+    }
+
+    /// Writes the part of `fine` that the coarser modes have, or of a gradient, to `coarse`.
+    fn lower(&self, fine: &[f64], coarse: &mut [f64]) {
+        coarse.fill(0.0);
+        for (i, j, part) in &self.0 {
+            coarse[*j] += part * fine[*i];
+        }
+    }
 }
 
 impl Settings {
@@ -72,6 +92,7 @@ impl Refinement {
         }
         let zeros = vec![0.0; own.freedoms()];
         let coarse = vec![0.0; other.freedoms()];
+        let projection = Projection(projection);
         Ok(Self { shape: zeros.clone(), step: zeros, coarse, model, projection })
     }
 
@@ -94,7 +115,7 @@ impl Refinement {
         let factored =
             potential.work.factored || (potential.linearise(&unknowns).is_some() && potential.factorise(0.0));
         shape.fill(0.0);
-        projection.iter().for_each(|(i, j, part)| shape[*i] += part * unknowns[*j]);
+        projection.raise(&unknowns, shape);
         coarse.branch.unknowns = unknowns;
         if !factored {
             return None;
@@ -106,21 +127,22 @@ impl Refinement {
         for ((by, slope), stiffness) in step.iter_mut().zip(finer.gradient()).zip(metric) {
             *by = -slope / stiffness;
         }
-        own.fill(0.0);
-        projection.iter().for_each(|(i, j, part)| own[*j] += part * step[*i]);
-        projection.iter().for_each(|(i, j, part)| step[*i] -= part * own[*j]);
-        shape.iter_mut().zip(&*step).for_each(|(x, by)| *x += by);
+        projection.lower(step, own);
+        negate(own);
+        projection.raise(own, step);
+        add(step, shape);
         // What the coarser modes do then.
         finer.slope(shape)?;
-        own.fill(0.0);
-        projection.iter().for_each(|(i, j, part)| own[*j] -= part * finer.gradient()[*i]);
+        projection.lower(finer.gradient(), own);
+        negate(own);
         coarse.potential_as_ruled(inputs).solve(own);
         step.fill(0.0);
-        projection.iter().for_each(|(i, j, part)| step[*i] += part * own[*j]);
-        if !(norm(&model.chain.metric, step) <= NEAR * model.chain.unit()) {
+        projection.raise(own, step);
+        let length = norm(&model.chain.metric, step);
+        if length.is_nan() || length > NEAR * model.chain.unit() {
             return None;
         }
-        shape.iter_mut().zip(&*step).for_each(|(x, by)| *x += by);
+        add(step, shape);
         model.work.place(&model.chain, &inputs.base, shape);
         let seen = Gap::between(&model.tip(), &coarse.tip());
         // Between two accuracies the quadratures may well stay the same: what the finer ones may be off is added.
@@ -128,5 +150,18 @@ impl Refinement {
             if model.has_quadratures(inputs) { QUADRATURE * coarse.settings.pair_accuracy } else { 0.0 };
         let unseen = Gap { distance: unseen * model.chain.length(), angle: unseen };
         Some(seen.plus(unseen)).filter(Gap::is_finite)
+    }
+}
+
+/// Adds a step to a shape.
+fn add(step: &[f64], shape: &mut [f64]) {
+    for (x, by) in shape.iter_mut().zip(step) {
+        *x += by;
+    }
+}
+
+fn negate(step: &mut [f64]) {
+    for by in step {
+        *by = -*by;
     }
 }

@@ -29,7 +29,7 @@ fn error(scene: &Read, answer: &Outputs, exact: &mut Equilibrium) -> f64 {
 
 fn converged(scene: &Read) -> Equilibrium {
     let settings = Settings { degree: 8, pair_accuracy: 1e-9, ..scene.settings };
-    let magnet = scene.magnet().unwrap();
+    let magnet = scene.assembly().unwrap();
     Equilibrium::new(&scene.design().unwrap(), magnet.as_ref(), settings, 2).unwrap()
 }
 
@@ -45,6 +45,8 @@ fn what_is_told_is_true_on_random_scenes_of_every_level() {
         assert!(told.iter().any(|row| row.level == *level), "{name}");
     }
     let over: Vec<&Told> = told.iter().filter(|row| row.error > row.estimate).collect();
+    println!("told too little:\n{}", Told::HEADER);
+    over.iter().for_each(|row| println!("{}", row.line()));
     let share = 1.0 - over.len() as f64 / told.len() as f64;
     let mut ratios: Vec<f64> = told.iter().map(|row| row.estimate / row.error).collect();
     ratios.sort_by(f64::total_cmp);
@@ -100,5 +102,5 @@ fn other_methods_tell_none() {
     let mut scene = bent();
     scene.settings.method = Method::MultipleShooting;
     let mut manipulator = scene.manipulator(2).unwrap();
-    assert_eq!(manipulator.solve(&scene.inputs).unwrap().error_estimate, 0.0);
+    assert!(manipulator.solve(&scene.inputs).unwrap().error_estimate <= 0.0);
 }

@@ -22,21 +22,9 @@ fn main() {
         .into_par_iter()
         .filter_map(|number| Scene::random(number, SEGMENTS).told(number))
         .collect();
-    println!("scene,level,answered,degree,segments,bend_deg,margin,estimate,error,tolerance");
+    println!("{}", Told::HEADER);
     for row in &told {
-        println!(
-            "{},{},{},{},{},{:.2},{:.4},{:.3e},{:.3e},{:.3e}",
-            row.number,
-            row.level.name(),
-            row.answered.0.name(),
-            row.answered.1,
-            row.segments,
-            row.bend,
-            row.margin,
-            row.estimate,
-            row.error,
-            row.tolerance
-        );
+        println!("{}", row.line());
     }
     let (same, other): (Vec<Told>, Vec<Told>) = told.into_iter().partition(|row| row.error < ANOTHER_SHAPE);
     eprintln!("{} of {count} scenes solved, {} of them another shape", same.len() + other.len(), other.len());

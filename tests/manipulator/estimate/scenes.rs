@@ -22,10 +22,10 @@ const LEVELS: [(Interaction, f64); 5] = [
 const CONVERGED: (usize, f64) = (7, 1e-9);
 
 /// Distance of the tips over the length from which on two answers are different shapes.
-pub const ANOTHER_SHAPE: f64 = 0.05;
+pub(crate) const ANOTHER_SHAPE: f64 = 0.05;
 
 /// A design, what acts on it, and a level.
-pub struct Scene {
+pub(crate) struct Scene {
     design: Design,
     inputs: Inputs,
     settings: Settings,
@@ -33,30 +33,30 @@ pub struct Scene {
 
 /// What is told of an answer, and what is true.
 #[derive(Debug)]
-pub struct Told {
+pub(crate) struct Told {
     /// Number of the scene.
-    pub number: u64,
+    pub(crate) number: u64,
     /// Level asked for.
-    pub level: Interaction,
+    pub(crate) level: Interaction,
     /// Level and degree of the model that answered.
-    pub answered: (Interaction, usize),
+    pub(crate) answered: (Interaction, usize),
     /// Segments.
-    pub segments: usize,
+    pub(crate) segments: usize,
     /// Largest bend of a core, deg.
-    pub bend: f64,
+    pub(crate) bend: f64,
     /// Stability margin.
-    pub margin: f64,
+    pub(crate) margin: f64,
     /// Error of the tip that is told over the length.
-    pub estimate: f64,
+    pub(crate) estimate: f64,
     /// Error of the tip over the length.
-    pub error: f64,
+    pub(crate) error: f64,
     /// Tolerance over the length.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 impl Scene {
     /// By number: the same number, the same scene; of at most so many segments.
-    pub fn random(number: u64, segments: usize) -> Self {
+    pub(crate) fn random(number: u64, segments: usize) -> Self {
         let mut random = StdRng::seed_from_u64(number);
         let design = loop {
             if let Ok(design) = Design::new(specification(&mut random, segments)) {
@@ -77,7 +77,7 @@ impl Scene {
     }
 
     /// What is told of it; `None` where no equilibrium is found.
-    pub fn told(&self, number: u64) -> Option<Told> {
+    pub(crate) fn told(&self, number: u64) -> Option<Told> {
         let magnet = pair()?;
         let mut own = Manipulator::new(&self.design, Some(&magnet), self.settings, 2).ok()?;
         let answer = own.solve(&self.inputs).ok()?.clone();
@@ -114,6 +114,29 @@ fn pair() -> Option<Assembly> {
     let magnet =
         |offset| AxialMagnet { radius: 0.0225, inner_radius: 0.0, length: 0.03, offset, remanence: 1.35 };
     Assembly::new(vec![magnet(-0.02), magnet(0.02)]).ok()
+}
+
+impl Told {
+    /// The columns of [`Told::line`].
+    pub(crate) const HEADER: &str =
+        "scene,level,answered,degree,segments,bend_deg,margin,estimate,error,tolerance";
+
+    /// The numbers as a line of CSV.
+    pub(crate) fn line(&self) -> String {
+        format!(
+            "{},{},{},{},{},{:.2},{:.4},{:.3e},{:.3e},{:.3e}",
+            self.number,
+            self.level.name(),
+            self.answered.0.name(),
+            self.answered.1,
+            self.segments,
+            self.bend,
+            self.margin,
+            self.estimate,
+            self.error,
+            self.tolerance
+        )
+    }
 }
 
 fn specification(random: &mut StdRng, segments: usize) -> Specification {
