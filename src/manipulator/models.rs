@@ -16,8 +16,8 @@ const COARSE: f64 = 1e-3;
 /// Finer discretisations that may answer; the next finer one only judges.
 const FINER: usize = 2;
 
-/// How many times as far off as its refinement says a discretisation is taken to be: that is of first order, not converged
-/// itself, and holds until the next judgement.
+/// How many times as far off as its refinement says a discretisation is taken to be: what that says is of first order, and it is
+/// not converged itself. The example `estimate` records how often this covers the error.
 const DOUBT: f64 = 2.0;
 
 /// Models of one design, cheapest first.
