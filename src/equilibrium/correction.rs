@@ -25,7 +25,7 @@ pub(super) const NEARLY: f64 = 1e-4;
 pub(super) const KEPT: f64 = 0.1;
 
 /// The look at the margin after every solve: enough to see a fold come.
-const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
+pub(super) const GLANCE: Search = Search { vectors: 6, settled: 0.03 };
 
 /// Part of every direction that is mixed into the last softest one before it is looked for again.
 const EVERY_DIRECTION: f64 = 0.3;
@@ -299,13 +299,13 @@ impl Walk<'_> {
     }
 
     /// An upper bound of the margin at the shape `unknowns`, which the last correction has found.
-    pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64]) {
-        let mut margin = if self.work.factored { self.look(inputs, softest) } else { f64::NAN };
+    pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64], search: Search) {
+        let mut margin = if self.work.factored { self.look(inputs, softest, search) } else { f64::NAN };
         if margin.is_nan() || margin < DOUBTFUL {
             // The Hessian is that of a shape one step earlier, which may be held by what it was off.
             let mut potential = self.potential(inputs);
             let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
-            margin = if regular { self.look(inputs, softest) } else { 0.0 };
+            margin = if regular { self.look(inputs, softest, search) } else { 0.0 };
         }
         self.work.reference.origin.judged = self.work.factored;
         if margin.is_finite() {
@@ -319,12 +319,12 @@ impl Walk<'_> {
     }
 
     /// An upper bound of the margin at the shape that was factorised last; not a number where none is found.
-    fn look(&mut self, inputs: &Inputs, softest: &mut [f64]) -> f64 {
+    fn look(&mut self, inputs: &Inputs, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.scene.chain.metric;
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);
         let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
-        let margin = self.potential(inputs).margin(&mut lanczos, softest, GLANCE);
+        let margin = self.potential(inputs).margin(&mut lanczos, softest, search);
         self.scratch.lanczos = lanczos;
         margin
     }

@@ -63,15 +63,16 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// How far [`Interaction::Auto`] may put the tip from where the richest model puts it, m; default 1e-5.
+    /// How far a manipulator's tip may be from the converged answer of the model, m; default 1e-5. Where it is further, a
+    /// finer discretisation answers; [`Interaction::Auto`] also chooses the interaction by it.
     pub tolerance_position: f64,
-    /// How far it may turn the tip against that one, rad; default 1e-3.
+    /// How far its tip may be turned against that one, rad; default 1e-3.
     pub tolerance_angle: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
     /// windings touch; default no, as in the paper's model. [`Interaction::Auto`] always sees to it.
     pub bending_stop: bool,
     /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
-    /// rings act on spans.
+    /// rings act on spans, and two or four by a manipulator where its tolerances need them.
     pub degree: usize,
     /// Elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
@@ -124,6 +125,12 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The same without tolerances of the tip: the discretisation is the one that they name.
+    #[must_use]
+    pub fn as_discretised(&self) -> Self {
+        Self { tolerance_position: f64::MAX, tolerance_angle: f64::MAX, ..*self }
+    }
+
     /// The settings, checked.
     ///
     /// # Errors

@@ -63,7 +63,16 @@ impl Equilibrium {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let settings = settings.checked()?;
+        Self::of_checked(design, magnet, settings.checked()?, shape_points)
+    }
+
+    /// The same by settings that are checked, but for their degree, which may be a higher one here.
+    pub(super) fn of_checked(
+        design: &Design,
+        magnet: Option<&Assembly>,
+        settings: Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
         if settings.interaction == Interaction::Auto {
             return Err(Error::Unsupported(
                 "an equilibrium of one model has no level `auto`: a manipulator has".into(),

@@ -9,7 +9,7 @@ use crate::geometry::{Pose, rotation_log};
 use crate::numerics::trust_region::{Objective, norm};
 
 /// Longest Newton step, in turns of one element by a radian, whose end still counts as an estimate of the equilibrium.
-const NEAR: f64 = 1.0;
+pub(super) const NEAR: f64 = 1.0;
 
 /// How far one tip is from another.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -31,27 +31,27 @@ impl Equilibrium {
     }
 
     /// How far the last solved shape of another model of the same design is from an equilibrium of this one, by one
-    /// Newton step of this model from there. The branch of this model is forgotten.
+    /// Newton step of this model from there. The branch of this model is forgotten: it is left at the end of that step.
     ///
     /// `None` if nothing is solved yet, if the step is too long to tell, or if this model is not stable there.
     pub fn gap(&mut self, other: &Self) -> Option<Gap> {
         let inputs = other.branch.inputs.clone()?;
         self.adopt(other, other.unknowns(), &inputs);
-        let mut unknowns = self.branch.unknowns.clone();
+        let mut unknowns = std::mem::take(&mut self.branch.unknowns);
         let mut potential = self.potential(&inputs, &unknowns);
-        potential.linearise(&unknowns)?;
-        let stable = potential.factorise(0.0) && potential.is_stable();
+        let stable =
+            potential.linearise(&unknowns).is_some() && potential.factorise(0.0) && potential.is_stable();
         let mut step: Vec<f64> = potential.gradient().iter().map(|slope| -slope).collect();
         if stable {
             potential.solve(&mut step);
         }
-        self.work.factored = false;
-        if !stable || norm(&self.chain.metric, &step) > NEAR * self.chain.unit() {
-            return None;
+        let near = stable && norm(&self.chain.metric, &step) <= NEAR * self.chain.unit();
+        if near {
+            unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
         }
-        unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
         self.work.place(&self.chain, &inputs.base, &unknowns);
-        Some(Gap::between(&self.tip(), &other.tip())).filter(Gap::is_finite)
+        self.branch.unknowns = unknowns;
+        near.then(|| Gap::between(&self.tip(), &other.tip())).filter(Gap::is_finite)
     }
 }
 
@@ -71,7 +71,19 @@ impl Gap {
         part * (self.distance / gap.distance).min(self.angle / gap.angle)
     }
 
-    fn is_finite(&self) -> bool {
+    /// Both parts times a factor.
+    #[must_use]
+    pub(crate) fn times(self, factor: f64) -> Self {
+        Self { distance: factor * self.distance, angle: factor * self.angle }
+    }
+
+    /// At most so far in all.
+    #[must_use]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        Self { distance: self.distance + other.distance, angle: self.angle + other.angle }
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
         self.distance.is_finite() && self.angle.is_finite()
     }
 }

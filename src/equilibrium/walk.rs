@@ -1,11 +1,12 @@
 //! Following a stable branch while the inputs change: foresee the next shape and correct it; else go on in shorter steps; else
 //! descend to the next branch; then judge.
 
-use super::correction::{End, KEPT, NEARLY, ROUNDING, Report, Walk};
+use super::correction::{End, GLANCE, KEPT, NEARLY, ROUNDING, Report, Walk};
 use super::descent::PASSING;
 use super::follow::Branch;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
+use super::potential::THOROUGH;
 use crate::numerics::trust_region::norm;
 
 /// Largest first step from the straight shape to the one that the internal forces alone leave: there is no
@@ -31,14 +32,20 @@ impl Walk<'_> {
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
         let foreseen = self.foreseen(branch, target);
-        let end = foreseen.unwrap_or_else(|| self.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
+        let end = foreseen
+            .or_else(|| self.settle(branch, target))
+            .unwrap_or_else(|| self.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
         match end {
             End::Kept => {
                 (self.report.margin, self.report.stable) = (branch.margin, branch.stable);
                 let free = self.report.stable == Some(false);
                 self.report.outcome = if free { Outcome::Neutral } else { Outcome::Solved };
             }
-            End::Held => self.judge(target, &branch.unknowns, &mut branch.softest),
+            End::Held => {
+                // Without a softest direction of a shape before, a glance may miss one that is softer.
+                let search = if branch.stable.is_some() { GLANCE } else { THOROUGH };
+                self.judge(target, &branch.unknowns, &mut branch.softest, search);
+            }
             End::Neutral => {
                 // Factorisation and loads are those of a shape on the way, or on the way back.
                 self.potential(target).chord_slope(&branch.unknowns);
@@ -91,6 +98,14 @@ impl Walk<'_> {
         end
     }
 
+    /// Corrects a shape taken up from another model, which is not yet an equilibrium of this one: that is no step of the
+    /// inputs. The end, if they are those of the target.
+    fn settle(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
+        let here = branch.inputs.as_ref().filter(|_| branch.stable.is_none())?;
+        let end = self.try_to_correct(None, here, &mut branch.unknowns);
+        end.filter(|_| here == target)
+    }
+
     /// Follows the branch from the inputs of `unknowns` (`None`: straight, nothing is solved yet) to `target`.
     fn run(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut [f64]) -> End {
         if let Some(start) = from {
@@ -127,7 +142,7 @@ impl Walk<'_> {
             self.report.progress = stage[0] + done * (stage[1] - stage[0]);
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
-            let corrected = if neutral { None } else { self.try_to_correct([&here, &inputs], unknowns) };
+            let corrected = if neutral { None } else { self.try_to_correct(Some(&here), &inputs, unknowns) };
             if corrected.is_none() && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
                 continue;
@@ -183,13 +198,20 @@ impl Walk<'_> {
         self.left() > 0 && !self.deadline.has_passed()
     }
 
-    /// Corrects a copy of `unknowns`, the shape at the first inputs, and takes it over if that ends at an equilibrium on the
-    /// same branch.
-    fn try_to_correct(&mut self, inputs: [&Inputs; 2], unknowns: &mut [f64]) -> Option<End> {
+    /// Corrects a copy of `unknowns` and takes it over if that ends at an equilibrium; on the same branch, if they are
+    /// the equilibrium at the inputs `before`.
+    fn try_to_correct(
+        &mut self,
+        before: Option<&Inputs>,
+        inputs: &Inputs,
+        unknowns: &mut [f64],
+    ) -> Option<End> {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         trial.copy_from_slice(unknowns);
-        let mut end = self.correct(inputs[1], &mut trial, self.scene.settings.follow_step);
-        if end == Some(End::Held) && !self.goes_on(inputs, [unknowns, &trial]) {
+        let mut end = self.correct(inputs, &mut trial, self.scene.settings.follow_step);
+        if let (Some(End::Held), Some(before)) = (end, before)
+            && !self.goes_on([before, inputs], [unknowns, &trial])
+        {
             end = None;
         }
         if end.is_some() {

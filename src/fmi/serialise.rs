@@ -17,7 +17,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// To be raised with every change of [`Record`] or of what it holds.
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -196,7 +196,7 @@ impl Manipulator {
         self.solver.jacobian()
     }
 
-    /// How far `auto` may put and turn the tip from where the richest model does, m and rad; from the next solve on.
+    /// How far the tip may be, and be turned, from the converged answer of the model, m and rad; from the next solve on.
     ///
     /// # Errors
     /// [`Error::Range`] unless both are positive; [`Error::Unsupported`] by another method than the potential one.

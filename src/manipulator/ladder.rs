@@ -1,55 +1,49 @@
 //! As much model as the tolerances need: a ladder of models of one design, from the cheapest to the richest.
 //!
-//! The richest model is the judge: one Newton step of it from the shape of a cheaper one tells how far that is off. The
-//! cheapest rung that is good enough answers. It is judged again once the shape, the field or the loads have changed by
-//! a few percent, and left when it is no longer good, does not solve, snaps or comes near a fold; a cheaper one is tried
+//! Level `auto` has several models of the interaction, of which the richest is the judge: one Newton step of it from the shape
+//! of a cheaper one tells how far that is off. A fixed level has one. Above the richest stand finer discretisations of it, made
+//! when first needed: each tells how far the one below is from converged, see [`Refinement`]. Both parts together are the error
+//! that is told, and the cheapest rung with an error that is small enough answers.
+//!
+//! It is judged again once the shape, the field or the loads have changed by a few percent, and left when it is no longer
+//! good; a cheaper model of the interaction also when it does not solve, snaps or comes near a fold. A cheaper rung is tried
 //! as seldom, and must be clearly better than needed, so that rungs do not alternate. Both rungs of a change are
-//! within the tolerance of the judge by [`CLIMB`] and [`DESCEND`], and so is the jump between them.
+//! within the tolerance of the judge by [`CLIMB`], [`REFINE`] and [`DESCEND`], and so is the jump between them.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use super::judgement::Judgement;
+use super::models::Models;
 use crate::design::Design;
-use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Interaction, Report, Settings};
+use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Report, Settings};
 use crate::error::Error;
-use crate::geometry::Pose;
 use crate::magnetics::Assembly;
 
-/// Part of the tolerance beyond which a rung is left.
-const CLIMB: f64 = 0.5;
+/// Part of the tolerance beyond which a cheaper model of the interaction is left.
+pub(super) const CLIMB: f64 = 0.5;
+
+/// The same for a discretisation of the richest, whose error is told with a margin.
+const REFINE: f64 = 1.0;
 
 /// Part of the tolerance within which a cheaper rung is taken.
 const DESCEND: f64 = 0.25;
-
-/// Change of what surrounds or loads the manipulator, relative to its size, after which a rung is judged again.
-const CHANGED: f64 = 0.02;
-
-/// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a rung is judged again.
-const MOVED: f64 = 0.02;
-
-/// How many times as long a rung stands that is as much better than needed.
-const STANDING: f64 = 5.0;
 
 /// Residual of a cheaper model over the tolerances, lengths in those of the manipulator; and the most over the residual that
 /// is asked for.
 const RESIDUAL: f64 = 1e-2;
 const RELAXED: f64 = 1e4;
 
-/// Most judgements that pass between two trials of a cheaper rung: each failed one doubles their number.
+/// Most changes that pass between two trials of a cheaper rung: each failed one doubles their number.
 const PATIENCE: u32 = 16;
 
-/// Iterations that a cheaper model may take for one solve: more would not be cheap.
-const CHEAP: u32 = 100;
-
-/// Accuracy of the pairs on the coarse rungs.
-const COARSE: f64 = 1e-3;
-
-/// Models of one design, cheapest first; one alone where the level is fixed.
+/// The models of one design, the one that answers, and how far that is off.
 #[derive(Debug, Clone)]
 pub(super) struct Ladder {
-    rungs: Vec<Equilibrium>,
+    models: Models,
     present: usize,
-    judged: Option<Judged>,
+    judged: Option<Judgement>,
+    /// How much has changed since.
+    age: f64,
     wait: Wait,
     length: f64,
     fold_margin: f64,
@@ -60,33 +54,30 @@ pub(super) struct Ladder {
     residual: f64,
 }
 
-/// When a rung was judged last.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Judged {
-    inputs: Inputs,
-    tip: Pose,
-    field: Vector3<f64>,
-    gap: Gap,
-}
-
-/// How many judgements are still to pass, and after the next failure, before a cheaper rung is tried.
+/// How many changes are still to pass, and after the next failure, before a cheaper rung is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Wait {
     left: u32,
     next: u32,
+    /// Age at which the last change was counted.
+    counted: f64,
 }
 
 impl Wait {
-    const NONE: Self = Self { left: 0, next: 1 };
+    const NONE: Self = Self { left: 0, next: 1, counted: 0.0 };
 
-    fn is_over(&mut self) -> bool {
+    /// Whether a cheaper rung is to be tried at that age, which counts as a change where it is one older than at the last.
+    fn is_over(&mut self, age: f64) -> bool {
+        if age - self.counted <= 1.0 {
+            return false;
+        }
         let over = self.left == 0;
-        self.left = self.left.saturating_sub(1);
+        (self.left, self.counted) = (self.left.saturating_sub(1), age);
         over
     }
 
     fn longer(self) -> Self {
-        Self { left: self.next, next: PATIENCE.min(2 * self.next) }
+        Self { left: self.next, next: PATIENCE.min(2 * self.next), ..self }
     }
 }
 
@@ -96,7 +87,8 @@ pub(super) struct Snapshot {
     present: usize,
     wait: Wait,
     equilibrium: equilibrium::Snapshot,
-    judged: Option<Judged>,
+    judged: Option<Judgement>,
+    age: f64,
 }
 
 impl Ladder {
@@ -108,16 +100,11 @@ impl Ladder {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let rungs = if settings.interaction == Interaction::Auto {
-            models_of_auto(&settings, design.rings().next().is_some())
-        } else {
-            vec![settings]
-        };
-        let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
         let mut out = Self {
-            rungs: rungs.into_iter().map(model).collect::<Result<_, _>>()?,
+            models: Models::new(design, magnet, &settings, shape_points)?,
             present: 0,
             judged: None,
+            age: 0.0,
             wait: Wait::NONE,
             length: design.length(),
             fold_margin: settings.fold_margin,
@@ -134,18 +121,18 @@ impl Ladder {
         let Gap { distance, angle } = self.tolerance;
         let residual = RESIDUAL * (distance / self.length).min(angle);
         let residual = residual.clamp(self.residual, RELAXED * self.residual);
-        let last = self.last();
-        self.rungs[..last].iter_mut().for_each(|rung| rung.set_tolerance(residual));
+        self.models.cheaper().iter_mut().for_each(|model| model.set_tolerance(residual));
     }
 
     /// The model that answers.
     pub(super) fn present(&self) -> &Equilibrium {
-        &self.rungs[self.present]
+        self.models.at(self.present)
     }
 
-    /// Estimated distance of the tip (m) from that of the richest model; 0 where that one answers or the level is fixed.
+    /// Estimated distance of the tip (m) from the converged answer of the model; at most the length, which is told where
+    /// nothing is known.
     pub(super) fn error_estimate(&self) -> f64 {
-        self.judged.as_ref().filter(|_| self.present < self.last()).map_or(0.0, |judged| judged.gap.distance)
+        self.judged.as_ref().map_or(0.0, |judged| judged.error(self.age).distance.min(self.length))
     }
 
     /// New tolerances; the next solve judges by them.
@@ -158,8 +145,8 @@ impl Ladder {
 
     /// Forgets the shape.
     pub(super) fn reset(&mut self) {
-        (self.present, self.judged, self.wait) = (0, None, Wait::NONE);
-        self.rungs.iter_mut().for_each(Equilibrium::reset);
+        (self.present, self.judged, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
+        self.models.reset();
     }
 
     /// Follows the branch to `inputs` on the cheapest rung that is good enough.
@@ -167,46 +154,39 @@ impl Ladder {
     /// # Errors
     /// As [`Equilibrium::solve`].
     pub(super) fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
-        let (from, last) = (self.present, self.last());
-        if last == 0 {
-            return self.rungs[0].solve(inputs);
-        }
+        let (from, richest) = (self.present, self.models.richest());
         // All models of one solve share its time.
         let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
-            return self.ascend(0, inputs, |models, rung| {
-                models[rung].reset();
-                models[rung].solve_before(&deadline, inputs)
+            return self.ascend(0, inputs, &deadline, |models, rung| {
+                let model = models.at_mut(rung);
+                model.reset();
+                model.solve_before(&deadline, inputs)
             });
         };
         // The richest one needs no way back.
-        let way_back = (from < last).then(|| (before.clone(), self.present().unknowns().to_vec()));
-        let report = self.rungs[from].solve_before(&deadline, inputs)?;
-        let changed = self.changed(inputs);
+        let way_back = (from < richest).then(|| (before.clone(), self.present().unknowns().to_vec()));
+        let report = self.models.at_mut(from).solve_before(&deadline, inputs)?;
+        let changed = report.solved() && self.has_changed(inputs);
+        let due = report.solved() && from > 0 && self.wait.is_over(self.age);
         if let Some((before, shape)) = way_back
-            && !(self.is_sound(&report) && (!changed || self.judge(inputs, CLIMB)))
+            && !(self.is_sound(&report) && (!changed || self.holds(inputs)?))
         {
-            let next = if report.solved() { from + 1 } else { last };
-            return self.ascend(next, inputs, |models, rung| {
-                let (lower, upper) = models.split_at_mut(rung);
-                upper[0].adopt(&lower[from], &shape, &before);
-                let settled = upper[0].solve_before(&deadline, &before)?;
-                let report = upper[0].solve_before(&deadline, inputs)?;
+            let next = if report.solved() { from + 1 } else { richest };
+            return self.ascend(next, inputs, &deadline, |models, rung| {
+                models.adopt(rung, from, &shape, &before);
+                let model = models.at_mut(rung);
+                let settled = model.solve_before(&deadline, &before)?;
+                let report = model.solve_before(&deadline, inputs)?;
                 let (iterations, snaps) =
                     (settled.iterations + report.iterations, settled.snaps + report.snaps);
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if !(changed && from > 0 && report.solved()) {
-            return Ok(report);
+        if changed && from >= richest && !self.holds(inputs)? {
+            return self.refine(inputs, report, &deadline);
         }
-        if self.wait.is_over() {
-            return self.descend(inputs, report, &deadline);
-        }
-        if from == last {
-            self.note(inputs, Gap::NONE);
-        }
-        Ok(report)
+        if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
     }
 
     /// From rung `first` up to one that is good enough, each solved by `solve`. Where a cheaper one finds nothing, the
@@ -215,51 +195,72 @@ impl Ladder {
         &mut self,
         first: usize,
         inputs: &Inputs,
-        solve: impl Fn(&mut [Equilibrium], usize) -> Result<Report, Error>,
+        deadline: &Deadline,
+        solve: impl Fn(&mut Models, usize) -> Result<Report, Error>,
     ) -> Result<Report, Error> {
+        let richest = self.models.richest();
         let mut iterations = 0;
         self.present = first;
         loop {
-            let report = solve(&mut self.rungs, self.present)?;
+            let report = solve(&mut self.models, self.present)?;
             iterations += report.iterations;
-            let richest = self.present == self.last();
-            if richest {
-                self.note(inputs, Gap::NONE);
+            let (at_richest, report) = (self.present == richest, Report { iterations, ..report });
+            if at_richest && !report.solved() {
+                self.judged = None;
+                return Ok(report);
             }
-            if richest || (self.is_sound(&report) && self.judge(inputs, CLIMB)) {
-                return Ok(Report { iterations, ..report });
+            if (at_richest || self.is_sound(&report)) && self.holds(inputs)? {
+                return Ok(report);
             }
-            self.present = if report.solved() { self.present + 1 } else { self.last() };
+            if at_richest {
+                return self.refine(inputs, report, deadline);
+            }
+            self.present = if report.solved() { self.present + 1 } else { richest };
         }
+    }
+
+    /// From the answer `report` of the richest model on to discretisations of it that are fine enough, or to the finest.
+    /// Where a finer one does not stay on the branch, the coarser answer stands, with its error.
+    fn refine(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
+        let mut report = report;
+        while self.present < self.models.last() {
+            let shape = self.present().unknowns().to_vec();
+            self.models.adopt(self.present + 1, self.present, &shape, inputs);
+            let next = self.models.at_mut(self.present + 1).solve_before(deadline, inputs)?;
+            if !next.solved() || next.snaps > 0 {
+                break;
+            }
+            let iterations = report.iterations + next.iterations;
+            report = Report { iterations, snaps: report.snaps, ..next };
+            self.present += 1;
+            if self.holds(inputs)? {
+                break;
+            }
+        }
+        Ok(report)
     }
 
     /// Tries the next cheaper rung; without success `report` stays the answer.
     fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
-        // The richest model forgets its branch as it judges.
-        let kept = (from == self.last()).then(|| self.rungs[from].clone());
-        let gap = self.judged.as_ref().map_or(Gap::NONE, |judged| judged.gap);
-        let (lower, upper) = self.rungs.split_at_mut(from);
-        let cheaper = &mut lower[from - 1];
-        cheaper.adopt(&upper[0], upper[0].unknowns(), inputs);
-        let other = cheaper.solve_before(deadline, inputs)?;
+        // The richer models forget their shapes as they judge.
+        let kept = (from >= self.models.richest()).then(|| self.present().clone());
+        let judged = (self.judged.clone(), self.age);
+        let shape = self.present().unknowns().to_vec();
+        self.models.adopt(from - 1, from, &shape, inputs);
+        let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
-        if self.is_sound(&other) && self.judge(inputs, DESCEND) {
+        if self.is_sound(&other) && self.judge(inputs, DESCEND)? {
             self.wait = Wait::NONE;
             let iterations = report.iterations + other.iterations;
             return Ok(Report { iterations, snaps: report.snaps, ..other });
         }
         (self.present, self.wait) = (from, self.wait.longer());
+        (self.judged, self.age) = judged;
         if let Some(kept) = kept {
-            self.rungs[from] = kept;
+            *self.models.at_mut(from) = kept;
         }
-        self.note(inputs, gap);
         Ok(report)
-    }
-
-    /// Number of the richest model.
-    fn last(&self) -> usize {
-        self.rungs.len() - 1
     }
 
     /// Whether a cheaper model's answer may stand: solved, stable, without a jump and away from folds.
@@ -268,45 +269,48 @@ impl Ladder {
         report.solved() && held && report.snaps == 0
     }
 
-    /// Whether the richest model finds the present rung within that part of the tolerance.
-    fn judge(&mut self, inputs: &Inputs, part: f64) -> bool {
-        let last = self.last();
-        let (cheaper, judge) = self.rungs.split_at_mut(last);
-        let Some(gap) = judge[0].gap(&cheaper[self.present]) else { return false };
-        self.note(inputs, gap);
-        self.tolerance.room(&gap, part) >= 1.0
+    /// Whether the present rung may go on.
+    fn holds(&mut self, inputs: &Inputs) -> Result<bool, Error> {
+        let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
+        self.judge(inputs, part)
+    }
+
+    /// Whether the present rung is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
+    /// is not trusted, but a finer discretisation would be no help.
+    fn judge(&mut self, inputs: &Inputs, part: f64) -> Result<bool, Error> {
+        let error = self.models.error(self.present)?;
+        let unknown = Gap { distance: self.length, angle: core::f64::consts::PI };
+        self.note(inputs, error.unwrap_or(unknown));
+        let good = |gap| self.tolerance.room(&gap, part) >= 1.0;
+        Ok(error.map_or(self.present >= self.models.richest(), good))
     }
 
     fn note(&mut self, inputs: &Inputs, gap: Gap) {
-        let tip = self.present().tip();
-        let field = self.present().field_at(inputs, &tip.position).unwrap_or_default();
-        self.judged = Some(Judged { inputs: inputs.clone(), tip, field, gap });
+        let model = self.models.at(self.present);
+        (self.age, self.wait.counted) = (0.0, 0.0);
+        match &mut self.judged {
+            Some(judged) => judged.renew(model, inputs, gap),
+            None => self.judged = Some(Judgement::new(model, inputs, gap)),
+        }
     }
 
-    /// Whether enough has changed since the last judgement to judge again: the better the rung was, the more may.
-    fn changed(&self, inputs: &Inputs) -> bool {
+    /// Whether enough has changed since the last judgement to judge again.
+    fn has_changed(&mut self, inputs: &Inputs) -> bool {
         let Some(judged) = &self.judged else { return true };
-        let room = self.tolerance.room(&judged.gap, CLIMB).clamp(1.0, STANDING);
-        let (tip, then) = (self.present().tip(), &judged.inputs);
-        let field = self.present().field_at(inputs, &tip.position).unwrap_or_default();
-        let far = |change: f64, a: f64, b: f64| change > room * CHANGED * a.max(b);
-        let other = |a: &Vector3<f64>, b: &Vector3<f64>| far((a - b).norm(), a.norm(), b.norm());
-        let moved = Gap::between(&tip, &judged.tip);
-        let [gradient, before] = [inputs, then].map(|i| nalgebra::SVector::from(i.field_gradient));
-        moved.distance > room * MOVED * self.length
-            || moved.angle > room * MOVED
-            || other(&field, &judged.field)
-            || far((gradient - before).norm(), gradient.norm(), before.norm())
-            || other(&inputs.tip_force, &then.tip_force)
-            || other(&inputs.tip_moment, &then.tip_moment)
-            || other(&inputs.gravity, &then.gravity)
-            || inputs.ring_forces.iter().zip(&then.ring_forces).any(|(a, b)| other(a, b))
+        self.age = judged.age(self.models.at(self.present), inputs, self.length);
+        judged.is_old(self.age, &self.tolerance)
     }
 
     /// What it remembers.
     pub(super) fn snapshot(&self) -> Snapshot {
         let equilibrium = self.present().snapshot();
-        Snapshot { present: self.present, wait: self.wait, equilibrium, judged: self.judged.clone() }
+        Snapshot {
+            present: self.present,
+            wait: self.wait,
+            equilibrium,
+            judged: self.judged.clone(),
+            age: self.age,
+        }
     }
 
     /// Goes on from there.
@@ -315,28 +319,13 @@ impl Ladder {
     /// As [`Equilibrium::restore`].
     pub(super) fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         self.reset();
-        let Some(rung) = self.rungs.get_mut(snapshot.present) else {
+        if snapshot.present > self.models.last() {
             return Err(Error::Unsupported("the snapshot is not of this model".into()));
-        };
-        rung.restore(&snapshot.equilibrium)?;
+        }
+        self.models.make(snapshot.present)?;
+        self.models.at_mut(snapshot.present).restore(&snapshot.equilibrium)?;
         (self.present, self.wait, self.judged) = (snapshot.present, snapshot.wait, snapshot.judged.clone());
+        self.age = snapshot.age;
         Ok(())
     }
-}
-
-/// Settings of the models that the level `auto` chooses from, cheapest first, for a design with free rings or without.
-#[must_use]
-pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
-    let coarse = settings.pair_accuracy.max(COARSE);
-    let iterations = settings.iterations.min(CHEAP);
-    let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };
-    let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
-    let mut out = vec![Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::None) }];
-    if has_rings {
-        out.push(Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::Rings) });
-        out.push(cheap(Interaction::Rings));
-        out.push(Settings { degree: 0, pair_accuracy: coarse, iterations, ..richest });
-    }
-    out.push(richest);
-    out
 }

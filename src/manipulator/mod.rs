@@ -2,7 +2,9 @@
 
 mod branch;
 mod device;
+mod judgement;
 mod ladder;
+mod models;
 mod outputs;
 mod prediction;
 mod scene;
@@ -11,6 +13,6 @@ mod solver;
 pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output};
 pub use branch::{Branch, Fold};
 pub use device::{Manipulator, Snapshot};
-pub use ladder::models_of_auto;
+pub use models::models_of_auto;
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};

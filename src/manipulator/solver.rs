@@ -138,7 +138,7 @@ impl Solver {
             places.zip(model.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
             out.rings.iter_mut().zip(model.rings()).for_each(|(slot, pose)| *slot = pose);
             out.core_angles.iter_mut().zip(model.core_angles()).for_each(|(slot, angle)| *slot = angle);
-            out.interaction = model.settings().interaction;
+            (out.interaction, out.degree) = (model.settings().interaction, model.settings().degree);
         });
         if let Self::Potential(ladder) = self {
             out.error_estimate = ladder.error_estimate();
@@ -174,6 +174,7 @@ impl Solver {
                 residual: 0.0,
                 energy: 0.0,
                 interaction: model.settings().interaction,
+                degree: model.settings().degree,
                 error_estimate: 0.0,
                 method: model.settings().method,
             }

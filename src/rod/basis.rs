@@ -63,25 +63,41 @@ impl Modes {
         1.0 / self.total
     }
 
+    /// Part, arc length and weight of quadrature points that integrate products of two resultants exactly, up to those of
+    /// this degree; the weights, with the compliance in them, add up to one.
+    fn points(&self, degree: usize) -> impl Iterator<Item = (usize, f64, f64)> {
+        let (nodes, weights) = gauss_legendre(degree + 2);
+        let rule: Vec<(f64, f64)> = nodes.into_iter().zip(weights).collect();
+        self.parts.iter().enumerate().flat_map(move |(index, part)| {
+            let scale = 0.5 * part.length;
+            let point = |(x, w): &(f64, f64)| {
+                (index, part.start + scale * (1.0 + x), scale * w * part.compliance / self.total)
+            };
+            rule.iter().map(point).collect::<Vec<_>>()
+        })
+    }
+
+    /// By own mode and mode of `other`, for the same parts: the amplitudes whose strain is nearest, in the elastic energy, to
+    /// that of a unit amplitude of each of the others; the same strain where the degree is at least as high.
+    pub(super) fn projection(&self, other: &Self) -> Vec<Vec<f64>> {
+        let mut out = vec![vec![0.0; other.count()]; self.count()];
+        for (part, s, weight) in self.points(self.degree.max(other.degree)) {
+            let values = |modes: &Self| -> Vec<f64> {
+                let raw = modes.raw(part, s);
+                modes.coefficients.iter().map(|row| row.iter().zip(&raw).map(|(c, v)| c * v).sum()).collect()
+            };
+            let (own, others) = (values(self), values(other));
+            for (row, value) in out.iter_mut().zip(own) {
+                row.iter_mut().zip(&others).for_each(|(entry, other)| *entry += weight * value * other);
+            }
+        }
+        out
+    }
+
     /// Gram-Schmidt, twice for full precision, with exact quadrature.
     fn orthogonalise(&mut self) {
-        let (nodes, weights) = gauss_legendre(self.degree + 2);
-        let samples: Vec<(Vec<f64>, f64)> = (0..self.parts.len())
-            .flat_map(|index| {
-                let part = self.parts[index];
-                let scale = 0.5 * part.length;
-                nodes
-                    .iter()
-                    .zip(&weights)
-                    .map(|(x, w)| {
-                        (
-                            self.raw(index, part.start + scale * (1.0 + x)),
-                            scale * w * part.compliance / self.total,
-                        )
-                    })
-                    .collect::<Vec<_>>()
-            })
-            .collect();
+        let samples: Vec<(Vec<f64>, f64)> =
+            self.points(self.degree).map(|(part, s, weight)| (self.raw(part, s), weight)).collect();
         let raw_count = samples.first().map_or(0, |(values, _)| values.len());
         let combine = |coefficients: &[f64], values: &[f64]| -> f64 {
             coefficients.iter().zip(values).map(|(c, v)| c * v).sum()

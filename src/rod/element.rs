@@ -27,6 +27,9 @@ const DISC_POINTS: usize = 2;
 /// Gauss points of a core or rod beyond the number of modes, at least.
 const EXTRA_POINTS: usize = 1;
 
+/// Part of a mode that is left out when it is written by the modes of another element: rounding.
+const NEGLIGIBLE: f64 = 1e-13;
+
 /// How finely an element is resolved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
@@ -176,6 +179,24 @@ impl Element {
         let of = |c: usize| (0..self.freedoms()).filter(move |i| self.component[*i] == c);
         let count = of(TORSION).count();
         core::array::from_fn(|c| of(c).take(count).collect())
+    }
+
+    /// Degrees of freedom here and of `other`, an element of the same pieces, and how much of a unit amplitude of the second
+    /// the first one takes up: the same strains where the degree is at least as high, else the nearest.
+    #[must_use]
+    pub fn projection(&self, other: &Self) -> Vec<(usize, usize, f64)> {
+        let of = |element: &Self, c: usize| -> Vec<usize> {
+            (0..element.freedoms()).filter(|i| element.component[*i] == c).collect()
+        };
+        let mut out = Vec::new();
+        for c in 0..COMPONENTS {
+            let (own, others) = (of(self, c), of(other, c));
+            for (i, row) in own.iter().zip(self.modes[c].projection(&other.modes[c])) {
+                out.extend(others.iter().zip(row).map(|(j, value)| (*i, *j, value)));
+            }
+        }
+        out.retain(|entry| entry.2.abs() > NEGLIGIBLE);
+        out
     }
 
     /// What the core's windings add to the elastic energy; `None` where they do not touch.

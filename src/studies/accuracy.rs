@@ -143,7 +143,8 @@ impl Case {
 
     fn new(field: &'static str, table: &str, segments: usize, level: Interaction) -> Result<Self, Error> {
         let model = format!("[model]\ninteraction = \"{}\"", level.name());
-        let scene = Scene::parse(&format!("{table}\n[design]\nsegments = {segments}\n{model}"), field)?;
+        let mut scene = Scene::parse(&format!("{table}\n[design]\nsegments = {segments}\n{model}"), field)?;
+        scene.settings = scene.settings.as_discretised();
         let walk = (1..=STEPS).chain((0..STEPS).rev()).map(|step| later(&scene.inputs, step)).collect();
         let length = scene.design()?.length();
         Ok(Self { field, segments, scene, walk, length })

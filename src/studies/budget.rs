@@ -28,7 +28,7 @@ pub struct Contribution {
     pub scene: Option<&'static str>,
     /// Tip angle without the change, deg.
     pub tip_angle_deg: Option<f64>,
-    /// Least and largest change of the tip angle, percent; none where it is unknown, and where the device is pulled shut.
+    /// Least and largest change of the tip angle, percent; none where the device is pulled shut.
     pub least_percent: Option<f64>,
     /// See `least_percent`.
     pub largest_percent: Option<f64>,
@@ -37,7 +37,7 @@ pub struct Contribution {
 }
 
 impl Contribution {
-    /// The larger of both changes by size, percent: infinite where the device is pulled shut, zero where nothing is known.
+    /// The larger of both changes by size, percent: infinite where the device is pulled shut.
     #[must_use]
     pub fn size(&self) -> f64 {
         let ends = [self.least_percent, self.largest_percent, self.pulled_shut.then_some(f64::INFINITY)];

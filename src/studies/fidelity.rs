@@ -102,7 +102,7 @@ impl Walk {
         for settings in &models {
             let Settings { interaction, degree, pair_accuracy, .. } = settings;
             let model = format!("{}, degree {degree}, pairs {pair_accuracy:.0e}", interaction.name());
-            rows.push((model, None, *settings));
+            rows.push((model, None, settings.as_discretised()));
         }
         for tolerance in TOLERANCES {
             let (tolerance_position, tolerance_angle) = (tolerance * self.length, tolerance);
@@ -110,7 +110,7 @@ impl Walk {
                 Settings { interaction: Interaction::Auto, tolerance_position, tolerance_angle, ..base };
             rows.push(("auto".to_owned(), Some(tolerance), settings));
         }
-        let richest = models.last().copied().unwrap_or(base);
+        let richest = models.last().copied().unwrap_or(base).as_discretised();
         let shown: Vec<Shown> = rows
             .iter()
             .map(|row| self.go(&self.with(row.2), &self.with(richest)))
@@ -135,7 +135,7 @@ impl Walk {
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0, by_richest: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;
-            let itself = answer.interaction == Interaction::Full && answer.error_estimate == 0.0;
+            let itself = answer.interaction == Interaction::Full && answer.degree >= judge.outputs().degree;
             shown.by_richest += f64::from(u8::from(itself)) / self.path.len() as f64;
             if step % LOOKS == 0 {
                 let exact = judge.solve(inputs)?;

@@ -112,16 +112,18 @@ fn targets(criterion: &mut Criterion<CpuTime>) {
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
 const COARSE: fn(&mut Settings) = |settings| {
     (settings.degree, settings.pair_accuracy, settings.tolerance) = (0, 1e-2, 1e-5);
+    *settings = settings.as_discretised();
 };
 
 /// For 1 um.
 const MICROMETRE: fn(&mut Settings) = |settings| {
     (settings.pair_accuracy, settings.tolerance) = (1e-4, 1e-6);
+    *settings = settings.as_discretised();
 };
 
 /// What those are compared with.
 const RICHEST: fn(&mut Settings) = |settings| {
-    (settings.degree, settings.pair_accuracy) = (4, 1e-7);
+    *settings = Settings { degree: 4, pair_accuracy: 1e-7, ..settings.as_discretised() };
 };
 
 fn target(
@@ -152,8 +154,10 @@ fn target(
     }
     let mean = f64::from(iterations) / path.len() as f64;
     println!(
-        "target {name}: tip within {distance:.2e} m, {:.2e} deg, {mean:.1} corrections",
-        angle.to_degrees()
+        "target {name}: tip within {distance:.2e} m, {:.2e} deg, told {:.2e} m, degree {}, {mean:.1} corrections",
+        angle.to_degrees(),
+        cheap.outputs().error_estimate,
+        cheap.outputs().degree
     );
     warm(criterion, &format!("target {name}"), &mut cheap, path);
 }

@@ -133,7 +133,8 @@ fn folds_are_where_bisection_along_the_stable_branch_ends() {
     for Traced { name, equilibrium, inputs, range, diagram } in traced() {
         let segments = equilibrium.rings().count() - 1;
         let design = Design::new(Specification::paper(segments)).unwrap();
-        let manipulator = Manipulator::new(&design, None, *equilibrium.settings(), 2).unwrap();
+        let settings = equilibrium.settings().as_discretised();
+        let manipulator = Manipulator::new(&design, None, settings, 2).unwrap();
         let span = range[1] - range[0];
         let mut branch = Branch::new(manipulator, |value| Ok(inputs(value)), span, span / 40.0).unwrap();
         branch.to(range[0]).unwrap();

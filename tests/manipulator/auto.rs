@@ -94,6 +94,11 @@ fn richest(auto: Settings) -> Settings {
     Settings { interaction: Interaction::Full, bending_stop: true, ..auto }
 }
 
+/// Whether another model than the richest answered, or a finer discretisation of that.
+fn is_cheaper(answer: &Outputs) -> bool {
+    answer.interaction != Interaction::Full || answer.degree < Settings::default().degree
+}
+
 /// The larger part of the tolerances that the tips are apart.
 fn parts(settings: &Settings, a: &Outputs, b: &Outputs) -> f64 {
     let gap = Gap::between(&a.tip, &b.tip);
@@ -115,7 +120,7 @@ fn is_within_its_tolerance_of_the_richest_model() {
             let ends = [own.outcome, judge.outcome];
             assert_eq!(ends[0].is_solved(), ends[1].is_solved(), "scene {number}: {ends:?}");
             (judge.status != Status::NotSolved)
-                .then(|| (number, parts(&scene.auto, own, judge), own.interaction, own.error_estimate > 0.0))
+                .then(|| (number, parts(&scene.auto, own, judge), own.interaction, is_cheaper(own)))
         })
         .collect();
     let share = |holds: &dyn Fn(&Compared) -> bool| {
@@ -163,7 +168,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");
             worst = worst.max(parts(&auto, &a, &b));
             if let Some((old_a, old_b)) = &before
-                && (old_a.interaction, old_a.error_estimate > 0.0) != (a.interaction, a.error_estimate > 0.0)
+                && (old_a.interaction, old_a.degree) != (a.interaction, a.degree)
             {
                 changes += 1;
                 let moved = |new: &Outputs, old: &Outputs| new.tip.position - old.tip.position;

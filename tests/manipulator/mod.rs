@@ -2,6 +2,8 @@
 
 mod auto;
 
+mod estimate;
+
 mod jacobian;
 
 mod scene;

@@ -106,13 +106,13 @@ fn every_change_is_that_of_a_scene_that_states_it() {
     }
 }
 
-/// An estimate by another model: hardness -5/+6 %, remanence -2.9 %, spans on spans about +5 %.
+/// An estimate by another model: hardness -5/+6 %, remanence -2.9 %, 3.5 % less stiffness about +5 %.
 #[test]
 fn one_segment_changes_as_an_independent_model_says() {
     let [harder, softer] = ends("Shore A", ONE);
     let [weaker, _] = ends("remanence of the rings", ONE);
-    let [least, largest] = ends("spans on spans", ONE);
-    for (got, expected) in [(harder, -5.0), (softer, 6.0), (weaker, -2.9), (0.5 * (least + largest), 5.0)] {
+    let [least, _] = ends("spans on spans", ONE);
+    for (got, expected) in [(harder, -5.0), (softer, 6.0), (weaker, -2.9), (least * 3.5 / 3.1, 5.0)] {
         assert!((got - expected).abs() <= BUDGET_POINTS, "{got}, expected {expected}");
     }
     let angle = entry("Shore A", ONE).tip_angle_deg.unwrap();
@@ -124,10 +124,17 @@ fn one_segment_changes_as_an_independent_model_says() {
 fn softer_spans_bend_as_more_magnetisation_in_more_field_does() {
     let [least, largest] = ends("spans on spans", ONE);
     let [harder, softer] = ends("Shore A", ONE);
+    let [stiffest, stiffer] = ends("stiffness of the spiral", ONE);
     let by_hardness = |hardness| gent_modulus(hardness) / gent_modulus(33.0) - 1.0;
-    for (got, change) in
-        [(least, -0.025), (largest, -0.045), (harder, by_hardness(34.0)), (softer, by_hardness(32.0))]
-    {
+    let changes = [
+        (least, -0.031),
+        (largest, -0.076),
+        (stiffest, 0.221),
+        (stiffer, 0.168),
+        (harder, by_hardness(34.0)),
+        (softer, by_hardness(32.0)),
+    ];
+    for (got, change) in changes {
         let gain = (1.0 + change).powf(-0.5_f64);
         let keys = format!(
             "[design.ring]\nremanence_t = {}\n[design.helix]\nparticle_remanence_t = {gain}",
@@ -198,7 +205,7 @@ fn rings_further_apart_bend_less() {
 }
 
 #[test]
-fn tolerances_add_by_squares_and_what_is_unknown_says_so() {
+fn tolerances_add_by_squares() {
     for scene in BUDGET_SCENES {
         let own =
             ROWS.iter().filter(|row| row.kind == BudgetKind::Tolerance && row.scene == Some(scene.name));
@@ -206,8 +213,6 @@ fn tolerances_add_by_squares_and_what_is_unknown_says_so() {
         let all = entry("all tolerances", scene.name);
         assert!((all.least_percent.unwrap() + below.sqrt()).abs() < 1e-9);
         assert!(all.pulled_shut && all.largest_percent.is_none());
-        let spiral = entry("stiffness of the spiral", scene.name);
-        assert_eq!((spiral.least_percent, spiral.largest_percent, spiral.pulled_shut), (None, None, false));
     }
 }
 

@@ -165,6 +165,7 @@ fn as_table(outputs: &Outputs) -> String {
         vector("magnet reaction torque", &outputs.magnet_reaction_torque, 1e6, "mN.mm, about its centre"),
         vector("external field at tip", &outputs.tip_field, 1e3, "mT"),
         row("stability margin", format!("{:.4}", outputs.stability_margin), "of the unloaded shape's"),
+        row("error estimate", format!("{:.4}", outputs.error_estimate * 1e6), "um, of the tip position"),
         row("snaps", outputs.snaps.to_string(), ""),
         row("energy", format!("{:.4}", outputs.energy * 1e6), "uJ"),
     ]

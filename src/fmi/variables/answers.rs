@@ -181,8 +181,7 @@ impl Rows {
         let draft = Draft::new("model.level", kind, "Level of local interaction that was used", level);
         self.real(draft);
         let estimate = answer(|o, _| o.error_estimate);
-        let description =
-            "Estimated distance of the tip from that of the richest model, where auto chose a cheaper one";
+        let description = "Estimated distance of the tip from the converged answer of the model";
         self.real(Draft::real("model.error_estimate", LENGTH, description, estimate).min(0.0));
     }
 }

@@ -104,7 +104,7 @@ impl Rows {
         self.one(tolerance(
             "model.tolerance_position",
             LENGTH,
-            "How far auto may put the tip from where the richest model puts it",
+            "How far the tip may be from the converged answer of the model",
             Access::Real {
                 get: |given, _| given.settings.tolerance_position,
                 set: |given, _, value| given.settings.tolerance_position = value,
@@ -113,7 +113,7 @@ impl Rows {
         self.one(tolerance(
             "model.tolerance_angle",
             ANGLE,
-            "How far auto may turn the tip against that of the richest model",
+            "How far the tip may be turned against the converged answer of the model",
             Access::Real {
                 get: |given, _| given.settings.tolerance_angle,
                 set: |given, _, value| given.settings.tolerance_angle = value,

@@ -77,7 +77,8 @@ impl Case {
     }
 
     fn branch(&self) -> Result<Branch<impl Fn(f64) -> Result<Inputs, Error> + Clone + '_>, Error> {
-        let manipulator = Manipulator::new(&self.design, self.magnet.as_ref(), self.settings, 2)?;
+        let settings = self.settings.as_discretised();
+        let manipulator = Manipulator::new(&self.design, self.magnet.as_ref(), settings, 2)?;
         Branch::new(manipulator, |value| Ok((self.way)(value)), self.span(), self.span() / f64::from(STEPS))
     }
 

@@ -10,7 +10,7 @@ use crate::verdict;
 const SAME_TIP: f64 = 1e-4;
 
 /// Those of the shape, which a row that did not converge has not.
-const NUMBERS: [&str; 28] = [
+const NUMBERS: [&str; 29] = [
     "alpha_deg",
     "tip_x_mm",
     "tip_y_mm",
@@ -39,6 +39,7 @@ const NUMBERS: [&str; 28] = [
     "tip_field_z_mt",
     "energy_j",
     "stability_margin",
+    "error_estimate_m",
 ];
 
 /// Those of the search.
@@ -102,7 +103,7 @@ impl Row {
         ] {
             numbers.extend(vector);
         }
-        numbers.extend([outputs.energy, outputs.stability_margin]);
+        numbers.extend([outputs.energy, outputs.stability_margin, outputs.error_estimate]);
         Self {
             varied,
             way,

@@ -1,62 +1,4 @@
-//! Every tolerance of the tests, each with its reason. Relative to the size of the value unless said.
-
-use core::fmt::Debug;
-
-/// Field of the closed forms: the difference of two ends loses `eps (r/a)^2 (r/h)`, 3e-13 at six extents (reached: 2e-13).
-pub(crate) const FIELD: f64 = 5e-12;
-
-/// Gradient and second derivative of the closed forms (reached: 3e-13).
-pub(crate) const DERIVATIVES: f64 = 1e-12;
-
-/// The same closer than 10 um to an edge, where one rounding of a coordinate alone moves them by up to 3.5e-12.
-pub(crate) const DERIVATIVES_NEAR_EDGE: f64 = 1e-11;
-
-/// Gradient at a source's centre, where it is zero, T/m: rounding of 1 T over the smallest dimension, 1 mm.
-pub(crate) const ZERO_GRADIENT: f64 = 1e-11;
-
-/// Wrench between two rings, asked for with [`WRENCH_ACCURACY`] (reached: 2e-12).
-pub(crate) const WRENCH: f64 = 1e-8;
-
-/// Accuracy that the wrench is asked for: tenfold inside [`WRENCH`], as the estimate is only an estimate.
-pub(crate) const WRENCH_ACCURACY: f64 = 1e-9;
-
-/// Central differences with a step of 1e-4 of the size: truncation 1e-8 times a constant of the curvature near a magnet.
-pub(crate) const DIFFERENCE: f64 = 2e-6;
-
-/// Identities that hold in exact arithmetic between results that are each good to [`DERIVATIVES`].
-pub(crate) const IDENTITY: f64 = 1e-11;
-
-/// Numbers of the paper, printed with four or five digits.
-pub(crate) const PRINTED: f64 = 1.5e-4;
-
-/// Numbers of the paper that are printed with four decimals, absolute.
-pub(crate) const PRINTED_FOUR_DECIMALS: f64 = 5e-5;
-
-/// The same with three decimals.
-pub(crate) const PRINTED_THREE_DECIMALS: f64 = 5e-4;
-
-/// Numbers known to two or three digits, of which the last may be one off.
-pub(crate) const PRINTED_THREE_DIGITS: f64 = 1e-2;
-
-/// Forces on a stiff device: the solver's spans see a field of third degree over their section as one of second.
-pub(crate) const HELD: f64 = 1e-5;
-
-/// Forces on two devices of one length over their moments: rings lie further out than an even magnetisation, which makes
-/// the mean square of the distance from the middle 13 mm2 larger, and the force changes over about 22 mm.
-pub(crate) const SAME_SHAPE_OF_MAGNETISATION: f64 = 0.03;
-
-/// Slopes by central differences with steps of a twentieth of the length over which the field changes.
-pub(crate) const COARSE_DIFFERENCE: f64 = 1e-2;
-
-/// Sums over some ten thousand cells of a ring, and numbers of four digits.
-pub(crate) const CELLS: f64 = 1e-3;
-
-/// Order in the distance of what multipoles leave out, four to five extents away: the next but one changes it by some
-/// percent.
-pub(crate) const MULTIPOLE_ORDER: f64 = 0.5;
-
-/// A few operations in floating point.
-pub(crate) const ROUNDING: f64 = 1e-14;
+//! Shapes, branches, sensitivities and what is told of them.
 
 /// Tip and rings of the independent energy model, relative to the length.
 pub(crate) const STATICS_LENGTH: f64 = 1e-5;
@@ -77,27 +19,6 @@ pub(crate) const STATICS_ENERGY: f64 = 1e-5;
 /// The same where rings act on spans: the table states no digits of an energy, and ours changes by 4e-5 when the spans
 /// are resolved twice as finely.
 pub(crate) const STATICS_SPANS_ENERGY: f64 = 1e-3;
-
-/// Default accuracy of the ring pairs.
-pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
-
-/// Force, torque and energy of ring pairs by their faces at that accuracy: a tenth of it (reached: 3e-7).
-pub(crate) const FACES: f64 = 1e-6;
-
-/// The same at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
-pub(crate) const FACES_TIGHT: f64 = 1e-9;
-
-/// Shapes that such pairs decide, over what they do: softened by up to the same again.
-pub(crate) const FACES_BALANCE: f64 = 5e-6;
-
-/// Slope of an energy of such pairs by differences of fourth order with steps of 1e-4.
-pub(crate) const FACES_SLOPE: f64 = 2e-9;
-
-/// Slope of the gradient by differences of second order with steps of 1e-5.
-pub(crate) const FACES_HESSIAN: f64 = 1e-6;
-
-/// Accuracy that the ring pairs are asked for beside a table: the best that they have.
-pub(crate) const PAIRS: f64 = 1e-10;
 
 /// Forces between adjacent rings at the default accuracy: the rule of most nodes on the axis leaves 5e-6 there.
 pub(crate) const ADJACENT: f64 = 1e-5;
@@ -127,17 +48,8 @@ pub(crate) const BEND: f64 = 1e-9;
 /// (`none` to `full`) in a field turned by 170 deg.
 pub(crate) const PAPER_STOP_DEG: f64 = 10.0;
 
-/// Width at which a bisection ends: well inside [`CRITICAL`].
-pub(crate) const BISECTION: f64 = 1e-8;
-
 /// The quick look at the margin after every solve, close to a fold, where it must tell: from above.
 pub(crate) const MARGIN_BOUND: f64 = 0.01;
-
-/// A straight shape's distance from its axis over its length.
-pub(crate) const ON_AXIS: f64 = 1e-9;
-
-/// Laws that hold exactly, between two solves that each end at a residual of 1e-11.
-pub(crate) const LAW: f64 = 1e-9;
 
 /// Balance of forces, relative to the largest: rounding, and the residual of the solve.
 pub(crate) const BALANCE: f64 = 1e-9;
@@ -186,18 +98,6 @@ pub(crate) const NEUTRAL: f64 = 1e-7;
 /// Sums over some million cells: of second order in their size.
 pub(crate) const BRUTE_FORCE: f64 = 2e-4;
 
-/// Rotation matrices by two formulas: near the switch of series and sine the cosine's argument is rounded.
-pub(crate) const ROTATION: f64 = 1e-14;
-
-/// Derivatives of rotations by differences of fourth order, step 1e-4: rounding over the step.
-pub(crate) const ROTATION_DIFFERENCE: f64 = 1e-10;
-
-/// Smallest eigenvalue: of second order in a residual of 1e-7, and the rounding of a metric over six decades.
-pub(crate) const EIGENVALUE: f64 = 1e-8;
-
-/// Angles of the paper's and of independent models that are known to two decimals, degrees.
-pub(crate) const TWO_DECIMALS_DEG: f64 = 0.01;
-
 /// The same shape reached on another way, rad: both are solved to 1e-11 turns of one element.
 pub(crate) const SAME_SHAPE: f64 = 1e-9;
 
@@ -206,12 +106,6 @@ pub(crate) const IMPORTER: f64 = 1e-9;
 
 /// A change that counts as an effect of what was changed: far above any tolerance of a solve, rad.
 pub(crate) const EFFECT: f64 = 1e-6;
-
-/// Curl and divergence of a magnet's field beside it, T/m: rounding of gradients around 1 T/m.
-pub(crate) const MAXWELL: f64 = 1e-13;
-
-/// Small loads beside a beam written out by hand: they turn the tip by 1e-5, and shear that varies along a disc has no mode.
-pub(crate) const LINEAR: f64 = 1e-7;
 
 /// Sum of the effects of small loads of several kinds and the effect of their sum: of first order in the tip's turn by
 /// 1e-5 where the rings' attraction couples them.
@@ -268,9 +162,6 @@ pub(crate) const SPANS_AMONG_THEMSELVES: f64 = 1e-3;
 /// Equations of order one that Newton's method has solved until a correction is 1e-8, the next one its square.
 pub(crate) const ON_BRANCH: f64 = 1e-14;
 
-/// Parameter at singular points, of order one: located until what vanishes there is 1e-10.
-pub(crate) const SINGULAR: f64 = 1e-9;
-
 /// Folds of a dipole on a core beside closed forms, which leave out nothing.
 pub(crate) const CLOSED_FORM_OF_FOLDS: f64 = 1e-7;
 
@@ -285,41 +176,6 @@ pub(crate) const PREDICTED_CLOSE: f64 = 0.05;
 /// (reached: 2.3e-6, of second order in the steps).
 pub(crate) const ALONG_ENERGY: f64 = 1e-5;
 
-/// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
-pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
-    got.len() == expected.len() && distance(got, expected) <= tolerance * norm(expected)
-}
-
-/// Stops unless `got` [`is_close`] to `expected`; says which case it was.
-#[track_caller]
-pub(crate) fn assert_close(case: impl Debug, got: &[f64], expected: &[f64], tolerance: f64) {
-    let error = distance(got, expected) / norm(expected);
-    assert!(
-        is_close(got, expected, tolerance),
-        "{case:?}: got {got:?}, expected {expected:?}: relative error {error:e} > {tolerance:e}"
-    );
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-fn distance(got: &[f64], expected: &[f64]) -> f64 {
-    got.iter().zip(expected).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
-
-#[test]
-fn the_comparison_sees_what_it_must() {
-    assert!(is_close(&[1.0, 2.0], &[1.0, 2.0 + 1e-13], 1e-12));
-    assert!(!is_close(&[1.0, 2.0], &[1.0, 2.1], 1e-2), "a wrong digit");
-    assert!(!is_close(&[-1.0, -2.0], &[1.0, 2.0], 1e-2), "a wrong sign");
-    assert!(!is_close(&[f64::NAN, 2.0], &[1.0, 2.0], 1e-2), "NaN in the result");
-    assert!(!is_close(&[1.0, 2.0], &[f64::NAN, 2.0], 1e-2), "NaN in the reference");
-    assert!(!is_close(&[f64::INFINITY, 2.0], &[1.0, 2.0], 1e-2), "infinity");
-    assert!(!is_close(&[1.0], &[1.0, 2.0], 1e-2), "a missing entry");
-    assert!(!is_close(&[1e-30], &[0.0], 1e-2), "zero has no size to be relative to");
-}
-
 /// How far below the measured stability margin that told along a walk may lie, relative to it: kept while shape and loads
 /// drift by a tenth of it (reached: 2.4e-2).
 pub(crate) const KEPT_MARGIN: f64 = 0.05;
@@ -333,34 +189,12 @@ pub(crate) const BALANCED: f64 = 1e-5;
 /// Smallest eigenvalue, over the elastic one, of a shape that may turn freely, by differences of gradients with steps of 1e-5.
 pub(crate) const NEUTRAL_SHAPE: f64 = 1e-6;
 
-/// Rings of a shape put through them, over the length and in rotation: Newton's method in 8 steps, differences of 1e-6.
-pub(crate) const INTERPOLATED: f64 = 1e-9;
-
 /// Tips after two ways that end in one shape, mm: 1e-9 of the length ([`WAY`]), 5 cm.
 pub(crate) const SAME_TIP_MM: f64 = 1e-7;
 
 /// Error of the tip's angle (rad) over the accuracy of the pairs: that is one of energies, of which the angle is a slope
 /// (reached: 1.4).
 pub(crate) const ANGLE_BY_ACCURACY: f64 = 2.0;
-
-/// First moment of a turning spiral by the points that stand for it, over volume and outer radius: by brute force, and two Gauss
-/// points in the squared radius (reached: 2e-5).
-pub(crate) const FIRST_MOMENT: f64 = 1e-4;
-
-/// Mean error of the tabulated field of a ring and of its gradient, over their size (reached: 3e-6).
-pub(crate) const TABLE_MEAN: f64 = 1e-5;
-
-/// Demagnetising factors by two formulas, absolute: elliptic integrals lose two digits for very long or flat cylinders.
-pub(crate) const DEMAGNETISATION: f64 = 1e-12;
-
-/// Coefficients that are printed with six decimals.
-pub(crate) const PRINTED_NAGAOKA: f64 = 1e-6;
-
-/// Mean of the field within a ring by 96 Gauss points each way, which at the logarithms of its edges leave 1e-5.
-pub(crate) const MEAN_FIELD: f64 = 3e-5;
-
-/// Moment of uniformly magnetised rings over `(mu_r - 1)^2`: second order (reached: 0.025 by a cylinder as long as wide).
-pub(crate) const UNIFORM_MAGNETISATION: f64 = 0.03;
 
 /// Changes of the tip angle, percent, by the same solve of a scene file: its millimetres and millitesla are rounded.
 pub(crate) const BUDGET_SOLVES: f64 = 1e-6;
@@ -371,24 +205,8 @@ pub(crate) const BUDGET_POINTS: f64 = 0.5;
 /// Effect of the recoil permeability by an integral equation: the moment is 5e-5 off, the effect 2.7e-2 of it.
 pub(crate) const BY_RECOIL: f64 = 3e-3;
 
-/// Depth of bodies in one another, mm: nested golden sections of 4e-11 of bodies of some centimetres.
-pub(crate) const DEPTH: f64 = 1e-8;
-
-/// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
-pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
-
 /// Depth of the manipulator in a magnet by circles of points, m, whose chords are 2.5 nm off (reached: 0.6 nm).
 pub(crate) const CONTACT_DEPTH: f64 = 1e-6;
-
-/// Rest of a damped motion: its slopes end at 1e-11 beside stiffnesses of order one.
-pub(crate) const RESTING: f64 = 1e-9;
-
-/// Smallest real part of the eigenvalues of random matrices, by Arnoldi's method with all vectors and by the QR algorithm, over the
-/// root of the size: rounding, times the condition of an eigenvalue, some hundreds.
-pub(crate) const REAL_PART: f64 = 1e-9;
-
-/// The same by half as many vectors as rows, where the eigenvalue is next to zero.
-pub(crate) const REAL_PART_OF_FEW: f64 = 1e-8;
 
 /// Strength of the magnet at a fold, which is within the step of 2e-5 where the walk snaps.
 pub(crate) const FOLD_OF_A_STEP: f64 = 1e-5;
@@ -398,3 +216,12 @@ pub(crate) const NO_FOLD_BEFORE_T: f64 = 0.029_251;
 
 /// Tip angle with a moment of 1e-11 N m: it turns a core by 2e-8 rad, over the margin; `auto` ends its cheaper models at 1e-7.
 pub(crate) const VANISHING_MOMENT_DEG: f64 = 1e-3;
+
+/// Part of random scenes whose error is below what is told: the estimate is one of first order, with a factor for doubt.
+pub(crate) const ESTIMATED_SHARE: f64 = 0.99;
+
+/// Median of the error that is told over the error that is: that factor is 2, and what is added to it where errors are small.
+pub(crate) const ESTIMATED_MEDIAN: f64 = 3.0;
+
+/// Least error over the length that is told; smaller ones are not compared in size.
+pub(crate) const LEAST_TOLD: f64 = 1e-8;
