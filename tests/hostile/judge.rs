@@ -17,8 +17,9 @@ const LONGEST_STEP: f64 = 0.2;
 /// A matrix made earlier serves while it makes the residual shrink by this factor.
 const SHRINKING: f64 = 0.1;
 
-/// Entries below the diagonal that the QR algorithm takes for zero, relative to their neighbours: far below the differences' noise.
-const DEFLATED: f64 = 1e-13;
+/// Entries below the diagonal that the QR algorithm takes for zero, relative to their neighbours. It may go round in circles with
+/// the first, and then not with the next; all are below the differences' noise.
+const DEFLATED: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 
 /// Turns of the QR algorithm at most, by row.
 const TURNS: usize = 100;
@@ -52,7 +53,8 @@ impl<'a> Judge<'a> {
             return Some(SymmetricEigen::new((&matrix + matrix.transpose()) * 0.5).eigenvalues.min());
         }
         let rows = matrix.nrows();
-        let values = Schur::try_new(matrix, DEFLATED, TURNS * rows)?.complex_eigenvalues();
+        let schur = |deflated| Schur::try_new(matrix.clone(), deflated, TURNS * rows);
+        let values = DEFLATED.into_iter().find_map(schur)?.complex_eigenvalues();
         values.iter().map(|value| value.re).min_by(f64::total_cmp)
     }
 

@@ -27,7 +27,7 @@ use scenes::Walk;
 use tally::Tally;
 
 /// Walks between two lines of progress.
-const CHUNK: u64 = 20_000;
+const CHUNK: u64 = 5_000;
 
 /// The seed unless another one is given.
 const SEED: u64 = 20_260_101;

@@ -86,6 +86,8 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
         let contradiction = match out.outcome {
             Outcome::Solved => out.status == Status::NotSolved || out.stable == Some(false),
             Outcome::Neutral => out.status == Status::NotSolved || out.stable == Some(true),
+            // The branch goes on from where time ended, and what snapped on the way has snapped.
+            Outcome::OutOfBudget => out.status != Status::NotSolved || out.tip != before.tip,
             _ => out.status != Status::NotSolved || out.tip != before.tip || out.snaps != before.snaps,
         };
         if contradiction {

@@ -18,7 +18,7 @@ const SEGMENTS: [u32; 9] = [50, 18, 18, 5, 3, 2, 1, 1, 2];
 
 /// How likely each level is.
 const LEVELS: [(&str, u32); 5] =
-    [("none", 520), ("rings", 420), ("preceding", 40), ("full", 10), ("auto", 10)];
+    [("none", 520), ("rings", 440), ("preceding", 20), ("full", 10), ("auto", 10)];
 
 /// Warm steps after the cold solve: part of the way from the last loads to new ones.
 const STEPS: [f64; 4] = [1e-3, 1e-3, 0.05, 1.0];
