@@ -35,10 +35,12 @@ pub(crate) struct Way {
 /// How a coarse walk went beside the fine one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Comparison {
-    /// The fine walk is not solved all the way, or is too fast between its snaps.
+    /// The fine walk has no start, or is too fast where they do not agree.
     Unfit,
     /// Both agree; so many snaps were told.
     Alike(u32),
+    /// Both end within the same step, as bodies touch or the branch ends.
+    End,
     /// They do not.
     Differs(String),
 }
@@ -86,12 +88,15 @@ impl Way {
             field,
         };
         if has_magnet && random.random_bool(0.6) {
-            // Beside the base and against the manipulator, the weaker the longer that is: it turns over and back.
-            let aside = direction(random) * 0.005;
-            way.magnet = [Vector3::new(0.0, -0.04, 0.003) + aside, aside * 0.1, aside * 0.05];
-            way.turn = [Vector3::x() * 0.5 * TAU + direction(random) * 0.2, direction(random) * 0.02];
-            let weak = 1e-3 * (9.0 / segments as f64).powi(2);
-            way.strength = [weak * random.random_range(0.1..0.9), weak * random.random_range(0.2..1.5)];
+            // Nine segments beside the base: the tip is drawn to the magnet as that grows stronger, and let go again.
+            let aside =
+                Vector3::new(random.random_range(-0.003..=0.003), -random.random_range(0.049..0.056), 0.003);
+            way.segments = 9;
+            way.magnet = [aside, direction(random) * 5e-4, direction(random) * 2e-4];
+            way.turn = [Vector3::x() * 0.5 * TAU + direction(random) * 0.1, direction(random) * 0.02];
+            let critical = 2.5e-3 * (aside.norm() / 0.05).powi(4);
+            way.strength =
+                [critical * random.random_range(0.3..0.8), critical * random.random_range(0.2..0.7)];
             way.field = [Vector3::zeros(); 3];
         }
         way
@@ -138,28 +143,35 @@ impl Way {
             return Comparison::Unfit;
         }
         let mut coarse = fine.clone();
-        let mut hurries = false;
         for step in 0..steps {
             let (mut snaps, mut way) = (0, 0.0);
             for small in 1..=FINE {
                 let before = fine.tip().position;
                 let report = fine.solve(&at(step * FINE + small)).expect("finite inputs");
                 if !report.solved() || report.stable != Some(true) {
-                    return Comparison::Unfit;
+                    let end = at((step + 1) * FINE);
+                    let ends = !fine.solve(&end).expect("finite inputs").solved();
+                    let told = coarse.solve(&end).expect("finite inputs");
+                    return match (ends, told.solved()) {
+                        (true, false) => Comparison::End,
+                        (true, true) if told.snaps == 0 => Comparison::Differs(format!(
+                            "part {part}, step {}: solved, in fine steps {report:?}",
+                            step + 1
+                        )),
+                        _ => Comparison::Unfit,
+                    };
                 }
                 snaps += report.snaps;
                 if report.snaps == 0 {
                     way += (fine.tip().position - before).norm() / length;
                 }
             }
-            // Just before a snap the shape hurries.
-            if hurries && snaps == 0 {
-                return Comparison::Unfit;
-            }
-            hurries = way > SLOW;
             let report = coarse.solve(&at((step + 1) * FINE)).expect("finite inputs");
             let apart = (coarse.tip().position - fine.tip().position).norm() / length;
             if !report.solved() || report.snaps != snaps || apart > SAME {
+                if way > SLOW {
+                    return Comparison::Unfit;
+                }
                 return Comparison::Differs(format!(
                     "part {part}, step {}: {snaps} snaps in fine steps; {report:?}, tips {apart:e} of the length apart",
                     step + 1
@@ -170,6 +182,6 @@ impl Way {
                 return Comparison::Alike(snaps);
             }
         }
-        if hurries { Comparison::Unfit } else { Comparison::Alike(0) }
+        Comparison::Alike(0)
     }
 }
