@@ -170,7 +170,7 @@ impl Ladder {
         let changed = report.solved() && self.has_changed(inputs);
         let due = report.solved() && from > 0 && self.wait.is_over(self.age);
         if let Some((before, shape)) = way_back
-            && !(self.is_sound(&report) && (!changed || self.holds(inputs)?))
+            && !(self.is_sound(&report) && (!changed || self.holds(inputs, &deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
             return self.ascend(next, inputs, &deadline, |models, rung| {
@@ -183,7 +183,7 @@ impl Ladder {
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if changed && from >= richest && !self.holds(inputs)? {
+        if changed && from >= richest && !self.holds(inputs, &deadline)? {
             return self.refine(inputs, report, &deadline);
         }
         if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
@@ -209,7 +209,7 @@ impl Ladder {
                 self.judged = None;
                 return Ok(report);
             }
-            if (at_richest || self.is_sound(&report)) && self.holds(inputs)? {
+            if (at_richest || self.is_sound(&report)) && self.holds(inputs, deadline)? {
                 return Ok(report);
             }
             if at_richest {
@@ -223,7 +223,7 @@ impl Ladder {
     /// Where a finer one does not stay on the branch, the coarser answer stands, with its error.
     fn refine(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let mut report = report;
-        while self.present < self.models.last() {
+        while self.present < self.models.last() && !deadline.has_passed() {
             let shape = self.present().unknowns().to_vec();
             self.models.adopt(self.present + 1, self.present, &shape, inputs);
             let next = self.models.at_mut(self.present + 1).solve_before(deadline, inputs)?;
@@ -233,7 +233,7 @@ impl Ladder {
             let iterations = report.iterations + next.iterations;
             report = Report { iterations, snaps: report.snaps, ..next };
             self.present += 1;
-            if self.holds(inputs)? {
+            if self.holds(inputs, deadline)? {
                 break;
             }
         }
@@ -250,7 +250,7 @@ impl Ladder {
         self.models.adopt(from - 1, from, &shape, inputs);
         let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
-        if self.is_sound(&other) && self.judge(inputs, DESCEND)? {
+        if self.is_sound(&other) && self.judge(inputs, DESCEND, deadline)? {
             self.wait = Wait::NONE;
             let iterations = report.iterations + other.iterations;
             return Ok(Report { iterations, snaps: report.snaps, ..other });
@@ -270,15 +270,16 @@ impl Ladder {
     }
 
     /// Whether the present rung may go on.
-    fn holds(&mut self, inputs: &Inputs) -> Result<bool, Error> {
+    fn holds(&mut self, inputs: &Inputs, deadline: &Deadline) -> Result<bool, Error> {
         let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
-        self.judge(inputs, part)
+        self.judge(inputs, part, deadline)
     }
 
     /// Whether the present rung is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
-    /// is not trusted, but a finer discretisation would be no help.
-    fn judge(&mut self, inputs: &Inputs, part: f64) -> Result<bool, Error> {
-        let error = self.models.error(self.present)?;
+    /// is not trusted, but a finer discretisation would be no help. An answer that took all the time is not judged.
+    fn judge(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
+        let late = self.present >= self.models.richest() && deadline.has_passed();
+        let error = if late { None } else { self.models.error(self.present)? };
         let unknown = Gap { distance: self.length, angle: core::f64::consts::PI };
         self.note(inputs, error.unwrap_or(unknown));
         let good = |gap| self.tolerance.room(&gap, part) >= 1.0;

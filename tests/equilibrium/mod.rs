@@ -1,5 +1,6 @@
 //! Tests of `equilibrium`: the independent energy model, laws, derivatives, convergence, robustness.
 
+mod around;
 mod contact;
 mod continuation;
 mod convergence;

@@ -3,6 +3,8 @@
 #![allow(unsafe_code, reason = "the functions under test take raw pointers")]
 
 pub(crate) mod host;
+#[allow(dead_code, reason = "the recorded run uses all of it")]
+pub(crate) mod judge;
 
 use std::path::Path;
 use std::time::Duration;

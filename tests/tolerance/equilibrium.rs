@@ -225,3 +225,10 @@ pub(crate) const ESTIMATED_MEDIAN: f64 = 3.0;
 
 /// Least error over the length that is told; smaller ones are not compared in size.
 pub(crate) const LEAST_TOLD: f64 = 1e-8;
+
+/// Part of the last step at which its branch folds, by continuation, less where the solve told that it was lost: toward a fold
+/// the shape moves by the root of the way that is left, and the last step that stays on the branch ends before it.
+pub(crate) const FOLD_ON_THE_WAY: f64 = 5e-3;
+
+/// Motion of the tip by a vanishing moment, over that of a straight rod and over the margin, of which the softest shape has part.
+pub(crate) const MOVED_BY_A_MOMENT: f64 = 3.0;

@@ -17,9 +17,9 @@ const SAMPLE: u64 = 100;
 /// Centreline points.
 const POINTS: usize = 5;
 
-/// How far a solve may exceed its budget of processor time: a part of it, and one iteration of the largest model, s.
+/// How far a solve may exceed its budget of processor time: a part of it, and the making of one model that judges, s.
 const LATE: f64 = 1.2;
-const ITERATION: f64 = 0.05;
+const MAKING: f64 = 0.3;
 
 /// The finer model: degree of the strain modes and accuracy of the pairs.
 const DEGREE: usize = 4;
@@ -77,7 +77,7 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
                 out.tip.position.as_slice()
             );
         }
-        if seconds > LATE * scene.settings.time_budget + ITERATION {
+        if seconds > LATE * scene.settings.time_budget + MAKING {
             defect(format!("took {seconds:.2} s, {:?}", out.outcome));
         }
         if let Some(name) = not_finite(&out) {
