@@ -14,6 +14,9 @@ use super::tally::Tally;
 /// One walk in so many is judged.
 const SAMPLE: u64 = 100;
 
+/// Answers without a shape after which a walk ends.
+const ENOUGH: u32 = 3;
+
 /// Centreline points.
 const POINTS: usize = 5;
 
@@ -56,7 +59,11 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
     let mut manipulator = scenes[0].manipulator(POINTS).unwrap();
     let judged = alone || index.is_multiple_of(SAMPLE);
     let mut twin = judged.then(|| Twin::new(&scenes[0])).flatten();
+    let mut without = 0;
     for (step, scene) in scenes.iter().enumerate() {
+        if without == ENOUGH {
+            break;
+        }
         let mut defect = |what: String| tally.defects.push(Defect { index, step, what });
         let before = manipulator.outputs().clone();
         let start = ThreadTime::now();
@@ -95,6 +102,7 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
         }
         tally.count(walk, &out, seconds, (index, step));
         let solved = out.status != Status::NotSolved;
+        without += u32::from(!solved);
         let verdict = match &mut twin {
             Some(twin) => twin.verdict(scene, &out),
             None if judged && solved => verdict_of_auto(scene, &manipulator, &out),

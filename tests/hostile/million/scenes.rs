@@ -21,7 +21,10 @@ const LEVELS: [(&str, u32); 5] =
     [("none", 520), ("rings", 440), ("preceding", 20), ("full", 10), ("auto", 10)];
 
 /// Warm steps after the cold solve: part of the way from the last loads to new ones.
-const STEPS: [f64; 4] = [1e-3, 1e-3, 0.05, 1.0];
+const STEPS: [f64; 24] = [
+    1e-3, 1e-3, 0.02, 0.05, 1e-3, 0.02, 0.02, 0.05, 1e-3, 0.02, 0.02, 0.05, 1e-3, 0.02, 0.02, 0.1, 1e-3,
+    0.02, 0.02, 0.1, 1e-3, 0.02, 0.3, 1.0,
+];
 
 /// What acts on the manipulator, in the units of the scene file.
 #[derive(Debug, Clone)]
