@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 
-/// A budget of processor time of this thread. Its clock starts when it is looked at first, which a step that is foreseen well
+/// A budget of processor time of this thread. Its clock starts when it is looked at first, which a step that is predicted well
 /// never does.
 #[derive(Debug)]
 pub(crate) struct Deadline {

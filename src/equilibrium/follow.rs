@@ -7,11 +7,11 @@ use super::correction::Scene;
 use super::inputs::Inputs;
 use crate::numerics::trust_region::{norm, spread};
 
-/// Shapes before the present one that are kept to foresee the next.
+/// Shapes before the present one that are kept to predict the next.
 const EARLIER: usize = 2;
 
-/// Longest step (in the chain's unit) that is foreseen instead of found.
-const FORESEEN: f64 = 0.1;
+/// Longest step (in the chain's unit) that is predicted instead of found.
+const PREDICTED: f64 = 0.1;
 
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -78,7 +78,7 @@ impl Branch {
     ///
     /// The line through the last two shapes; the parabola through three (Newton's divided differences) where the inputs have
     /// gone on all the way and it differs by more than the tolerance, which the shapes themselves may be off.
-    pub(super) fn foresee(&self, target: &Inputs, scene: &Scene<'_>, shape: &mut [f64]) -> Option<f64> {
+    pub(super) fn predict(&self, target: &Inputs, scene: &Scene<'_>, shape: &mut [f64]) -> Option<f64> {
         let held = self.stable.is_none_or(|stable| stable && self.margin >= scene.settings.fold_margin);
         let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {
             return None;
@@ -100,7 +100,7 @@ impl Branch {
         }
         let length = norm(&scene.chain.metric, shape) / scene.chain.unit();
         shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
-        Some(length).filter(|length| *length <= FORESEEN)
+        Some(length).filter(|length| *length <= PREDICTED)
     }
 }
 

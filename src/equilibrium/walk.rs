@@ -1,4 +1,4 @@
-//! Following a stable branch while the inputs change: foresee the next shape and correct it; else go on in shorter steps; else
+//! Following a stable branch while the inputs change: predict the next shape and correct it; else go on in shorter steps; else
 //! descend to the next branch; then judge.
 
 use super::correction::{End, GLANCE, KEPT, NEARLY, ROUNDING, Report, Walk};
@@ -13,7 +13,7 @@ use crate::numerics::trust_region::norm;
 /// branch to lose yet.
 const SETTLING: f64 = 4.0;
 
-/// Part of a foreseen step by which it may have to be corrected.
+/// Part of a predicted step by which it may have to be corrected.
 const MISTAKEN: f64 = 0.1;
 
 /// Part of the iterations, as one over this number, that is kept for a descent at the end of the way.
@@ -31,8 +31,8 @@ impl Walk<'_> {
         self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
-        let foreseen = self.foreseen(branch, target);
-        let end = foreseen
+        let predicted = self.predicted(branch, target);
+        let end = predicted
             .or_else(|| self.settle(branch, target))
             .unwrap_or_else(|| self.run(branch.inputs.as_ref(), target, &mut branch.unknowns));
         match end {
@@ -81,9 +81,9 @@ impl Walk<'_> {
     }
 
     /// Corrects the shape that the last steps lead to expect, if they do and it is nearly right.
-    fn foreseen(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
+    fn predictn(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
         let mut trial = std::mem::take(&mut self.scratch.trial);
-        let expected = branch.foresee(target, &self.scene, &mut trial);
+        let expected = branch.predict(target, &self.scene, &mut trial);
         let mut end =
             expected.and_then(|length| self.correct(target, &mut trial, (MISTAKEN * length).max(NEARLY)));
         if let (Some(End::Held), Some(before)) = (end, &branch.inputs)

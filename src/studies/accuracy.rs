@@ -26,7 +26,7 @@ const FIELDS: [(&str, &str); 3] = [
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
 
-/// Steps of a warm walk before it turns back: so many that turning back, foreseen, weighs little.
+/// Steps of a warm walk before it turns back: so many that turning back, predicted, weighs little.
 const STEPS: u32 = 8;
 
 /// Every time is the least of at least so many solves, or means of walks, and of more until so much time has passed: whatever

@@ -53,7 +53,9 @@ fn walk(at: impl Fn(f64) -> Inputs) -> Vec<Inputs> {
 }
 
 fn scene(segments: usize, interaction: &str, field: &str) -> Scene {
-    let text = format!("{field}\n[design]\nsegments = {segments}\n[model]\ninteraction = \"{interaction}\"");
+    let text = format!(
+        "{field}\n[design]\nsegments = {segments}\n[model]\ninteraction = \"{interaction}\"\ntime_budget_s = 60"
+    );
     Scene::parse(&text, "bench").expect("a valid scene")
 }
 
