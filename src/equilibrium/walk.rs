@@ -81,7 +81,7 @@ impl Walk<'_> {
     }
 
     /// Corrects the shape that the last steps lead to expect, if they do and it is nearly right.
-    fn predictn(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
+    fn predicted(&mut self, branch: &mut Branch, target: &Inputs) -> Option<End> {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         let expected = branch.predict(target, &self.scene, &mut trial);
         let mut end =
