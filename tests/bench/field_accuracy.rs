@@ -8,6 +8,9 @@
     reason = "a program that prints a table and stops when a table is missing"
 )]
 
+#[path = "../given.rs"]
+#[allow(dead_code, reason = "others take all of it")]
+mod given;
 #[path = "peer.rs"]
 mod peer;
 #[path = "../magnetics/reference.rs"]
@@ -15,11 +18,12 @@ mod reference;
 
 use std::time::Instant;
 
+use given::pair;
 use mcm::error::Error;
 use mcm::geometry::Pose;
 use mcm::magnetics::Jet;
 use nalgebra::Vector3;
-use reference::{Row, pair, ring, table};
+use reference::{Row, ring, table};
 
 fn main() {
     println!("relative error |dX| / |X|, rows where X = 0 left out");

@@ -5,7 +5,7 @@ use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use mcm::geometry::Pose;
 use nalgebra::Vector3;
 
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{HESSIAN_DIFFERENCE, SLOPE_DIFFERENCE, assert_close};
 
 /// Steps of the differences of energies and of gradients, in radians of the first mode.

@@ -5,7 +5,7 @@ use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector, hat};
 use nalgebra::{Matrix3, Vector3};
 
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{BALANCE, DIFFERENCE, LAW, assert_close};
 
 const SEGMENTS: usize = 3;

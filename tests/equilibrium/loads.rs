@@ -10,7 +10,7 @@ use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{LAW, LINEAR, SUPERPOSED, assert_close};
 
 const SEGMENTS: usize = 2;

@@ -1,8 +1,6 @@
 //! Thousands of fields in all directions: what is called solved is in balance and stable, what is not is said, and the
 //! last good shape is kept.
 
-use core::f64::consts::TAU;
-
 use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings};
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
@@ -10,6 +8,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
+use crate::given::direction;
 use crate::tolerance::{BALANCED, NEUTRAL_SHAPE};
 
 /// Cells of the map, each from its own seed.
@@ -49,12 +48,7 @@ impl Cell {
             1..=5 => Interaction::Rings,
             _ => Interaction::None,
         };
-        let mut field = || {
-            let height: f64 = random.random_range(-1.0..=1.0);
-            let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
-            let across = (1.0 - height * height).sqrt();
-            Vector3::new(across * cosine, across * sine, height) * random.random_range(0.0..=STRONGEST)
-        };
+        let mut field = || direction(&mut random) * random.random_range(0.0..=STRONGEST);
         // Cold, along the growing field, or from a field elsewhere.
         let (first, last) = (field(), field());
         let fields = match number % 3 {

@@ -1,7 +1,5 @@
 //! A moment that is fixed in space has no potential, and does not choose the branch.
 
-use core::f64::consts::TAU;
-
 use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Outcome, Settings};
 use mcm::manipulator::{Outputs, Scene};
@@ -9,6 +7,7 @@ use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+use crate::given::direction;
 use crate::hostile::judge::Judge;
 use crate::tolerance::{MOVED_BY_A_MOMENT, RESIDUAL, SAME_TIP_MM, VANISHING_MOMENT_DEG};
 
@@ -48,13 +47,6 @@ fn in_a_field(random: &mut StdRng) -> (Equilibrium, Inputs) {
     let mut inputs = Inputs::unloaded(segments + 1);
     inputs.uniform_field = direction(random) * random.random_range(0.0..0.06 / segments as f64);
     (model(segments, interaction), inputs)
-}
-
-fn direction(random: &mut StdRng) -> Vector3<f64> {
-    let height: f64 = random.random_range(-1.0..=1.0);
-    let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
-    let across = (1.0 - height * height).sqrt();
-    Vector3::new(across * cosine, across * sine, height)
 }
 
 fn model(segments: usize, interaction: Interaction) -> Equilibrium {

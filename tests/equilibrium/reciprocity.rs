@@ -6,7 +6,7 @@ use mcm::geometry::Pose;
 use mcm::magnetics::{AxialSource, Wrench};
 use nalgebra::Vector3;
 
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{PAIRS, RECIPROCITY, WRENCH_ACCURACY, assert_close};
 
 /// Chains in which only the rings are magnetised.

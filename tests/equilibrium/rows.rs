@@ -41,11 +41,6 @@ pub(crate) fn row(id: &str) -> Row {
     rows().into_iter().find(|row| row.id == id).unwrap_or_else(|| panic!("{id} is not in the table"))
 }
 
-/// The assembly of Richter et al., Fig. 7C: two cylinders, 45 mm by 30 mm, 10 mm apart.
-pub(crate) fn pair() -> Assembly {
-    magnet_pair(0.045, 0.03, 0.01, 1.35)
-}
-
 fn magnet_pair(diameter: f64, length: f64, gap: f64, remanence: f64) -> Assembly {
     let offset = 0.5 * (length + gap);
     let magnet =

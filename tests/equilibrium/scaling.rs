@@ -6,7 +6,7 @@ use mcm::geometry::Pose;
 use mcm::magnetics::{Assembly, AxialMagnet};
 use nalgebra::Vector3;
 
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{LAW, assert_close};
 
 /// A scene with everything in it.

@@ -6,7 +6,7 @@ use mcm::geometry::Pose;
 use nalgebra::{DMatrix, Vector3};
 
 use super::critical::{is_stable, last_true};
-use super::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{NEUTRAL, SYMMETRY, assert_close};
 
 fn equilibrium(segments: usize, interaction: Interaction) -> Equilibrium {

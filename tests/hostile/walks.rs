@@ -9,6 +9,8 @@
 #![allow(clippy::print_stdout, reason = "tells what it measured")]
 #![allow(missing_docs, reason = "a program")]
 
+#[path = "../given.rs"]
+mod given;
 #[path = "../manipulator/walks/ways.rs"]
 mod ways;
 

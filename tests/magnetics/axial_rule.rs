@@ -6,7 +6,8 @@ use mcm::magnetics::{AxialRule, Jet};
 use mcm::numerics::quadrature::gauss_legendre;
 use nalgebra::{Rotation3, Vector3};
 
-use super::reference::{pair, ring};
+use super::reference::ring;
+use crate::given::pair;
 use crate::tolerance::{ROUNDING, assert_close};
 
 const INNER: f64 = 0.75e-3;

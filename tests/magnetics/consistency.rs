@@ -4,7 +4,8 @@ use mcm::magnetics::{AxialSource, Dipole, FieldHessian, Jet, LinearField};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
-use super::reference::{pair, ring};
+use super::reference::ring;
+use crate::given::pair;
 use crate::tolerance::{DERIVATIVES, DIFFERENCE, FIELD, IDENTITY, ROUNDING, assert_close};
 
 /// A ring or cylinder of any shape, and a point at 1.02 to 30 of its extents.

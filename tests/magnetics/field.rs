@@ -3,7 +3,8 @@
 use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Jet};
 use nalgebra::Vector3;
 
-use super::reference::{Row, cylinder, pair, ring, table};
+use super::reference::{Row, ring, table};
+use crate::given::{cylinder, pair};
 use crate::tolerance::{DERIVATIVES, DERIVATIVES_NEAR_EDGE, FIELD, ZERO_GRADIENT, assert_close};
 
 /// A point this close to an edge is held to the wider tolerance, m.

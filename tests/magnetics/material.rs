@@ -7,7 +7,8 @@ use mcm::error::Error;
 use mcm::magnetics::{Assembly, AxialMagnet, AxialSource};
 use nalgebra::Vector3;
 
-use super::reference::{cylinder, pair, ring};
+use super::reference::ring;
+use crate::given::{cylinder, pair};
 use crate::tolerance::{FIELD, IDENTITY, assert_close};
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mcm::magnetics::{Assembly, AxialMagnet, AxialSource};
+use mcm::magnetics::AxialSource;
 use nalgebra::Vector3;
 
 /// One row: a point and the numbers that belong to it.
@@ -37,16 +37,4 @@ pub(crate) fn table<const N: usize>(file: &str) -> Vec<Row<N>> {
 /// The ring of `ring_field_dev.csv`: 4 mm by 1.5 mm by 1 mm, 1.35 T.
 pub(crate) fn ring() -> AxialSource {
     AxialSource::new(0.75e-3, 2.0e-3, 1.0e-3, 1.35).expect("the reference ring is allowed")
-}
-
-/// One cylinder of the pair: 45 mm by 30 mm, 1.35 T.
-pub(crate) fn cylinder() -> AxialMagnet {
-    AxialMagnet { radius: 22.5e-3, inner_radius: 0.0, length: 30.0e-3, offset: 0.0, remanence: 1.35 }
-}
-
-/// The pair of `cylinder_pair_field_dev.csv`: two cylinders with a gap of 10 mm.
-pub(crate) fn pair() -> Assembly {
-    let magnets =
-        vec![AxialMagnet { offset: -20.0e-3, ..cylinder() }, AxialMagnet { offset: 20.0e-3, ..cylinder() }];
-    Assembly::new(magnets).expect("the reference pair is allowed")
 }

@@ -8,7 +8,8 @@ use mcm::geometry::Pose;
 use mcm::magnetics::{AxialSource, Wrench};
 use nalgebra::{Rotation3, Vector3};
 
-use super::reference::{Row, pair, ring, table};
+use super::reference::{Row, ring, table};
+use crate::given::pair;
 use crate::tolerance::{WRENCH, WRENCH_ACCURACY, assert_close};
 
 /// Pose with the rotation vector `turn` (rad).

@@ -11,7 +11,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use crate::equilibrium::rows::pair;
+use crate::given::pair;
 
 const SCENES: u64 = 2000;
 

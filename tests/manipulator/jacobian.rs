@@ -10,7 +10,7 @@ use nalgebra::{DVector, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use crate::equilibrium::rows::pair;
+use crate::given::pair;
 use crate::tolerance::{DIFFERENCE, JACOBIAN, PAIRS, assert_close};
 
 /// Centreline points.

@@ -11,6 +11,9 @@
 #![allow(clippy::print_stdout, reason = "tells what it measured")]
 #![allow(missing_docs, reason = "a program")]
 
+#[path = "../../given.rs"]
+#[allow(dead_code, reason = "others take all of it")]
+mod given;
 #[path = "../judge.rs"]
 mod judge;
 mod promises;

@@ -7,6 +7,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+use crate::given::direction;
+
 /// Strongest uniform field, mT.
 const STRONGEST_MT: f64 = 50.0;
 
@@ -60,13 +62,6 @@ fn one_of(random: &mut StdRng, weights: impl Iterator<Item = u32> + Clone) -> us
         left -= weight;
     }
     0
-}
-
-fn direction(random: &mut StdRng) -> Vector3<f64> {
-    let height: f64 = random.random_range(-1.0..=1.0);
-    let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
-    let across = (1.0 - height * height).sqrt();
-    Vector3::new(across * cosine, across * sine, height)
 }
 
 /// A size between two powers of ten.

@@ -7,6 +7,9 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr, reason = "tells what it measured")]
 #![allow(unreachable_pub, missing_docs, reason = "a program")]
 
+#[path = "../../given.rs"]
+#[allow(dead_code, reason = "others take all of it")]
+mod given;
 mod scenes;
 
 use mcm::equilibrium::Interaction;

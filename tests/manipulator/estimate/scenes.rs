@@ -3,11 +3,12 @@
 use mcm::design::{Design, Segmented, Specification, SpiralKind};
 use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings};
 use mcm::geometry::RotationVector;
-use mcm::magnetics::{Assembly, AxialMagnet};
 use mcm::manipulator::{Inputs, Manipulator, Status};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+
+use crate::given::pair;
 
 /// The levels and their shares.
 const LEVELS: [(Interaction, f64); 5] = [
@@ -78,7 +79,7 @@ impl Scene {
 
     /// What is told of it; `None` where no equilibrium is found.
     pub(crate) fn told(&self, number: u64) -> Option<Told> {
-        let magnet = pair()?;
+        let magnet = pair();
         let mut own = Manipulator::new(&self.design, Some(&magnet), self.settings, 2).ok()?;
         let answer = own.solve(&self.inputs).ok()?.clone();
         let auto = self.settings.interaction == Interaction::Auto;
@@ -107,13 +108,6 @@ impl Scene {
             tolerance: self.settings.tolerance_position / length,
         })
     }
-}
-
-/// The paper's external magnet.
-fn pair() -> Option<Assembly> {
-    let magnet =
-        |offset| AxialMagnet { radius: 0.0225, inner_radius: 0.0, length: 0.03, offset, remanence: 1.35 };
-    Assembly::new(vec![magnet(-0.02), magnet(0.02)]).ok()
 }
 
 impl Told {

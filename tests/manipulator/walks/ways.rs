@@ -2,14 +2,14 @@
 
 use core::f64::consts::TAU;
 
-use mcm::design::Design;
-use mcm::design::Specification;
+use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector};
-use mcm::magnetics::{Assembly, AxialMagnet};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+
+use crate::given::{direction, pair};
 
 /// Fine steps in a coarse one.
 const FINE: usize = 100;
@@ -43,13 +43,6 @@ pub(crate) enum Comparison {
     End,
     /// They do not.
     Differs(String),
-}
-
-fn direction(random: &mut StdRng) -> Vector3<f64> {
-    let height: f64 = random.random_range(-1.0..=1.0);
-    let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
-    let across = (1.0 - height * height).sqrt();
-    Vector3::new(across * cosine, across * sine, height)
 }
 
 impl Way {
@@ -128,11 +121,8 @@ impl Way {
 
     fn model(&self) -> (Equilibrium, f64) {
         let design = Design::new(Specification::paper(self.segments)).expect("allowed");
-        let cylinder =
-            |offset| AxialMagnet { inner_radius: 0.0, radius: 0.0225, length: 0.03, offset, remanence: 1.35 };
-        let pair = Assembly::new(vec![cylinder(-0.02), cylinder(0.02)]).expect("allowed");
         let settings = Settings { interaction: self.interaction, ..Settings::default() };
-        let model = Equilibrium::new(&design, Some(&pair), settings, 2).expect("allowed");
+        let model = Equilibrium::new(&design, Some(&pair()), settings, 2).expect("allowed");
         (model, design.length())
     }
 

@@ -1,0 +1,28 @@
+//! What tests and recorded runs draw from: a random direction, and the paper's external magnet.
+
+use core::f64::consts::TAU;
+
+use mcm::magnetics::{Assembly, AxialMagnet};
+use nalgebra::Vector3;
+use rand::RngExt;
+use rand::rngs::StdRng;
+
+/// A unit vector, every direction as likely.
+pub(crate) fn direction(random: &mut StdRng) -> Vector3<f64> {
+    let height: f64 = random.random_range(-1.0..=1.0);
+    let (sine, cosine) = random.random_range(0.0..TAU).sin_cos();
+    let across = (1.0 - height * height).sqrt();
+    Vector3::new(across * cosine, across * sine, height)
+}
+
+/// One cylinder of the paper's external magnet: 45 mm by 30 mm, 1.35 T.
+pub(crate) fn cylinder() -> AxialMagnet {
+    AxialMagnet { radius: 22.5e-3, inner_radius: 0.0, length: 30.0e-3, offset: 0.0, remanence: 1.35 }
+}
+
+/// That magnet (Richter et al., Fig. 7C): two cylinders with a gap of 10 mm.
+pub(crate) fn pair() -> Assembly {
+    let magnets =
+        vec![AxialMagnet { offset: -20.0e-3, ..cylinder() }, AxialMagnet { offset: 20.0e-3, ..cylinder() }];
+    Assembly::new(magnets).expect("allowed")
+}
