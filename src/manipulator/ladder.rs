@@ -158,7 +158,17 @@ impl Ladder {
         // All models of one solve share its time.
         let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
-            return self.ascend(0, inputs, &deadline, |models, rung| {
+            return self.ascend(0, inputs, &deadline, |models, rung, from| {
+                if let Some(from) = from
+                    && models.is_refinement(rung, from)
+                {
+                    let shape = models.at(from).unknowns().to_vec();
+                    models.adopt(rung, from, &shape, inputs);
+                    let report = models.at_mut(rung).solve_before(&deadline, inputs)?;
+                    if report.solved() && report.snaps == 0 {
+                        return Ok(report);
+                    }
+                }
                 let model = models.at_mut(rung);
                 model.reset();
                 model.solve_before(&deadline, inputs)
@@ -173,7 +183,7 @@ impl Ladder {
             && !(self.is_sound(&report) && (!changed || self.holds(inputs, &deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
-            return self.ascend(next, inputs, &deadline, |models, rung| {
+            return self.ascend(next, inputs, &deadline, |models, rung, _| {
                 models.adopt(rung, from, &shape, &before);
                 let model = models.at_mut(rung);
                 let settled = model.solve_before(&deadline, &before)?;
@@ -189,27 +199,28 @@ impl Ladder {
         if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
     }
 
-    /// From rung `first` up to one that is good enough, each solved by `solve`. Where a cheaper one finds nothing, the
-    /// richest is asked.
+    /// From rung `first` up to one that is good enough, each solved by `solve`, which is told the one before where that has a sound
+    /// answer. Where a cheaper one finds nothing, the richest is asked.
     fn ascend(
         &mut self,
         first: usize,
         inputs: &Inputs,
         deadline: &Deadline,
-        solve: impl Fn(&mut Models, usize) -> Result<Report, Error>,
+        solve: impl Fn(&mut Models, usize, Option<usize>) -> Result<Report, Error>,
     ) -> Result<Report, Error> {
         let richest = self.models.richest();
-        let mut iterations = 0;
+        let (mut iterations, mut sound) = (0, None);
         self.present = first;
         loop {
-            let report = solve(&mut self.models, self.present)?;
+            let report = solve(&mut self.models, self.present, sound)?;
             iterations += report.iterations;
             let (at_richest, report) = (self.present == richest, Report { iterations, ..report });
             if at_richest && !report.solved() {
                 self.judged = None;
                 return Ok(report);
             }
-            if (at_richest || self.is_sound(&report)) && self.holds(inputs, deadline)? {
+            sound = self.is_sound(&report).then_some(self.present);
+            if (at_richest || sound.is_some()) && self.holds(inputs, deadline)? {
                 return Ok(report);
             }
             if at_richest {

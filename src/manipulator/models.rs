@@ -98,6 +98,15 @@ impl Models {
         &mut self.whole[..richest]
     }
 
+    /// Whether a model differs from another one by its discretisation alone.
+    pub(super) fn is_refinement(&self, number: usize, of: usize) -> bool {
+        let interaction = |number| {
+            let settings = self.at(number).settings();
+            (settings.interaction, settings.bending_stop)
+        };
+        interaction(number) == interaction(of)
+    }
+
     /// Forgets all shapes.
     pub(super) fn reset(&mut self) {
         self.whole.iter_mut().for_each(Equilibrium::reset);
