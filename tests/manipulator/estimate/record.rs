@@ -4,7 +4,8 @@
 //! cargo run --release --example estimate 300 > estimate.csv    # scenes; the summary goes to stderr
 //! ```
 #![allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list")]
-#![allow(clippy::unwrap_used, clippy::print_stdout, clippy::print_stderr, reason = "tells what it measured")]
+#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a broken scene stops the run")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "tells what it measured")]
 #![allow(unreachable_pub, missing_docs, reason = "a program")]
 
 #[path = "../../given.rs"]
