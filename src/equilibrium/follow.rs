@@ -47,13 +47,13 @@ impl Branch {
         self.inputs.iter().chain(self.earlier.iter().map(|earlier| &earlier.1))
     }
 
-    /// Goes on to a shape at `inputs`; `last` is the shape before.
-    pub(super) fn advance(&mut self, inputs: &Inputs, last: &[f64], snapped: bool) {
+    /// Goes on to a shape at `inputs`; `last` is the shape before, from which no line leads on where it begins `anew`.
+    pub(super) fn advance(&mut self, inputs: &Inputs, last: &[f64], anew: bool) {
         let Some(here) = &mut self.inputs else {
             self.inputs = Some(inputs.clone());
             return;
         };
-        if snapped {
+        if anew {
             self.earlier.clear();
         } else if self.earlier.len() < EARLIER {
             self.earlier.insert(0, (last.to_vec(), here.clone()));

@@ -31,6 +31,7 @@ impl Walk<'_> {
         self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
+        let taken_up = branch.stable.is_none();
         let predicted = self.predicted(branch, target);
         let end = predicted
             .or_else(|| self.settle(branch, target))
@@ -65,7 +66,8 @@ impl Walk<'_> {
         }
         self.report.progress = 1.0;
         (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
-        branch.advance(target, &self.scratch.last, self.report.snaps > 0);
+        // Neither from beyond a snap nor from another model's shape does a line lead on.
+        branch.advance(target, &self.scratch.last, self.report.snaps > 0 || taken_up);
         self.report
     }
 

@@ -22,7 +22,7 @@ Table = dict[str, np.ndarray]
 
 def run(*command: str | Path) -> subprocess.CompletedProcess[str]:
     """Runs a program, which must end within a minute."""
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
 
 
 def example(name: str, *arguments: str | Path) -> str:
