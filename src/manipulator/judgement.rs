@@ -7,13 +7,13 @@ use super::ladder::CLIMB;
 use crate::equilibrium::{Equilibrium, Gap, Inputs};
 use crate::geometry::Pose;
 
-/// Change of what surrounds or loads the manipulator, relative to its size, after which a rung is judged again.
+/// Change of what surrounds or loads the manipulator, relative to its size, after which a model is judged again.
 const CHANGED: f64 = 0.02;
 
-/// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a rung is judged again.
+/// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a model is judged again.
 const MOVED: f64 = 0.02;
 
-/// How many times as long a rung stands that is as much better than needed.
+/// How many times as long a model stands that is as much better than needed.
 const STANDING: f64 = 10.0;
 
 /// Power of the loads with which an error is taken to grow until it is judged again: that of strain modes of degree 2 grows with

@@ -3,11 +3,11 @@
 //! Level `auto` has several models of the interaction, of which the richest is the judge: one Newton step of it from the shape
 //! of a cheaper one tells how far that is off. A fixed level has one. Above the richest stand finer discretisations of it, made
 //! when first needed: each tells how far the one below is from converged, see [`Refinement`]. Both parts together are the error
-//! that is told, and the cheapest rung with an error that is small enough answers.
+//! that is told, and the cheapest model with an error that is small enough answers.
 //!
 //! It is judged again once the shape, the field or the loads have changed by a few percent, and left when it is no longer
-//! good; a cheaper model of the interaction also when it does not solve, snaps or comes near a fold. A cheaper rung is tried
-//! as seldom, and must be clearly better than needed, so that rungs do not alternate. Both rungs of a change are
+//! good; a cheaper model of the interaction also when it does not solve, snaps or comes near a fold. A cheaper model is tried
+//! as seldom, and must be clearly better than needed, so that models do not alternate. Both models of a change are
 //! within the tolerance of the judge by [`CLIMB`], [`REFINE`] and [`DESCEND`], and so is the jump between them.
 
 use serde::{Deserialize, Serialize};
@@ -25,7 +25,7 @@ pub(super) const CLIMB: f64 = 0.5;
 /// The same for a discretisation of the richest, whose error is told with a margin.
 const REFINE: f64 = 1.0;
 
-/// Part of the tolerance within which a cheaper rung is taken.
+/// Part of the tolerance within which a cheaper model is taken.
 const DESCEND: f64 = 0.25;
 
 /// Residual of a cheaper model over the tolerances, lengths in those of the manipulator; and the most over the residual that
@@ -33,7 +33,7 @@ const DESCEND: f64 = 0.25;
 const RESIDUAL: f64 = 1e-2;
 const RELAXED: f64 = 1e4;
 
-/// Most changes that pass between two trials of a cheaper rung: each failed one doubles their number.
+/// Most changes that pass between two trials of a cheaper model: each failed one doubles their number.
 const PATIENCE: u32 = 16;
 
 /// The models of one design, the one that answers, and how far that is off.
@@ -54,7 +54,7 @@ pub(super) struct Ladder {
     residual: f64,
 }
 
-/// How many changes are still to pass, and after the next failure, before a cheaper rung is tried.
+/// How many changes are still to pass, and after the next failure, before a cheaper model is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Wait {
     left: u32,
@@ -66,7 +66,7 @@ struct Wait {
 impl Wait {
     const NONE: Self = Self { left: 0, next: 1, counted: 0.0 };
 
-    /// Whether a cheaper rung is to be tried at that age, which counts as a change where it is one older than at the last.
+    /// Whether a cheaper model is to be tried at that age, which counts as a change where it is one older than at the last.
     fn is_over(&mut self, age: f64) -> bool {
         if age - self.counted <= 1.0 {
             return false;
@@ -149,7 +149,7 @@ impl Ladder {
         self.models.reset();
     }
 
-    /// Follows the branch to `inputs` on the cheapest rung that is good enough.
+    /// Follows the branch to `inputs` on the cheapest model that is good enough.
     ///
     /// # Errors
     /// As [`Equilibrium::solve`].
@@ -162,8 +162,7 @@ impl Ladder {
                 if let Some(from) = from
                     && models.is_refinement(rung, from)
                 {
-                    let shape = models.at(from).unknowns().to_vec();
-                    models.adopt(rung, from, &shape, inputs);
+                    models.hand_on(rung, from, inputs);
                     let report = models.at_mut(rung).solve_before(&deadline, inputs)?;
                     if report.solved() && report.snaps == 0 {
                         return Ok(report);
@@ -199,7 +198,7 @@ impl Ladder {
         if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
     }
 
-    /// From rung `first` up to one that is good enough, each solved by `solve`, which is told the one before where that has a sound
+    /// From model `first` up to one that is good enough, each solved by `solve`, which is told the one before where that has a sound
     /// answer. Where a cheaper one finds nothing, the richest is asked.
     fn ascend(
         &mut self,
@@ -235,8 +234,7 @@ impl Ladder {
     fn refine(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let mut report = report;
         while self.present < self.models.last() && !deadline.has_passed() {
-            let shape = self.present().unknowns().to_vec();
-            self.models.adopt(self.present + 1, self.present, &shape, inputs);
+            self.models.hand_on(self.present + 1, self.present, inputs);
             let next = self.models.at_mut(self.present + 1).solve_before(deadline, inputs)?;
             if !next.solved() || next.snaps > 0 {
                 break;
@@ -251,14 +249,13 @@ impl Ladder {
         Ok(report)
     }
 
-    /// Tries the next cheaper rung; without success `report` stays the answer.
+    /// Tries the next cheaper model; without success `report` stays the answer.
     fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
         // The richer models forget their shapes as they judge.
         let kept = (from >= self.models.richest()).then(|| self.present().clone());
         let judged = (self.judged.clone(), self.age);
-        let shape = self.present().unknowns().to_vec();
-        self.models.adopt(from - 1, from, &shape, inputs);
+        self.models.hand_on(from - 1, from, inputs);
         let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
         if self.is_sound(&other) && self.judge(inputs, DESCEND, deadline)? {
@@ -280,13 +277,13 @@ impl Ladder {
         report.solved() && held && report.snaps == 0
     }
 
-    /// Whether the present rung may go on.
+    /// Whether the present model may go on.
     fn holds(&mut self, inputs: &Inputs, deadline: &Deadline) -> Result<bool, Error> {
         let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
         self.judge(inputs, part, deadline)
     }
 
-    /// Whether the present rung is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
+    /// Whether the present model is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
     /// is not trusted, but a finer discretisation would be no help. An answer that took all the time is not judged.
     fn judge(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();

@@ -10,7 +10,7 @@ use crate::magnetics::Assembly;
 /// Iterations that a cheaper model may take for one solve: more would not be cheap.
 const CHEAP: u32 = 100;
 
-/// Accuracy of the pairs on the coarse rungs.
+/// Accuracy of the pairs on the coarse models.
 const COARSE: f64 = 1e-3;
 
 /// Finer discretisations that may answer; the next finer one only judges.
@@ -120,6 +120,12 @@ impl Models {
         if let Ok([to, from]) = models.get_disjoint_mut([to, from]) {
             to.adopt(from, unknowns, inputs);
         }
+    }
+
+    /// The same with the shape at which model `from` is.
+    pub(super) fn hand_on(&mut self, to: usize, from: usize, inputs: &Inputs) {
+        let shape = self.at(from).unknowns().to_vec();
+        self.adopt(to, from, &shape, inputs);
     }
 
     /// How far the tip of a model, which has been solved, is from converged; `None` where that cannot be told.

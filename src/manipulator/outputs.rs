@@ -77,7 +77,8 @@ pub struct Outputs {
     pub degree: usize,
     /// Estimated distance of the tip from the converged answer of the model, m: by the degree of the strain modes, the
     /// quadratures of the pairs, the residual and, under `auto`, the cheaper interaction. It is made at the first solve and anew
-    /// once shape, field or loads have changed by 2 % (by up to 20 % where it is far below the tolerance), and grows meanwhile. The length where it cannot
-    /// be told, as for a neutral shape; 0 by another method than the potential one, which makes none.
+    /// once shape, field or loads have changed by 2 % (by up to 20 % where it is far below the tolerance), and grows
+    /// meanwhile. The length where it cannot be told, as for a neutral shape; 0 by another method than the potential one,
+    /// which makes none.
     pub error_estimate: f64,
 }

@@ -20,7 +20,7 @@ const MIDDLE: f64 = 0.0277;
 /// Processor time that a solve may take, s: here a loaded machine must not matter.
 const PATIENCE: f64 = 30.0;
 
-/// A pose of the magnet on the axis, beyond the tip or the base, in which nothing turns the straight shape, mm.
+/// Positions of the magnet on the axis, beyond the tip and beyond the base, where next to nothing turns the straight shape, mm.
 const ON_AXIS: [&str; 2] = ["[0, 0, 163]", "[0, -0.001, -117]"];
 
 fn scene(level: &str, position: &str) -> Scene {
