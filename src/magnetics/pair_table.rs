@@ -3,20 +3,39 @@
 //! Nodes on the axis of one of them do far away. Close by they would stand for an expansion of the other one's field that
 //! does not converge there, and the magnetic charges on the faces take over.
 
+use nalgebra::{Rotation3, Vector3};
+
 use super::axial_rule::AxialRule;
 use super::axial_source::AxialSource;
 use super::face_rule::FaceRule;
+use super::wrench::Wrench;
+use crate::constants::VACUUM_PERMEABILITY;
 use crate::geometry::Pose;
 
 /// Bisections of the distance from which on a rule is accurate enough.
 const BISECTIONS: usize = 40;
 
-/// How often the bound of the last rule on the axis, the error for a dipole at the nearest point of the other ring, exceeds
-/// the error of force and torque between two rings: measured for the paper's, where the bound is 1e-5 to 1e-4.
-const BOUND_OVER_ERROR: f64 = 2.8;
+/// Part of the accuracy that is asked for within which force and torque of two rings are.
+const SHARE: f64 = 0.1;
 
-/// Part of the accuracy that is asked for of the faces: force and torque of close pairs are to be as good as their energy.
-const FACE_SHARE: f64 = 0.1;
+/// Bound of a rule on the axis, the error of the field of a dipole at the nearest point of the other ring, over what force and
+/// torque between two rings may be off: those feel a high degree more than the field does.
+const BOUND_OVER_ERROR: f64 = 0.2;
+
+/// From this number of nodes on it is measured, see [`Measured`]: a ring's edges are further away than a dipole, which high degrees
+/// feel.
+const MANY_NODES: usize = 13;
+
+/// The most that it may be then; the extent over the distance where it is measured, to that accuracy; the tilts (rad) and
+/// offsets (outer radii) there, and how much worse other poses may be.
+const MOST_BOUND_OVER_ERROR: f64 = 28.0;
+const NEAREST: f64 = 0.45;
+const MEASURED_TO: f64 = 1e-7;
+const CLOSE: [[f64; 2]; 4] = [[0.0, 0.0], [0.2, 0.0], [0.4, 0.5], [0.8, 0.0]];
+const OTHERS: f64 = 2.0;
+
+/// Beyond [`MANY_NODES`] rounding takes up to 1e-8 of the force: such rules do for no better accuracy than this.
+const ROUNDED: f64 = 1e-8;
 
 /// Largest distance of a face from the other magnet's edges for which there is a rule, in outer radii.
 const FARTHEST: f64 = 4.0;
@@ -42,8 +61,8 @@ pub struct PairTable {
     inner: f64,
     outer: f64,
     length: f64,
-    /// Fewest nodes first, each with the distances (m) of the nearest source from which on it is accurate enough: for a
-    /// field of given size, and for that of another ring, which decays.
+    /// Fewest nodes first, each with the distances (m) of the nearest source from which on it is accurate enough: for the
+    /// moment in a field, and for force and torque between two rings.
     axis: Vec<(f64, f64, AxialRule)>,
     /// By the distance (m) from the other magnet's edges from which on each rule is accurate enough, fewest nodes first.
     faces: Vec<(f64, FaceRule)>,
@@ -52,9 +71,9 @@ pub struct PairTable {
 impl PairTable {
     /// For an annular cylinder of these radii and this length (m), magnetised along its axis.
     ///
-    /// `accuracy` bounds the error of the energy, relative to that of two dipoles as far apart as the magnet is wide. By
-    /// faces, force and torque are good to a tenth of it, relative to `|F| + |T|/a` and `|F| a + |T|` with the outer radius
-    /// `a`, down to a fortieth of `a` between a face and the other magnet's edges.
+    /// Force, torque and energy between two rings are good to a tenth of `accuracy`, relative to `|F| + |T|/a`, `|F| a + |T|`
+    /// and the energy, with the outer radius `a`: at all distances, down to a fortieth of `a` between a face and the other
+    /// magnet's edges. In another field it bounds the error of the energy.
     ///
     /// ```
     /// use mcm::geometry::Pose;
@@ -68,9 +87,11 @@ impl PairTable {
     /// ```
     #[must_use]
     pub fn new(inner: f64, outer: f64, length: f64, accuracy: f64) -> Self {
+        // What the two faces feel cancels the more the thinner the magnet is: the rules were measured for half a radius.
+        let tolerance = SHARE * accuracy * (2.0 * length / outer).min(1.0);
         let faces = (0..LEVELS).map(|level| {
             let distance = outer * FARTHEST * (-f64::from(level) / PER_OCTAVE).exp2();
-            (distance, FaceRule::new(inner, outer, distance, FACE_SHARE * accuracy))
+            (distance, FaceRule::new(inner, outer, distance, tolerance))
         });
         let axis = axis_rules(inner, outer, length, accuracy);
         Self { inner, outer, length, axis, faces: faces.collect() }
@@ -133,17 +154,59 @@ impl PairTable {
 /// Rules of 1, 3, 5 ... nodes on the axis, with the distances from which on each is accurate.
 fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f64, AxialRule)> {
     let extent = outer.hypot(0.5 * length);
-    (1..=AxialRule::MOST_NODES)
+    let measured = Measured::new(inner, outer, length);
+    let most = if SHARE * accuracy < ROUNDED { MANY_NODES } else { AxialRule::MOST_NODES };
+    (1..=most)
         .step_by(2)
         .map(|nodes| {
             let rule = AxialRule::new(inner, outer, length, nodes);
-            let bound = if nodes == AxialRule::MOST_NODES { BOUND_OVER_ERROR * accuracy } else { accuracy };
-            // The energy of two dipoles falls with the cube of their distance.
-            let field = reach_of(|ratio| rule.error(extent / ratio) <= accuracy);
-            let pair = reach_of(|ratio| rule.error(extent / ratio) * (2.0 * ratio).powi(3) <= bound);
-            (extent / field, extent / pair, rule)
+            let margin = if nodes < MANY_NODES { BOUND_OVER_ERROR } else { measured.bound_over_error(&rule) };
+            let least = |bound: f64| extent / reach_of(|ratio| rule.error(extent / ratio) <= bound);
+            (least(accuracy), least(margin * SHARE * accuracy), rule)
         })
         .collect()
+}
+
+/// Two equal rings close to one another, and what the one does to the other.
+struct Measured {
+    ring: Option<AxialSource>,
+    poses: Vec<(Pose, Wrench)>,
+}
+
+impl Measured {
+    /// Of rings of these dimensions, m.
+    fn new(inner: f64, outer: f64, length: f64) -> Self {
+        let ring = AxialSource::new(inner, outer, length, 1.0).ok();
+        let height = 0.5 * length + outer.hypot(0.5 * length) / NEAREST;
+        let poses = CLOSE.iter().filter_map(|&[tilt, aside]| {
+            let rotation = Rotation3::from_axis_angle(&Vector3::y_axis(), tilt).into_inner();
+            let pose = Pose { position: Vector3::new(aside * outer, 0.0, height), rotation };
+            let wrench = ring.as_ref()?.wrench_on(ring.as_ref()?, &pose, MEASURED_TO).ok()?;
+            Some((pose, wrench))
+        });
+        Self { poses: poses.collect(), ring }
+    }
+
+    /// How often the bound of a rule exceeds its error.
+    fn bound_over_error(&self, rule: &AxialRule) -> f64 {
+        let Some(ring) = &self.ring else { return BOUND_OVER_ERROR };
+        let outer = ring.outer_radius();
+        let each = self.poses.iter().filter_map(|(pose, exact)| {
+            let mut off = *exact;
+            for (height, volume) in rule.points() {
+                let arm = pose.axis() * height;
+                let (field, gradient) = ring.field_gradient(&(pose.position + arm)).ok()?;
+                let moment = pose.axis() * (ring.remanence() * volume / VACUUM_PERMEABILITY);
+                let force = gradient * moment;
+                off.force -= force;
+                off.torque -= arm.cross(&force) + moment.cross(&field);
+            }
+            let size = exact.force.norm() + exact.torque.norm() / outer;
+            let error = off.force.norm().max(off.torque.norm() / outer) / size;
+            Some(rule.error(ring.distance(&pose.position)) / (OTHERS * error))
+        });
+        each.fold(MOST_BOUND_OVER_ERROR, f64::min).max(BOUND_OVER_ERROR)
+    }
 }
 
 /// Bisects the ratio of extent to distance, between infinitely far and touching, up to which `holds`.

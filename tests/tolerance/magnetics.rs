@@ -32,14 +32,22 @@ pub(crate) const CELLS: f64 = 1e-3;
 /// percent.
 pub(crate) const MULTIPOLE_ORDER: f64 = 0.5;
 
+/// Solid harmonics by the nodes on the axis, relative to the volume; and by more than 13 of them, whose weights alternate
+/// between 1e5 volumes (reached: 6e-12).
+pub(crate) const WEIGHTS: f64 = 1e-12;
+pub(crate) const WEIGHTS_OF_MANY: f64 = 1e-11;
+
 /// Default accuracy of the ring pairs.
 pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
 
-/// Force, torque and energy of ring pairs by their faces at that accuracy: a tenth of it (reached: 3e-7).
-pub(crate) const FACES: f64 = 1e-6;
+/// Force, torque and energy of ring pairs at that accuracy: a tenth of it (reached: 7e-7).
+pub(crate) const RING_PAIR: f64 = 1e-6;
 
-/// The same at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
-pub(crate) const FACES_TIGHT: f64 = 1e-9;
+/// The same for rings of other shapes, of whose close rules some poses are tried (reached: 1e-6).
+pub(crate) const OTHER_PAIR: f64 = 2e-6;
+
+/// As [`RING_PAIR`] at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
+pub(crate) const RING_PAIR_TIGHT: f64 = 1e-9;
 
 /// Shapes that such pairs decide, over what they do: softened by up to the same again.
 pub(crate) const FACES_BALANCE: f64 = 5e-6;
