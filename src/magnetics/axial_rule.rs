@@ -24,8 +24,8 @@ const TRIED: usize = 16;
 const BISECTIONS: usize = 30;
 
 /// Extent over distance of the dipole whose field the best reach is for. The edges of a ring as close as 0.45 feel the high
-/// degrees as such a dipole does: from 0.3 to 0.4 the errors of two of the paper's rings are within a factor of two.
-const NEAR: f64 = 0.35;
+/// degrees as such a dipole does: from 0.28 to 0.4 the errors of two of the paper's rings are within a factor of two.
+const NEAR: f64 = 0.32;
 
 /// Terms of the error estimate: even degrees that follow the matched ones.
 const ESTIMATED_DEGREES: usize = 16;
@@ -50,7 +50,7 @@ pub struct AxialRule {
 
 impl AxialRule {
     /// Most nodes of a rule.
-    pub const MOST_NODES: usize = 17;
+    pub const MOST_NODES: usize = 15;
 
     /// The rule with `nodes` nodes for the radii `inner` and `outer` and the length of the body, m.
     ///
@@ -84,7 +84,7 @@ impl AxialRule {
     /// `distance` is that from the body's centre to the nearest source of the field.
     ///
     /// # Errors
-    /// [`Error::Range`] for dimensions out of range, or a tolerance that 17 nodes do not reach at that distance.
+    /// [`Error::Range`] for dimensions out of range, or a tolerance that 15 nodes do not reach at that distance.
     pub fn for_accuracy(
         inner: f64,
         outer: f64,

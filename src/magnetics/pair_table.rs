@@ -32,10 +32,7 @@ const MOST_BOUND_OVER_ERROR: f64 = 28.0;
 const NEAREST: f64 = 0.45;
 const MEASURED_TO: f64 = 1e-7;
 const CLOSE: [[f64; 2]; 4] = [[0.0, 0.0], [0.2, 0.0], [0.4, 0.5], [0.8, 0.0]];
-const OTHERS: f64 = 2.0;
-
-/// Beyond [`MANY_NODES`] rounding takes up to 1e-8 of the force: such rules do for no better accuracy than this.
-const ROUNDED: f64 = 1e-8;
+const OTHERS: f64 = 1.5;
 
 /// Largest distance of a face from the other magnet's edges for which there is a rule, in outer radii.
 const FARTHEST: f64 = 4.0;
@@ -155,8 +152,7 @@ impl PairTable {
 fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f64, AxialRule)> {
     let extent = outer.hypot(0.5 * length);
     let measured = Measured::new(inner, outer, length);
-    let most = if SHARE * accuracy < ROUNDED { MANY_NODES } else { AxialRule::MOST_NODES };
-    (1..=most)
+    (1..=AxialRule::MOST_NODES)
         .step_by(2)
         .map(|nodes| {
             let rule = AxialRule::new(inner, outer, length, nodes);

@@ -32,11 +32,6 @@ pub(crate) const CELLS: f64 = 1e-3;
 /// percent.
 pub(crate) const MULTIPOLE_ORDER: f64 = 0.5;
 
-/// Solid harmonics by the nodes on the axis, relative to the volume; and by more than 13 of them, whose weights alternate
-/// between 1e5 volumes (reached: 6e-12).
-pub(crate) const WEIGHTS: f64 = 1e-12;
-pub(crate) const WEIGHTS_OF_MANY: f64 = 1e-11;
-
 /// Default accuracy of the ring pairs.
 pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
 
