@@ -53,7 +53,7 @@ fn cases() -> Vec<Case> {
                 |seed, size: f64| scale.iter().enumerate().map(|(i, s)| size * s * pseudo(seed, i)).collect();
             // Bent so far that windings of some cores touch, and of others are about to; and else so that no pair of rings changes
             // its quadrature nearby, at which the energy jumps.
-            let bent = if closed { 0.5 } else { 0.1 };
+            let bent = if closed { 0.5 } else { 0.13 };
             let (shape, direction) = (vector(1, bent), vector(2, 1.0));
             let name = format!("{interaction:?}, magnet {magnet}, degree {degree}, stop {closed}");
             out.push((name, equilibrium, everything(magnet), shape, direction));
