@@ -70,7 +70,8 @@ impl PairTable {
     ///
     /// Force, torque and energy between two rings are good to a tenth of `accuracy`, relative to `|F| + |T|/a`, `|F| a + |T|`
     /// and the energy, with the outer radius `a`: at all distances, down to a fortieth of `a` between a face and the other
-    /// magnet's edges. In another field it bounds the error of the energy.
+    /// magnet's edges. That holds for rings like the paper's; of other shapes it may be three times as much, of very thin ones
+    /// six times. In another field `accuracy` bounds the error of the energy.
     ///
     /// ```
     /// use mcm::geometry::Pose;
