@@ -9,6 +9,7 @@ use core::f64::consts::PI;
 
 use super::multipole::axial_moment;
 use crate::error::{Error, check};
+use crate::numerics::bisection::bisect;
 
 /// Reach of the nodes over the body's extent `sqrt(a^2 + h^2)` where no longer one is better, see [`reach_of`].
 ///
@@ -148,8 +149,9 @@ fn upper_half(nodes: usize, reach: f64, moments: &[f64]) -> (Vec<f64>, Vec<f64>)
     (half, shares)
 }
 
-/// The longest reach, not below [`REACH`] or [`REACH_OF_MANY`], at which the errors of the degrees that follow the matched ones cancel in the field
-/// of a dipole on the axis: nearly one more degree is matched. Thirteen nodes of the paper's ring gain a factor of ten.
+/// The longest reach, not below [`REACH`] or [`REACH_OF_MANY`], at which the errors of the degrees that follow the matched ones
+/// cancel in the field of a dipole on the axis: nearly one more degree is matched. Thirteen nodes of the paper's ring gain a
+/// factor of ten.
 fn reach_of(nodes: usize, moments: &[f64]) -> f64 {
     let shortest = if nodes > 13 { REACH_OF_MANY } else { REACH };
     let error = |reach: f64| {
@@ -160,12 +162,7 @@ fn reach_of(nodes: usize, moments: &[f64]) -> f64 {
     let reach = |i: usize| LONGEST + (shortest - LONGEST) * i as f64 / TRIED as f64;
     let first = error(LONGEST);
     let Some(change) = (1..=TRIED).find(|&i| error(reach(i)) * first < 0.0) else { return shortest };
-    let (mut long, mut short) = (reach(change - 1), reach(change));
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (long + short);
-        *(if error(middle) * first < 0.0 { &mut short } else { &mut long }) = middle;
-    }
-    long
+    bisect([reach(change - 1), reach(change)], BISECTIONS, |reach| error(reach) * first >= 0.0)[0]
 }
 
 /// `(l + 1)(l + 2)/2 (M_l - sum_i w_i z_i^l) / V` for even `l` from 2, in units of the extent; rounding where `l` is matched.

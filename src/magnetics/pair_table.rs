@@ -8,9 +8,10 @@ use nalgebra::{Rotation3, Vector3};
 use super::axial_rule::AxialRule;
 use super::axial_source::AxialSource;
 use super::face_rule::FaceRule;
-use super::wrench::Wrench;
+use super::wrench::{Wrench, relative_difference};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::geometry::Pose;
+use crate::numerics::bisection::bisect;
 
 /// Bisections of the distance from which on a rule is accurate enough.
 const BISECTIONS: usize = 40;
@@ -157,8 +158,14 @@ fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f
         .step_by(2)
         .map(|nodes| {
             let rule = AxialRule::new(inner, outer, length, nodes);
-            let margin = if nodes < MANY_NODES { BOUND_OVER_ERROR } else { measured.bound_over_error(&rule) };
-            let least = |bound: f64| extent / reach_of(|ratio| rule.error(extent / ratio) <= bound);
+            let margin = match &measured {
+                Some(measured) if nodes >= MANY_NODES => measured.bound_over_error(&rule),
+                _ => BOUND_OVER_ERROR,
+            };
+            // By the ratio of extent to distance, between infinitely far and touching.
+            let least = |bound: f64| {
+                extent / bisect([0.0, 1.0], BISECTIONS, |ratio| rule.error(extent / ratio) <= bound)[0]
+            };
             (least(accuracy), least(margin * SHARE * accuracy), rule)
         })
         .collect()
@@ -166,56 +173,39 @@ fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f
 
 /// Two equal rings close to one another, and what the one does to the other.
 struct Measured {
-    ring: Option<AxialSource>,
+    ring: AxialSource,
     poses: Vec<(Pose, Wrench)>,
 }
 
 impl Measured {
-    /// Of rings of these dimensions, m.
-    fn new(inner: f64, outer: f64, length: f64) -> Self {
-        let ring = AxialSource::new(inner, outer, length, 1.0).ok();
+    /// Of rings of these dimensions, m; `None` where there are no such rings.
+    fn new(inner: f64, outer: f64, length: f64) -> Option<Self> {
+        let ring = AxialSource::new(inner, outer, length, 1.0).ok()?;
         let height = 0.5 * length + outer.hypot(0.5 * length) / NEAREST;
         let poses = CLOSE.iter().filter_map(|&[tilt, aside]| {
             let rotation = Rotation3::from_axis_angle(&Vector3::y_axis(), tilt).into_inner();
             let pose = Pose { position: Vector3::new(aside * outer, 0.0, height), rotation };
-            let wrench = ring.as_ref()?.wrench_on(ring.as_ref()?, &pose, MEASURED_TO).ok()?;
-            Some((pose, wrench))
+            ring.wrench_on(&ring, &pose, MEASURED_TO).ok().map(|wrench| (pose, wrench))
         });
-        Self { poses: poses.collect(), ring }
+        Some(Self { poses: poses.collect(), ring })
     }
 
     /// How often the bound of a rule exceeds its error.
     fn bound_over_error(&self, rule: &AxialRule) -> f64 {
-        let Some(ring) = &self.ring else { return BOUND_OVER_ERROR };
-        let outer = ring.outer_radius();
+        let ring = &self.ring;
         let each = self.poses.iter().filter_map(|(pose, exact)| {
-            let mut off = *exact;
+            let mut got = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
             for (height, volume) in rule.points() {
                 let arm = pose.axis() * height;
                 let (field, gradient) = ring.field_gradient(&(pose.position + arm)).ok()?;
                 let moment = pose.axis() * (ring.remanence() * volume / VACUUM_PERMEABILITY);
                 let force = gradient * moment;
-                off.force -= force;
-                off.torque -= arm.cross(&force) + moment.cross(&field);
+                got.force += force;
+                got.torque += arm.cross(&force) + moment.cross(&field);
             }
-            let size = exact.force.norm() + exact.torque.norm() / outer;
-            let error = off.force.norm().max(off.torque.norm() / outer) / size;
+            let error = relative_difference(&got, exact, 0.0, ring.outer_radius());
             Some(rule.error(ring.distance(&pose.position)) / (OTHERS * error))
         });
         each.fold(MOST_BOUND_OVER_ERROR, f64::min).max(BOUND_OVER_ERROR)
     }
-}
-
-/// Bisects the ratio of extent to distance, between infinitely far and touching, up to which `holds`.
-fn reach_of(holds: impl Fn(f64) -> bool) -> f64 {
-    let (mut far, mut near) = (0.0, 1.0);
-    for _ in 0..BISECTIONS {
-        let middle = 0.5 * (near + far);
-        if holds(middle) {
-            far = middle;
-        } else {
-            near = middle;
-        }
-    }
-    far
 }

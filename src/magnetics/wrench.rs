@@ -123,7 +123,7 @@ fn adaptive(
 }
 
 /// Difference of two wrenches relative to the finer one, or to the rounding of its sums (`size`, N) if that is larger.
-fn relative_difference(coarse: &Wrench, fine: &Wrench, size: f64, radius: f64) -> f64 {
+pub(super) fn relative_difference(coarse: &Wrench, fine: &Wrench, size: f64, radius: f64) -> f64 {
     let scale = fine.force.norm() + fine.torque.norm() / radius;
     let difference = (coarse.force - fine.force).norm().max((coarse.torque - fine.torque).norm() / radius);
     let rounding = 16.0 * f64::EPSILON * size;

@@ -162,7 +162,7 @@ impl Ladder {
                 if let Some(from) = from
                     && models.is_refinement(rung, from)
                 {
-                    models.hand_on(rung, from, inputs);
+                    models.warm_start(rung, from, inputs);
                     let report = models.at_mut(rung).solve_before(&deadline, inputs)?;
                     if report.solved() && report.snaps == 0 {
                         return Ok(report);
@@ -234,7 +234,7 @@ impl Ladder {
     fn refine(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let mut report = report;
         while self.present < self.models.last() && !deadline.has_passed() {
-            self.models.hand_on(self.present + 1, self.present, inputs);
+            self.models.warm_start(self.present + 1, self.present, inputs);
             let next = self.models.at_mut(self.present + 1).solve_before(deadline, inputs)?;
             if !next.solved() || next.snaps > 0 {
                 break;
@@ -255,7 +255,7 @@ impl Ladder {
         // The richer models forget their shapes as they judge.
         let kept = (from >= self.models.richest()).then(|| self.present().clone());
         let judged = (self.judged.clone(), self.age);
-        self.models.hand_on(from - 1, from, inputs);
+        self.models.warm_start(from - 1, from, inputs);
         let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
         if self.is_sound(&other) && self.judge(inputs, DESCEND, deadline)? {

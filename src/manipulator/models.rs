@@ -122,8 +122,8 @@ impl Models {
         }
     }
 
-    /// The same with the shape at which model `from` is.
-    pub(super) fn hand_on(&mut self, to: usize, from: usize, inputs: &Inputs) {
+    /// Lets model `to` start from the shape at which model `from` is.
+    pub(super) fn warm_start(&mut self, to: usize, from: usize, inputs: &Inputs) {
         let shape = self.at(from).unknowns().to_vec();
         self.adopt(to, from, &shape, inputs);
     }

@@ -3,6 +3,8 @@
 //! Towards a fold the margin goes to zero with the square root of the distance; where a symmetric shape loses its
 //! stability without one, in proportion to it. In between lie shapes that are nearly symmetric.
 
+use crate::numerics::bisection::bisect;
+
 /// The margin below which a snap ahead is predicted: further away its course is not yet that of its end.
 const LARGEST_MARGIN: f64 = 0.5;
 
@@ -10,7 +12,7 @@ const LARGEST_MARGIN: f64 = 0.5;
 const POWERS: [f64; 2] = [0.5, 1.0];
 
 /// Halvings of their interval.
-const HALVINGS: u32 = 40;
+const HALVINGS: usize = 40;
 
 /// The value at which the margin is zero, from the values and margins of shapes on the way there, the last one last.
 ///
@@ -24,15 +26,12 @@ pub(super) fn predicted(shapes: &[(f64, f64)]) -> Option<f64> {
         let rest = (last / first).powf(1.0 / power);
         here + (here - before) * rest / (1.0 - rest)
     };
-    let [mut low, mut high] = POWERS;
     let earlier = earlier.last().filter(|(value, _)| (before - value) * (here - before) > 0.0);
-    let Some((value, margin)) = earlier else { return Some(at(low)) };
+    let Some((value, margin)) = earlier else { return Some(at(POWERS[0])) };
     // The larger the power, the larger was the margin.
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        let zero = at(middle);
-        let was = last * ((zero - value) / (zero - here)).powf(middle);
-        if was < *margin { low = middle } else { high = middle }
-    }
+    let [low, high] = bisect(POWERS, HALVINGS, |power| {
+        let zero = at(power);
+        last * ((zero - value) / (zero - here)).powf(power) < *margin
+    });
     Some(at(0.5 * (low + high)))
 }

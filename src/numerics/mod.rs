@@ -1,6 +1,7 @@
 //! Numerical methods that know no physics.
 
 pub mod arnoldi;
+pub mod bisection;
 pub mod cholesky;
 pub mod continuation;
 pub mod eigenvalue;

@@ -119,7 +119,8 @@ fn slope_of_energy(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64]
     least
 }
 
-/// The same by differences of fourth order with steps of one length: to both sides, or, where that is less, to one.
+/// The same by differences of fourth order with steps of one length: to both sides, or, where that shows a slope and one side
+/// a lesser one, to one.
 fn slope_by_steps(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64], step: f64) -> f64 {
     let (roots, unit) = weights(equilibrium);
     let slope = |i: usize| {
@@ -128,12 +129,16 @@ fn slope_by_steps(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64],
             moved[i] += steps * step * unit / roots[i];
             equilibrium.gradient(inputs, &moved).unwrap().0
         };
-        let both = 8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0));
+        let scale = 12.0 * step * unit * unit;
+        let both = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / scale;
+        if both.abs() <= BALANCED {
+            return both;
+        }
         let one = [1.0, -1.0].map(|side| {
             let weighted = [(0.0, -25.0), (1.0, 48.0), (2.0, -36.0), (3.0, 16.0), (4.0, -3.0)];
-            weighted.into_iter().map(|(steps, weight)| weight * at(side * steps)).sum::<f64>()
+            weighted.into_iter().map(|(steps, weight)| weight * at(side * steps)).sum::<f64>() / scale
         });
-        one.iter().fold(both.abs(), |least, one| least.min(one.abs())) / (12.0 * step * unit * unit)
+        one.iter().fold(both.abs(), |least, one| least.min(one.abs()))
     };
     (0..shape.len()).map(slope).map(|slope| slope * slope).sum::<f64>().sqrt()
 }

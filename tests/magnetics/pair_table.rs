@@ -65,8 +65,8 @@ fn by_rule(source: &AxialSource, pose: &Pose, rule: PairRule<'_>) -> (f64, Wrenc
 }
 
 /// Error of force and torque, relative to `|F| + |T|/a` and `|F| a + |T|`.
-fn error(got: &Wrench, expected: &Wrench) -> f64 {
-    let radius = ring().outer_radius();
+fn error(body: &AxialSource, got: &Wrench, expected: &Wrench) -> f64 {
+    let radius = body.outer_radius();
     let scale = expected.force.norm() + expected.torque.norm() / radius;
     let (force, torque) = (got.force - expected.force, got.torque - expected.torque);
     force.norm().max(torque.norm() / radius) / scale
@@ -108,7 +108,7 @@ fn every_gap_from_a_tenth_of_a_millimetre_holds_the_accuracy() {
                 let (energy, expected) = by_faces(&source, &source, pose);
                 let rule = rules.rule(rules.choose(&source, pose));
                 let (got_energy, got) = by_rule(&source, pose, rule);
-                let (error, off) = (error(&got, &expected), (got_energy / energy - 1.0).abs());
+                let (error, off) = (error(&source, &got, &expected), (got_energy / energy - 1.0).abs());
                 let most = error.max(off);
                 assert!(most <= allowed(accuracy), "{gap} m, case {case}, {accuracy:e}: {most:e}, {rule:?}");
                 (worst, worst_energy) = (worst.max(error), worst_energy.max(off));
@@ -132,7 +132,7 @@ fn the_rules_match_the_reference() {
                 torque: Vector3::from_row_slice(&values[7..10]),
             };
             let rule = rules.rule(rules.choose(&source, &pose));
-            let error = error(&by_rule(&source, &pose, rule).1, &expected);
+            let error = error(&source, &by_rule(&source, &pose, rule).1, &expected);
             assert!(error <= allowed(accuracy), "{point:?}, {accuracy:e}: {error:e}");
             worst = worst.max(error);
             faces += usize::from(matches!(rule, PairRule::Faces(_)));
@@ -159,10 +159,7 @@ fn rings_of_other_shapes_do_nearly_as_well() {
             let pose = pose(at, [turn * around.cos(), turn * around.sin(), 0.0]);
             let expected = source.wrench_on(&source, &pose, WRENCH_ACCURACY).expect("apart");
             let rule = rules.rule(rules.choose(&source, &pose));
-            let got = by_rule(&source, &pose, rule).1;
-            let (force, torque) = (got.force - expected.force, got.torque - expected.torque);
-            let scale = expected.force.norm() + expected.torque.norm() / outer;
-            worst = worst.max(force.norm().max(torque.norm() / outer) / scale);
+            worst = worst.max(error(&source, &by_rule(&source, &pose, rule).1, &expected));
             on_axis += usize::from(matches!(rule, PairRule::Axis(_)));
         }
         println!("{shape:?} mm: {worst:.1e}, {on_axis} on the axis");
@@ -185,10 +182,8 @@ fn rules_meet_within_the_accuracy() {
             gap -= 5e-6;
             let next = rules.choose(&source, &at(gap));
             if next != number {
-                let [before, after] = [number, next].map(|number| rules.rule(number));
-                let [old, new] = [before, after].map(|rule| by_rule(&source, &at(gap), rule));
-                let (wrench, energy) = (error(&old.1, &new.1), (old.0 / new.0 - 1.0).abs());
-                let jump = wrench.max(energy);
+                let [old, new] = [number, next].map(|number| by_rule(&source, &at(gap), rules.rule(number)));
+                let jump = error(&source, &old.1, &new.1).max((old.0 / new.0 - 1.0).abs());
                 assert!(jump <= 2.0 * RING_PAIR, "{aside} m, {turn} rad, gap {gap} m: {jump:e}");
                 (number, changes, worst) = (next, changes + 1, worst.max(jump));
             }

@@ -21,7 +21,7 @@ Table = dict[str, np.ndarray]
 
 
 def run(*command: str | Path) -> subprocess.CompletedProcess[str]:
-    """Runs a program, which must end within a minute."""
+    """Runs a program, which must end within five minutes: under valgrind some take more than one."""
     return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
 
 

@@ -11,6 +11,7 @@ use super::case::{Case, turned_in_plane};
 use crate::design::{Design, Ring, Segmented, Specification};
 use crate::equilibrium::{Inputs, Interaction, Settings};
 use crate::error::Error;
+use crate::numerics::bisection::bisect;
 
 /// Strength of the field that turns.
 const LAM: f64 = 1.5;
@@ -74,10 +75,6 @@ pub(super) fn fold_aside() -> Result<f64, Error> {
     let phi = ASIDE.to_radians();
     // On the far side theta is negative; the function rises through its only zero.
     let slope = |theta: f64| (phi - theta - PI).tan() + theta;
-    let (mut low, mut high) = (-1.0, 0.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if slope(middle) > 0.0 { low = middle } else { high = middle }
-    }
+    let [low, _] = bisect([-1.0, 0.0], 60, |theta| slope(theta) > 0.0);
     Ok(critical_field()? * low / (phi - low).sin())
 }
