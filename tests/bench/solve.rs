@@ -113,7 +113,7 @@ fn targets(criterion: &mut Criterion<CpuTime>) {
 
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
 const COARSE: fn(&mut Settings) = |settings| {
-    (settings.degree, settings.pair_accuracy, settings.tolerance) = (0, 1e-2, 1e-5);
+    (settings.degree, settings.pair_accuracy, settings.tolerance) = (0, 9e-2, 1e-5);
     *settings = settings.as_discretised();
 };
 
