@@ -18,6 +18,8 @@ pub mod rod; // strain modes, kinematics, elastic energy, weight
 
 pub mod equilibrium; // the potential, its minimum, its stability
 
+pub mod methods; // other methods for the same equilibrium, kept to compare with
+
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
 pub mod studies; // the paper's figures as numbers

@@ -28,6 +28,8 @@ mod rod;
 
 mod equilibrium;
 
+mod methods;
+
 mod manipulator;
 
 mod studies;

@@ -33,24 +33,24 @@ fn tabulate(rings: &mut [RingBody]) {
 ///
 /// # Errors
 /// [`Error::Range`] for fewer than its two ends.
-pub(super) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
+pub(crate) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
     check("number of shape points", points as f64, |v| v >= 2.0, ">= 2")?;
     Ok((0..points).map(move |i| length * i as f64 / (points - 1) as f64))
 }
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
-pub(super) struct RingBody {
+pub(crate) struct RingBody {
     /// Dimensions and material.
-    pub(super) ring: Ring,
+    pub(crate) ring: Ring,
     /// Its node; 0 is the clamped base.
-    pub(super) node: usize,
+    pub(crate) node: usize,
     /// Its field, in its own frame.
-    pub(super) source: AxialSource,
+    pub(crate) source: AxialSource,
     /// The same from a table, where spans are to be seen so.
-    pub(super) table: Option<Arc<FieldTable>>,
+    pub(crate) table: Option<Arc<FieldTable>>,
     /// Magnetisation, A/m.
-    pub(super) magnetisation: f64,
+    pub(crate) magnetisation: f64,
 }
 
 impl RingBody {
@@ -65,17 +65,17 @@ impl RingBody {
     }
 
     /// Distance of its centre from its node, m.
-    pub(super) fn half_length(&self) -> f64 {
+    pub(crate) fn half_length(&self) -> f64 {
         0.5 * self.ring.length
     }
 
     /// Its outline; nothing of the manipulator or of a magnet is taken to fit into its bore.
-    pub(super) fn outline(&self) -> Outline {
+    pub(crate) fn outline(&self) -> Outline {
         Outline::new(0.0, self.ring.outer_radius, self.ring.length)
     }
 
     /// Pose of its centre where that of its node is `node`.
-    pub(super) fn centre(&self, node: &Pose) -> Pose {
+    pub(crate) fn centre(&self, node: &Pose) -> Pose {
         node.advanced(self.half_length())
     }
 }
@@ -85,25 +85,25 @@ impl RingBody {
 /// Node 0 is the base; element `k` leads from node `k` to node `k + 1`. A node's frame sits at the proximal
 /// face of its ring, or where two elements meet.
 #[derive(Debug, Clone)]
-pub(super) struct Chain {
-    pub(super) elements: Vec<Element>,
-    pub(super) rings: Vec<RingBody>,
+pub(crate) struct Chain {
+    pub(crate) elements: Vec<Element>,
+    pub(crate) rings: Vec<RingBody>,
     /// Distance from the last node to the tip, m.
-    pub(super) tip_offset: f64,
+    pub(crate) tip_offset: f64,
     /// First unknown of each element, and their total.
-    pub(super) first: Vec<usize>,
+    pub(crate) first: Vec<usize>,
     /// Diagonal elastic stiffness of all unknowns.
-    pub(super) metric: Vec<f64>,
+    pub(crate) metric: Vec<f64>,
     /// Elements of each segment's core, first and last.
-    pub(super) cores: Vec<(usize, usize)>,
+    pub(crate) cores: Vec<(usize, usize)>,
     /// Outer radius of each element, m: that of its discs and windings.
-    pub(super) radii: Vec<f64>,
+    pub(crate) radii: Vec<f64>,
     /// Where rings act on elements.
     pub(super) views: Views,
 }
 
 impl Chain {
-    pub(super) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
+    pub(crate) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
         let mut rings = Vec::new();
         if let Some(ring) = design.base_ring() {
             rings.push(RingBody::new(ring, 0)?);
@@ -159,22 +159,22 @@ impl Chain {
     }
 
     /// Unstrained length, m.
-    pub(super) fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         self.elements.iter().map(|element| element.offset + element.length).sum::<f64>() + self.tip_offset
     }
 
     /// Number of unknowns.
-    pub(super) fn freedoms(&self) -> usize {
+    pub(crate) fn freedoms(&self) -> usize {
         self.metric.len()
     }
 
     /// The unknowns of one element.
-    pub(super) fn part<'a>(&self, element: usize, unknowns: &'a [f64]) -> &'a [f64] {
+    pub(crate) fn part<'a>(&self, element: usize, unknowns: &'a [f64]) -> &'a [f64] {
         &unknowns[self.first[element]..self.first[element + 1]]
     }
 
     /// Norm of a change that turns one element's end by a radian: the unit of steps and residuals.
-    pub(super) fn unit(&self) -> f64 {
+    pub(crate) fn unit(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
 }

@@ -24,14 +24,14 @@ const STRETCHED: f64 = 2.0;
 const TOUCHING: f64 = 1e-9;
 
 /// Nodes and elements of a chain that is placed in the world.
-pub(super) struct Placed<'a> {
-    pub(super) chain: &'a Chain,
-    pub(super) nodes: &'a [Pose],
+pub(crate) struct Placed<'a> {
+    pub(crate) chain: &'a Chain,
+    pub(crate) nodes: &'a [Pose],
 }
 
 impl Scene<'_> {
     /// The deepest contact of the shape that was placed last, at these inputs.
-    pub(super) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
+    pub(crate) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
         let placed = Placed { chain: self.chain, nodes: &work.nodes };
         placed.contact(self.settings, self.magnet, inputs, |k, s| {
             let element = &self.chain.elements[k];
@@ -45,7 +45,7 @@ impl Placed<'_> {
     /// The deepest contact; `section` is the pose of an element's section at an arc length (m) from the element's start.
     ///
     /// Rings count among themselves where they act on each other. A magnet of strength 0 is not there.
-    pub(super) fn contact(
+    pub(crate) fn contact(
         &self,
         settings: &Settings,
         magnet: Option<&Assembly>,

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use super::inputs::Inputs;
 use super::potential::Potential;
+use super::solution::Solution;
 use super::solver::Equilibrium;
 use crate::error::{Error, check};
 use crate::geometry::Pose;

@@ -97,7 +97,7 @@ impl Report {
         self.outcome.is_solved()
     }
 
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self {
             outcome: Outcome::BranchEnds,
             progress: 0.0,

@@ -8,7 +8,7 @@ use crate::magnetics::Wrench;
 use crate::rod::{Load, Matter};
 
 /// Weight of a section's material and backbone; `pose` is the section's, in world axes.
-pub(super) fn weight(matter: &Matter, pose: &Pose, gravity: &Vector3<f64>) -> Load {
+pub(crate) fn weight(matter: &Matter, pose: &Pose, gravity: &Vector3<f64>) -> Load {
     let material = matter.density * matter.moments.volume;
     let first = matter.moments.first * matter.density;
     let lever = pose.rotation * Vector3::new(first.x, first.y, 0.0);
@@ -22,12 +22,12 @@ pub(super) fn weight(matter: &Matter, pose: &Pose, gravity: &Vector3<f64>) -> Lo
 }
 
 /// No wrench.
-pub(super) fn no_wrench() -> Wrench {
+pub(crate) fn no_wrench() -> Wrench {
     Wrench { force: Vector3::zeros(), torque: Vector3::zeros() }
 }
 
 /// What the external magnet feels about its centre, of what all fields and the background alone do to the manipulator.
-pub(super) fn reaction_on_magnet(whole: &Wrench, background: &Wrench, inputs: &Inputs) -> Wrench {
+pub(crate) fn reaction_on_magnet(whole: &Wrench, background: &Wrench, inputs: &Inputs) -> Wrench {
     let force = background.force - whole.force;
     let about_base = background.torque - whole.torque;
     Wrench { force, torque: about_base - (inputs.magnet.position - inputs.base.position).cross(&force) }
@@ -35,7 +35,7 @@ pub(super) fn reaction_on_magnet(whole: &Wrench, background: &Wrench, inputs: &I
 
 /// Adds the wrench of a load with the given derivatives by position and rotation, whose frame's origin is at
 /// `arm` (m) from the reference point.
-pub(super) fn add_wrench(
+pub(crate) fn add_wrench(
     wrench: &mut Wrench,
     force: &Vector3<f64>,
     moment: &Vector3<f64>,

@@ -10,37 +10,37 @@ use crate::rod::{Load, Order, turning};
 
 /// The energy of a pair as loads on its two nodes.
 #[derive(Debug, Clone)]
-pub(super) struct PairLoad {
+pub(crate) struct PairLoad {
     /// On the second body's node.
-    pub(super) on_second: Load,
+    pub(crate) on_second: Load,
     /// On the first body's node: force and couple only.
-    pub(super) on_first: Load,
+    pub(crate) on_first: Load,
     /// From the first node to the second, m.
     between: Vector3<f64>,
 }
 
 /// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
 #[derive(Debug, Clone)]
-pub(super) struct PairHessian {
+pub(crate) struct PairHessian {
     /// By the first node.
-    pub(super) first_first: Matrix6<f64>,
+    pub(crate) first_first: Matrix6<f64>,
     /// Mixed, rows of the first node.
-    pub(super) first_second: Matrix6<f64>,
+    pub(crate) first_second: Matrix6<f64>,
     /// By the second node.
-    pub(super) second_second: Matrix6<f64>,
+    pub(crate) second_second: Matrix6<f64>,
 }
 
 /// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
 /// station, in fixed axes.
 #[derive(Debug, Clone)]
-pub(super) struct Mixed {
-    pub(super) station: usize,
-    pub(super) node: usize,
-    pub(super) matrix: Matrix6<f64>,
+pub(crate) struct Mixed {
+    pub(crate) station: usize,
+    pub(crate) node: usize,
+    pub(crate) matrix: Matrix6<f64>,
 }
 
 /// How deep two rings are inside one another, m; 0 where they share no volume. Nothing fits into their bores.
-pub(super) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
+pub(crate) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
     let (from, to) = (first.centre(first_node), second.centre(second_node));
     let extent = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
     if (to.position - from.position).norm() > extent(first) + extent(second) {
@@ -53,7 +53,7 @@ impl PairLoad {
     /// Energy of `second` in the field of `first`, whose nodes are at `nodes`; `None` where that is singular.
     ///
     /// The energy depends on the relative pose alone, so that forces and torques cancel to rounding.
-    pub(super) fn new(
+    pub(crate) fn new(
         first: &Source<'_>,
         nodes: [&Pose; 2],
         second: &RingBody,
@@ -68,14 +68,14 @@ impl PairLoad {
     }
 
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
-    pub(super) fn reciprocal(on_second: &Load, between: Vector3<f64>) -> Self {
+    pub(crate) fn reciprocal(on_second: &Load, between: Vector3<f64>) -> Self {
         let whole = on_second.couple + on_second.force * between.transpose();
         let on_first = Load { force: -on_second.force, couple: -whole, ..Load::zero() };
         Self { on_second: *on_second, on_first, between }
     }
 
     /// The second derivatives.
-    pub(super) fn hessian(&self) -> PairHessian {
+    pub(crate) fn hessian(&self) -> PairHessian {
         let load = &self.on_second;
         let zero = Matrix3::zeros();
         let own = blocks(
@@ -98,7 +98,7 @@ impl PairLoad {
 }
 
 /// A 6 x 6 matrix from its four blocks.
-pub(super) fn blocks(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
+pub(crate) fn blocks(a: &Matrix3<f64>, b: &Matrix3<f64>, c: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
     let mut out = Matrix6::zeros();
     out.fixed_view_mut::<3, 3>(0, 0).copy_from(a);
     out.fixed_view_mut::<3, 3>(0, 3).copy_from(b);

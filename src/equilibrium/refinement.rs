@@ -8,6 +8,7 @@
 
 use super::inputs::Inputs;
 use super::settings::{Interaction, Settings};
+use super::solution::Solution;
 use super::solver::Equilibrium;
 use super::transfer::{Gap, NEAR};
 use crate::design::Design;

@@ -10,6 +10,7 @@ use super::field_rates::{FIELD_INPUTS, field_rates};
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input};
 use super::sensitivity::{Motion, Response, carry, inside};
+use super::solution::Solution;
 use super::solver::{Equilibrium, Place};
 use crate::error::Error;
 use crate::geometry::{Pose, hat};

@@ -10,7 +10,7 @@ use crate::magnetics::{AxialRule, PairRule, PairTable};
 
 /// One quadrature rule per pair, upper triangle row by row, out of a table made once.
 #[derive(Debug, Clone)]
-pub(super) struct PairRules {
+pub(crate) struct PairRules {
     /// By ring; equal rings share one.
     tables: Vec<Arc<PairTable>>,
     chosen: Vec<usize>,
@@ -22,7 +22,7 @@ pub(super) struct PairRules {
 
 impl PairRules {
     /// Tables for the accuracy and the interaction of `settings`.
-    pub(super) fn new(chain: &Chain, settings: &Settings) -> Self {
+    pub(crate) fn new(chain: &Chain, settings: &Settings) -> Self {
         let accuracy = settings.pair_accuracy;
         let mut tables: Vec<Arc<PairTable>> = Vec::new();
         for body in &chain.rings {
@@ -37,7 +37,7 @@ impl PairRules {
     }
 
     /// Chooses the rules for the present node poses; whether any is another one than before.
-    pub(super) fn choose(&mut self, chain: &Chain, nodes: &[Pose]) -> bool {
+    pub(crate) fn choose(&mut self, chain: &Chain, nodes: &[Pose]) -> bool {
         let mut changed = false;
         let mut chosen = self.chosen.iter_mut();
         for (i, first) in chain.rings.iter().enumerate() {
@@ -67,12 +67,12 @@ impl PairRules {
     }
 
     /// The numbers of the chosen rules, then the levels.
-    pub(super) fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
+    pub(crate) fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
         self.chosen.iter().chain(&self.spans).copied()
     }
 
     /// Chooses by these numbers; false, and nothing happens, if there are no such rules or levels.
-    pub(super) fn restore(&mut self, chosen: &[usize]) -> bool {
+    pub(crate) fn restore(&mut self, chosen: &[usize]) -> bool {
         let Some((pairs, spans)) = chosen.split_at_checked(self.chosen.len()) else { return false };
         let most = self.tables.iter().map(|table| table.len()).min().unwrap_or(0);
         let known = spans.len() == self.spans.len()
@@ -87,28 +87,28 @@ impl PairRules {
     }
 
     /// How often the rules have changed: the same number, the same rules.
-    pub(super) fn number(&self) -> u64 {
+    pub(crate) fn number(&self) -> u64 {
         self.number
     }
 
     /// The level of the samples of an element for a ring.
-    pub(super) fn span(&self, element: usize, ring: usize) -> usize {
+    pub(crate) fn span(&self, element: usize, ring: usize) -> usize {
         self.spans[element * self.tables.len() + ring]
     }
 
     /// The rule of pair number `pair`, whose second ring is number `second`.
-    pub(super) fn pair(&self, pair: usize, second: usize) -> PairRule<'_> {
+    pub(crate) fn pair(&self, pair: usize, second: usize) -> PairRule<'_> {
         self.tables[second].rule(self.chosen[pair])
     }
 
     /// The rule of the pair of two rings, the earlier first.
-    pub(super) fn between(&self, first: usize, second: usize) -> PairRule<'_> {
+    pub(crate) fn between(&self, first: usize, second: usize) -> PairRule<'_> {
         let rings = self.tables.len();
         self.pair(first * (2 * rings - first - 1) / 2 + second - first - 1, second)
     }
 
     /// The rule of ring number `ring` in a field whose sources are `reach` (m) away.
-    pub(super) fn external(&self, ring: usize, reach: f64) -> &AxialRule {
+    pub(crate) fn external(&self, ring: usize, reach: f64) -> &AxialRule {
         self.tables[ring].external(reach)
     }
 }

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::methods::{Discretisation, Method};
 use crate::error::{Error, check};
 
 /// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
@@ -96,10 +95,6 @@ pub struct Settings {
     /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
     /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
     pub time_budget: f64,
-    /// How the equilibrium is found; default [`Method::Potential`], which [`super::Equilibrium`] always is.
-    pub method: Method,
-    /// Resolution of the other methods.
-    pub discretisation: Discretisation,
 }
 
 impl Default for Settings {
@@ -118,8 +113,6 @@ impl Default for Settings {
             fold_margin: 0.05,
             iterations: 1500,
             time_budget: 1.0,
-            method: Method::Potential,
-            discretisation: Discretisation::default(),
         }
     }
 }
@@ -168,7 +161,6 @@ impl Settings {
         )?;
         check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
         check("processor time of a solve", self.time_budget, positive, "> 0 s")?;
-        self.discretisation.checked()?;
         Ok(self)
     }
 }

@@ -13,6 +13,7 @@ use super::inputs::Inputs;
 use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
+use super::solution::Solution;
 use super::source::Source;
 use crate::design::Design;
 use crate::error::Error;
@@ -206,70 +207,10 @@ impl Equilibrium {
         scene.potential(inputs, &self.rules, &mut self.work)
     }
 
-    /// Pose of the tip: the distal face of the last body.
-    #[must_use]
-    pub fn tip(&self) -> Pose {
-        self.work.nodes[self.work.nodes.len() - 1].advanced(self.chain.tip_offset)
-    }
-
-    /// Poses of the rings' centres, base to tip.
-    pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
-        self.chain.rings.iter().map(|body| body.centre(&self.work.nodes[body.node]))
-    }
-
-    /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.
-    pub fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
-        self.chain.cores.iter().map(|(first, last)| {
-            let tangent = |element: usize, end: usize| {
-                self.on_element(element, &self.chain.elements[element].core_ends[end]).axis()
-            };
-            tangent(*first, 0).angle(&tangent(*last, 1))
-        })
-    }
-
-    /// Unstrained arc length (m) and position (m) of the shape points, base to tip.
-    pub fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
-        self.shape.iter().map(|point| {
-            let position = match &point.place {
-                Place::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
-                Place::Elastic(element, row) => self.on_element(*element, row).position,
-            };
-            (point.arc_length, position)
-        })
-    }
-
     fn on_element(&self, element: usize, row: &Row) -> Pose {
         let unknowns = self.chain.part(element, &self.branch.unknowns);
         let local = self.work.configurations[element].pose_at(&self.chain.elements[element], row, unknowns);
         self.work.nodes[element].compose(&local)
-    }
-
-    /// Force and moment (about the base position) that the clamp exerts.
-    #[must_use]
-    pub fn base_reaction(&self) -> Wrench {
-        Wrench { force: self.work.base.0, torque: self.work.base.1 }
-    }
-
-    /// Total external magnetic wrench on the manipulator in the last solved shape, torque about the base
-    /// position.
-    #[must_use]
-    pub fn magnetic_wrench(&self) -> Wrench {
-        self.work.magnetic
-    }
-
-    /// Wrench on the external magnet about its centre.
-    #[must_use]
-    pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
-            return no_wrench();
-        }
-        reaction_on_magnet(&self.magnetic_wrench(), &self.background_wrench(inputs), inputs)
-    }
-
-    /// External field (T) at a point, m; `None` inside a magnet.
-    #[must_use]
-    pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        Source::external(self.magnet.as_ref(), inputs).at(point)
     }
 
     /// What the background field alone does.
@@ -297,6 +238,54 @@ impl Equilibrium {
             }
         }
         out
+    }
+}
+
+impl Solution for Equilibrium {
+    fn tip(&self) -> Pose {
+        self.work.nodes[self.work.nodes.len() - 1].advanced(self.chain.tip_offset)
+    }
+
+    fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
+        self.chain.rings.iter().map(|body| body.centre(&self.work.nodes[body.node]))
+    }
+
+    fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chain.cores.iter().map(|(first, last)| {
+            let tangent = |element: usize, end: usize| {
+                self.on_element(element, &self.chain.elements[element].core_ends[end]).axis()
+            };
+            tangent(*first, 0).angle(&tangent(*last, 1))
+        })
+    }
+
+    fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
+        self.shape.iter().map(|point| {
+            let position = match &point.place {
+                Place::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
+                Place::Elastic(element, row) => self.on_element(*element, row).position,
+            };
+            (point.arc_length, position)
+        })
+    }
+
+    fn base_reaction(&self) -> Wrench {
+        Wrench { force: self.work.base.0, torque: self.work.base.1 }
+    }
+
+    fn magnetic_wrench(&self) -> Wrench {
+        self.work.magnetic
+    }
+
+    fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
+        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
+            return no_wrench();
+        }
+        reaction_on_magnet(&self.magnetic_wrench(), &self.background_wrench(inputs), inputs)
+    }
+
+    fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        Source::external(self.magnet.as_ref(), inputs).at(point)
     }
 }
 

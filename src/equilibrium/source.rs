@@ -28,7 +28,7 @@ struct Near {
 
 /// A magnet at a pose, and a linear field around it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(crate) struct Source<'a> {
     frame: Pose,
     magnet: Magnet<'a>,
     /// The linear field at the frame's origin and its gradient, in the frame's axes.
@@ -40,7 +40,7 @@ pub(super) struct Source<'a> {
 
 impl<'a> Source<'a> {
     /// The external magnet and the background field.
-    pub(super) fn external(magnet: Option<&'a Assembly>, inputs: &Inputs) -> Self {
+    pub(crate) fn external(magnet: Option<&'a Assembly>, inputs: &Inputs) -> Self {
         let background = LinearField::new(inputs.uniform_field, inputs.field_gradient);
         let present = magnet.filter(|_| inputs.magnet_strength != 0.0);
         let frame = if present.is_some() { inputs.magnet } else { Pose::identity() };
@@ -59,7 +59,7 @@ impl<'a> Source<'a> {
     ///
     /// A dipole at distance `d` along the axis has the mean `B (1 - 3 spread / d^2)` over a section. The distance is that
     /// of all the chain may reach, so that the choice depends on the inputs alone.
-    pub(super) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
+    pub(crate) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
         if !self.has_magnet() {
             return self;
         }
@@ -68,12 +68,12 @@ impl<'a> Source<'a> {
     }
 
     /// The points of a station's section that carry its material in equal parts.
-    pub(super) fn points<'s>(&self, station: &'s Station) -> &'s [Vector2<f64>] {
+    pub(crate) fn points<'s>(&self, station: &'s Station) -> &'s [Vector2<f64>] {
         if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
     }
 
     /// A ring of the manipulator whose node is at `node`; `tabulated` where its table may stand for its field and gradient.
-    pub(super) fn ring(body: &'a RingBody, node: &Pose, tabulated: bool) -> Self {
+    pub(crate) fn ring(body: &'a RingBody, node: &Pose, tabulated: bool) -> Self {
         Self {
             frame: body.centre(node),
             magnet: Magnet::Ring(&body.source, body.table.as_deref().filter(|_| tabulated)),
@@ -84,24 +84,24 @@ impl<'a> Source<'a> {
     }
 
     /// Whether there is a magnet, and not the background field alone.
-    pub(super) fn has_magnet(&self) -> bool {
+    pub(crate) fn has_magnet(&self) -> bool {
         !matches!(self.magnet, Magnet::Absent)
     }
 
     /// The axes in which the energies are given: the columns, in the world's axes.
-    pub(super) fn axes(&self) -> &Matrix3<f64> {
+    pub(crate) fn axes(&self) -> &Matrix3<f64> {
         &self.frame.rotation
     }
 
     /// Field (T) at a point of the world; `None` inside a magnet.
-    pub(super) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+    pub(crate) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         let local = self.frame.rotation.tr_mul(&(point - self.frame.position));
         let near = self.near(&local, &Vector3::z(), Order::Gradient)?;
         Some(self.frame.rotation * near.field)
     }
 
     /// Distance from a point of the world to the nearest magnet, m; infinite without one.
-    pub(super) fn distance(&self, point: &Vector3<f64>) -> f64 {
+    pub(crate) fn distance(&self, point: &Vector3<f64>) -> f64 {
         let local = || self.frame.rotation.tr_mul(&(point - self.frame.position));
         match self.magnet {
             Magnet::Absent => f64::INFINITY,
@@ -148,7 +148,7 @@ impl<'a> Source<'a> {
     }
 
     /// Energy of a ring whose node is at `node`, in the axes of the world; `None` where it touches a magnet.
-    pub(super) fn on_ring(
+    pub(crate) fn on_ring(
         &self,
         body: &RingBody,
         node: &Pose,
@@ -169,7 +169,7 @@ impl<'a> Source<'a> {
     }
 
     /// The same for a ring in the field of this one, by the magnetic charges of its two faces, proximal and distal.
-    pub(super) fn on_faces(
+    pub(crate) fn on_faces(
         &self,
         body: &RingBody,
         node: &Pose,
@@ -205,14 +205,14 @@ impl<'a> Source<'a> {
     }
 
     /// Energy of a station's material in the axes of the source; `pose` is the station's in the world.
-    pub(super) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
+    pub(crate) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
         // A linear field needs no more than the centroid.
         let points = if self.has_magnet() { self.points(station) } else { &station.points.0 };
         self.on_points(&station.matter, points, pose, order)
     }
 
     /// The same, for a section's material.
-    pub(super) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
+    pub(crate) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
         self.on_points(matter, &matter.moments.points(), pose, order)
     }
 
@@ -235,7 +235,7 @@ impl<'a> Source<'a> {
     }
 
     /// The same, for a sample of the material.
-    pub(super) fn on_sample(&self, sample: &Sample, pose: &Pose, order: Order) -> Option<Load> {
+    pub(crate) fn on_sample(&self, sample: &Sample, pose: &Pose, order: Order) -> Option<Load> {
         let dipoles = sample.points.iter().map(|point| (point.position, sample.magnetisation * point.volume));
         self.on_section(dipoles, &self.locate(pose), order)
     }

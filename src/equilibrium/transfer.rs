@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
 use super::inputs::Inputs;
+use super::solution::Solution;
 use super::solver::Equilibrium;
 use crate::geometry::{Pose, rotation_log};
 use crate::numerics::trust_region::{Objective, norm};

@@ -1,11 +1,12 @@
 //! What the host gives: inputs and parameters as they were set, and what they mean together.
 
 use crate::design::{Backbone, Design, Specification};
-use crate::equilibrium::{Method, Settings};
+use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::{Inputs, Manipulator, Scene, SceneFile};
+use crate::methods::Method;
 
 /// Position and quaternion as they were set: one component at a time, so not always a rotation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,7 +66,7 @@ impl Given {
     /// derivatives and a state to save.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
-        let (method, own) = (scene.settings.method, Method::Potential);
+        let (method, own) = (scene.solver.method, Method::Potential);
         if method != own {
             let (given, own) = (method.name(), own.name());
             return Err(Error::Unsupported(format!("an FMU solves by method \"{own}\", not \"{given}\"")));

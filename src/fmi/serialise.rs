@@ -57,7 +57,7 @@ pub(super) fn to_bytes(condition: &Condition, package: &Package) -> Result<Vec<u
         state: condition.state,
         values: settable(package).filter_map(|variable| variable.given(&condition.given)).collect(),
         rates: condition.rates.clone(),
-        device: condition.device.as_ref().map(Manipulator::snapshot).transpose()?,
+        device: condition.device.as_ref().map(Manipulator::snapshot),
         solved: condition.solved,
         ahead: condition.ahead,
         near_fold: condition.near_fold,

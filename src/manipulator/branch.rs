@@ -1,7 +1,8 @@
 //! Following a branch along a path of inputs, and locating the folds where it is left.
 
 use super::prediction::predicted;
-use super::{Inputs, Manipulator, Outcome, Outputs, Status};
+use super::solve::Solve;
+use super::{Inputs, Outcome, Outputs, Status};
 use crate::error::{Error, check};
 
 /// Width of the interval in which a fold is located, of the path's span.
@@ -41,7 +42,7 @@ pub struct Fold {
 /// ```
 #[derive(Debug, Clone)]
 pub struct Branch<F> {
-    manipulator: Manipulator,
+    manipulator: Box<dyn Solve>,
     inputs: F,
     span: f64,
     longest_step: f64,
@@ -62,10 +63,16 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     ///
     /// # Errors
     /// [`Error::Range`] for a span or a step that is not positive.
-    pub fn new(manipulator: Manipulator, inputs: F, span: f64, longest_step: f64) -> Result<Self, Error> {
+    pub fn new(
+        manipulator: impl Into<Box<dyn Solve>>,
+        inputs: F,
+        span: f64,
+        longest_step: f64,
+    ) -> Result<Self, Error> {
         check("span of the path", span, |v| v > 0.0, "> 0")?;
         check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
         let (folds, margins) = (Vec::new(), Vec::new());
+        let manipulator = manipulator.into();
         Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
     }
 
@@ -95,10 +102,10 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
             let step = (target - here).clamp(-longest, longest);
             let next = if (target - here).abs() <= longest { target } else { here + step };
             let trial = self.trial(next)?;
-            if on_branch(&trial) {
+            if on_branch(trial.as_ref()) {
                 (self.manipulator, here) = (trial, next);
             } else {
-                here = self.pass_fold(here, next, &trial)?;
+                here = self.pass_fold(here, next, trial.as_ref())?;
             }
         }
         self.here = Some(here);
@@ -129,7 +136,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         predicted(&self.margins)
     }
 
-    fn trial(&self, value: f64) -> Result<Manipulator, Error> {
+    fn trial(&self, value: f64) -> Result<Box<dyn Solve>, Error> {
         let mut trial = self.manipulator.clone();
         trial.solve(&(self.inputs)(value)?)?;
         Ok(trial)
@@ -137,28 +144,28 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
 
     /// Bisects between `here`, on the branch, and `next`, where `fallen` no longer is; goes to the shape beyond and
     /// returns its value, or that of the last shape on the branch if none was found.
-    fn pass_fold(&mut self, here: f64, next: f64, fallen: &Manipulator) -> Result<f64, Error> {
+    fn pass_fold(&mut self, here: f64, next: f64, fallen: &dyn Solve) -> Result<f64, Error> {
         let (mut on, mut off) = (here, next);
         let mut after = found(off, fallen);
         while (off - on).abs() > FOLD_WIDTH * self.span {
             let middle = 0.5 * (on + off);
             let trial = self.trial(middle)?;
-            if on_branch(&trial) {
+            if on_branch(trial.as_ref()) {
                 (self.manipulator, on) = (trial, middle);
             } else {
                 // Too close to the fold a fall may fail that ends well from farther on: that one is kept.
-                after = found(middle, &trial).or(after);
+                after = found(middle, trial.as_ref()).or(after);
                 off = middle;
             }
         }
         let before = self.manipulator.measure_margin().clone();
         let nearest = self.trial(off)?;
-        if on_branch(&nearest) {
+        if on_branch(nearest.as_ref()) {
             self.manipulator = nearest;
             return Ok(off); // reached from closer by: no fold
         }
         self.margins.clear();
-        let (after, outcome) = (found(off, &nearest).or(after), nearest.outputs().outcome);
+        let (after, outcome) = (found(off, nearest.as_ref()).or(after), nearest.outputs().outcome);
         self.lost = after.is_none();
         let (reached, manipulator) = after.clone().unwrap_or((on, nearest));
         self.manipulator = manipulator;
@@ -193,10 +200,10 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     }
 }
 
-fn on_branch(trial: &Manipulator) -> bool {
+fn on_branch(trial: &dyn Solve) -> bool {
     matches!(trial.outputs().status, Status::Solved | Status::NearFold)
 }
 
-fn found(value: f64, trial: &Manipulator) -> Option<(f64, Manipulator)> {
-    (trial.outputs().status != Status::NotSolved).then(|| (value, trial.clone()))
+fn found(value: f64, trial: &dyn Solve) -> Option<(f64, Box<dyn Solve>)> {
+    (trial.outputs().status != Status::NotSolved).then(|| (value, trial.duplicate()))
 }

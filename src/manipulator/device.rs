@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ladder;
-use super::solver::Solver;
-use super::{Inputs, Jacobian, Outcome, Outputs, Status};
+use super::ladder::{self, Ladder};
+use super::outputs::Resolution;
+use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Gap, Report, Settings};
+use crate::equilibrium::{Gap, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
+use crate::methods::Method;
 
 /// A manipulator that remembers its shape from one solve to the next.
 ///
@@ -31,7 +32,7 @@ use crate::magnetics::Assembly;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    solver: Solver,
+    ladder: Ladder,
     outputs: Outputs,
     /// Whether the outputs are those of a shape that was found.
     has_shape: bool,
@@ -58,9 +59,9 @@ impl Manipulator {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let solver = Solver::new(design, magnet, settings, shape_points)?;
-        let outputs = solver.straight();
-        Ok(Self { solver, outputs, has_shape: false })
+        let ladder = Ladder::new(design, magnet, settings, shape_points)?;
+        let outputs = Outputs::straight(ladder.present(), resolution(&ladder));
+        Ok(Self { ladder, outputs, has_shape: false })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -71,18 +72,12 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.solver.solve(inputs)?;
-        (self.outputs.outcome, self.outputs.progress) = (report.outcome, report.progress);
+        let report = self.ladder.solve(inputs)?;
         if report.solved() {
-            self.observe(inputs, &report);
-        } else {
-            self.outputs.status = Status::NotSolved;
-            if report.outcome == Outcome::OutOfBudget {
-                self.outputs.snaps += report.snaps; // the branch has gone as far as it got
-            }
-            self.outputs.iterations = report.iterations;
-            self.outputs.residual = report.residual;
+            self.has_shape = true;
+            self.outputs.read(self.ladder.present(), inputs, resolution(&self.ladder));
         }
+        self.outputs.record(&report, self.ladder.fold_margin());
         Ok(&self.outputs)
     }
 
@@ -131,15 +126,10 @@ impl Manipulator {
     }
 
     /// What it remembers: from it another manipulator of the same design goes on bit for bit.
-    ///
-    /// # Errors
-    /// [`Error::Unsupported`] by another method than the potential one.
-    pub fn snapshot(&self) -> Result<Snapshot, Error> {
-        Ok(Snapshot {
-            models: self.solver.snapshot()?,
-            outputs: self.outputs.clone(),
-            has_shape: self.has_shape,
-        })
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        let (models, outputs) = (self.ladder.snapshot(), self.outputs.clone());
+        Snapshot { models, outputs, has_shape: self.has_shape }
     }
 
     /// Remembers what another manipulator of the same design, magnet and settings did.
@@ -154,7 +144,7 @@ impl Manipulator {
         if lengths(&snapshot.outputs) != lengths(&self.outputs) {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
-        self.solver.restore(&snapshot.models)?;
+        self.ladder.restore(&snapshot.models)?;
         (self.outputs, self.has_shape) = (snapshot.outputs.clone(), snapshot.has_shape);
         Ok(())
     }
@@ -162,7 +152,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.solver.margin() {
+        if let Some(margin) = self.ladder.present().clone().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -188,48 +178,41 @@ impl Manipulator {
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] when the last solve failed, before the first, at a fold, and where a part lies
-    /// inside the external magnet; see [`crate::equilibrium::Equilibrium::jacobian`]; always by another method than the potential one.
+    /// inside the external magnet; see [`crate::equilibrium::Equilibrium::jacobian`].
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
-        self.solver.jacobian()
+        self.ladder.present().jacobian()
     }
 
     /// How far the tip may be, and be turned, from the converged answer of the model, m and rad; from the next solve on.
     ///
     /// # Errors
-    /// [`Error::Range`] unless both are positive; [`Error::Unsupported`] by another method than the potential one.
+    /// [`Error::Range`] unless both are positive.
     pub fn set_tolerances(&mut self, position: f64, angle: f64) -> Result<(), Error> {
         let settings =
             Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
         settings.checked()?;
-        self.solver.set_tolerance(Gap { distance: position, angle })
+        self.ladder.set_tolerance(Gap { distance: position, angle });
+        Ok(())
     }
 
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        self.solver.reset();
-        (self.outputs, self.has_shape) = (self.solver.straight(), false);
+        self.ladder.reset();
+        self.outputs = Outputs::straight(self.ladder.present(), resolution(&self.ladder));
+        self.has_shape = false;
     }
+}
 
-    fn observe(&mut self, inputs: &Inputs, report: &Report) {
-        self.has_shape = true;
-        let out = &mut self.outputs;
-        self.solver.observe(inputs, out);
-        out.tip_angle = inputs.base.axis().angle(&out.tip.axis());
-        out.stable = report.stable;
-        out.stability_margin = report.margin;
-        out.snaps += report.snaps;
-        out.status = if report.snaps > 0 {
-            Status::Snapped
-        } else if report.stable.is_some() && report.margin < self.solver.settings().fold_margin {
-            Status::NearFold
-        } else {
-            Status::Solved
-        };
-        out.iterations = report.iterations;
-        out.residual = report.residual;
-        out.energy = report.energy;
+/// How much model answers.
+fn resolution(ladder: &Ladder) -> Resolution {
+    let settings = ladder.present().settings();
+    Resolution {
+        interaction: settings.interaction,
+        degree: settings.degree,
+        method: Method::Potential,
+        error_estimate: ladder.error_estimate(),
     }
 }

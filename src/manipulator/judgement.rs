@@ -4,7 +4,7 @@ use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::ladder::CLIMB;
-use crate::equilibrium::{Equilibrium, Gap, Inputs};
+use crate::equilibrium::{Equilibrium, Gap, Inputs, Solution};
 use crate::geometry::Pose;
 
 /// Change of what surrounds or loads the manipulator, relative to its size, after which a model is judged again.

@@ -129,6 +129,11 @@ impl Ladder {
         self.models.at(self.present)
     }
 
+    /// Stability margin below which a shape counts as close to a fold.
+    pub(super) fn fold_margin(&self) -> f64 {
+        self.fold_margin
+    }
+
     /// Estimated distance of the tip (m) from the converged answer of the model; at most the length, which is told where
     /// nothing is known.
     pub(super) fn error_estimate(&self) -> f64 {

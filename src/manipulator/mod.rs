@@ -1,6 +1,7 @@
 //! The device as its user sees it: inputs in, shape and forces out; it keeps its last shape.
 
 mod branch;
+mod compared;
 mod device;
 mod judgement;
 mod ladder;
@@ -8,11 +9,13 @@ mod models;
 mod outputs;
 mod prediction;
 mod scene;
-mod solver;
+mod solve;
 
 pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output};
 pub use branch::{Branch, Fold};
+pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
 pub use models::models_of_auto;
 pub use outputs::{Outputs, Status};
 pub use scene::{Scene, SceneFile};
+pub use solve::Solve;

@@ -3,8 +3,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::equilibrium::{Interaction, Method, Outcome};
+use super::Inputs;
+use crate::equilibrium::{Interaction, Outcome, Report, Solution};
 use crate::geometry::Pose;
+use crate::methods::Method;
 
 /// How the last solve ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,4 +83,94 @@ pub struct Outputs {
     /// meanwhile. The length where it cannot be told, as for a neutral shape; 0 by another method than the potential one,
     /// which makes none.
     pub error_estimate: f64,
+}
+
+/// How much model has answered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Resolution {
+    pub(super) interaction: Interaction,
+    pub(super) degree: usize,
+    pub(super) method: Method,
+    /// m.
+    pub(super) error_estimate: f64,
+}
+
+impl Outputs {
+    /// Those of the straight, unloaded manipulator at the origin, which a new or reset `solution` is.
+    pub(super) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
+        let zero = Vector3::zeros();
+        let (shape_arc_length, shape) = solution.shape().unzip();
+        let Resolution { interaction, degree, method, error_estimate } = resolution;
+        Self {
+            tip_angle: 0.0,
+            tip: solution.tip(),
+            magnetic_force: zero,
+            magnetic_torque: zero,
+            base_reaction_force: zero,
+            base_reaction_moment: zero,
+            magnet_reaction_force: zero,
+            magnet_reaction_torque: zero,
+            tip_field: zero,
+            shape_arc_length,
+            shape,
+            rings: solution.rings().collect(),
+            core_angles: solution.core_angles().collect(),
+            stable: Some(true),
+            stability_margin: 1.0,
+            snaps: 0,
+            status: Status::Solved,
+            outcome: Outcome::Solved,
+            progress: 1.0,
+            iterations: 0,
+            residual: 0.0,
+            energy: 0.0,
+            interaction,
+            degree,
+            error_estimate,
+            method,
+        }
+    }
+
+    /// Takes over shape and wrenches of the last solve, at `inputs`, without allocating.
+    pub(super) fn read(&mut self, solution: &impl Solution, inputs: &Inputs, resolution: Resolution) {
+        self.tip = solution.tip();
+        self.tip_angle = inputs.base.axis().angle(&self.tip.axis());
+        let magnetic = solution.magnetic_wrench();
+        (self.magnetic_force, self.magnetic_torque) = (magnetic.force, magnetic.torque);
+        let base = solution.base_reaction();
+        (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
+        let magnet = solution.magnet_reaction(inputs);
+        (self.magnet_reaction_force, self.magnet_reaction_torque) = (magnet.force, magnet.torque);
+        self.tip_field = solution.field_at(inputs, &self.tip.position).unwrap_or_default();
+        let places = self.shape.iter_mut().zip(&mut self.shape_arc_length);
+        places.zip(solution.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
+        self.rings.iter_mut().zip(solution.rings()).for_each(|(slot, pose)| *slot = pose);
+        self.core_angles.iter_mut().zip(solution.core_angles()).for_each(|(slot, angle)| *slot = angle);
+        let Resolution { interaction, degree, method, error_estimate } = resolution;
+        (self.interaction, self.degree, self.method) = (interaction, degree, method);
+        self.error_estimate = error_estimate;
+    }
+
+    /// Records how a solve ended; without a shape, the one before and what is known of it stay.
+    pub(super) fn record(&mut self, report: &Report, fold_margin: f64) {
+        (self.outcome, self.progress) = (report.outcome, report.progress);
+        (self.iterations, self.residual) = (report.iterations, report.residual);
+        if !report.solved() {
+            self.status = Status::NotSolved;
+            if report.outcome == Outcome::OutOfBudget {
+                self.snaps += report.snaps; // the branch has gone as far as it got
+            }
+            return;
+        }
+        (self.stable, self.stability_margin) = (report.stable, report.margin);
+        self.snaps += report.snaps;
+        self.status = if report.snaps > 0 {
+            Status::Snapped
+        } else if report.stable.is_some() && report.margin < fold_margin {
+            Status::NearFold
+        } else {
+            Status::Solved
+        };
+        self.energy = report.energy;
+    }
 }

@@ -10,9 +10,10 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
-use crate::equilibrium::{Discretisation, Interaction, Method, Settings};
+use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
+use crate::manipulator::{Inputs, Outputs, Scene, Solve, Status};
+use crate::methods::{self, Method};
 
 pub use picture::{PEERS, Peered, accuracy_picture};
 
@@ -107,6 +108,7 @@ struct Trial {
     name: &'static str,
     resolution: String,
     settings: Settings,
+    solver: methods::Settings,
 }
 
 /// A scene with the inputs of its warm steps.
@@ -160,13 +162,13 @@ impl Case {
         };
         let mut doubt = self.tip_error(&coarser, &reference);
         if Method::Collocation.supports(base.interaction) {
-            let discretisation = Discretisation {
+            let solver = methods::Settings {
+                method: Method::Collocation,
                 mesh_tolerance: CONFIRMING_RESIDUAL,
                 tolerance: 1e-11,
-                ..Discretisation::default()
+                ..methods::Settings::default()
             };
-            let confirming = Settings { method: Method::Collocation, discretisation, ..fine(REFERENCE) };
-            let mut manipulator = self.manipulator(confirming)?;
+            let mut manipulator = self.device(fine(REFERENCE), solver)?;
             let outputs = manipulator.solve(&self.scene.inputs)?;
             let apart = self.tip_error(outputs, &reference);
             if outputs.status != Status::NotSolved && apart < ANOTHER_SHAPE {
@@ -182,12 +184,12 @@ impl Case {
         Ok(points)
     }
 
-    fn manipulator(&self, settings: Settings) -> Result<Manipulator, Error> {
-        Scene { settings, ..self.scene.clone() }.manipulator(SHAPE_POINTS)
+    fn device(&self, settings: Settings, solver: methods::Settings) -> Result<Box<dyn Solve>, Error> {
+        Scene { settings, solver, ..self.scene.clone() }.device(SHAPE_POINTS)
     }
 
     fn reference(&self, settings: Settings) -> Result<Option<Outputs>, Error> {
-        let mut manipulator = self.manipulator(settings)?;
+        let mut manipulator = self.device(settings, methods::Settings::default())?;
         let outputs = manipulator.solve(&self.scene.inputs)?;
         Ok((outputs.status != Status::NotSolved).then(|| outputs.clone()))
     }
@@ -220,7 +222,7 @@ impl Case {
         reference: &Outputs,
         doubt: f64,
     ) -> Result<Point, Error> {
-        let mut manipulator = self.manipulator(trial.settings)?;
+        let mut manipulator = self.device(trial.settings, trial.solver)?;
         let warm = start == "warm";
         let walk = if warm { &self.walk[..] } else { std::slice::from_ref(&self.scene.inputs) };
         let mut solved = manipulator.solve(&self.scene.inputs)?.status != Status::NotSolved;
@@ -260,7 +262,10 @@ impl Case {
 fn trials(base: Settings) -> Vec<Trial> {
     let level = base.interaction;
     let mut out = Vec::new();
-    let mut add = |name, resolution: String, settings| out.push(Trial { name, resolution, settings });
+    let default = methods::Settings::default();
+    let mut add = |name, resolution: String, settings, solver| {
+        out.push(Trial { name, resolution, settings, solver });
+    };
     // Without pairs there is nothing to be more or less accurate but the rings in the magnet's field.
     let every = [1e-2, 1e-3, 1e-5, 1e-7];
     let own = [base.pair_accuracy];
@@ -268,31 +273,30 @@ fn trials(base: Settings) -> Vec<Trial> {
     for degree in [0, 2, 4, 6] {
         for &pair_accuracy in accuracies {
             let resolution = format!("degree {degree}, pairs {pair_accuracy:.0e}");
-            add("potential", resolution, Settings { degree, pair_accuracy, ..base });
+            add("potential", resolution, Settings { degree, pair_accuracy, ..base }, default);
         }
     }
     for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(level)) {
-        let with = |discretisation| Settings { method: *method, discretisation, ..base };
-        let default = Discretisation::default();
+        let default = methods::Settings { method: *method, ..default };
         match method {
             Method::Potential => {}
-            Method::ConstantCurvature => add(name, "one arc a core".into(), with(default)),
+            Method::ConstantCurvature => add(name, "one arc a core".into(), base, default),
             Method::Collocation => {
                 for mesh_tolerance in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
                     let resolution = format!("residual {mesh_tolerance:.0e}");
-                    add(name, resolution, with(Discretisation { mesh_tolerance, ..default }));
+                    add(name, resolution, base, methods::Settings { mesh_tolerance, ..default });
                 }
             }
             _ => {
                 for steps in [2, 4, 8, 16, 32] {
-                    add(name, format!("{steps} steps a core"), with(Discretisation { steps, ..default }));
+                    add(name, format!("{steps} steps a core"), base, methods::Settings { steps, ..default });
                 }
             }
         }
     }
     if level == Interaction::Full {
         for (name, interaction) in [("level none", Interaction::None), ("level rings", Interaction::Rings)] {
-            add(name, "degree 2".into(), Settings { interaction, ..base });
+            add(name, "degree 2".into(), Settings { interaction, ..base }, default);
         }
     }
     out

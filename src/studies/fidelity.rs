@@ -131,7 +131,7 @@ impl Walk {
 
     /// Walks with one model of the scene, beside another one that judges it.
     pub(super) fn go(&self, own: &Scene, judge: &Scene) -> Result<Shown, Error> {
-        let (mut own, mut judge) = (own.manipulator(2)?, judge.manipulator(2)?);
+        let (mut own, mut judge) = (own.device(2)?, judge.device(2)?);
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0, by_richest: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;

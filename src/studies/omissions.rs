@@ -4,10 +4,11 @@ use serde::Serialize;
 
 use super::fidelity::{SCENES, Walk};
 use crate::design::{Specification, SpiralKind};
-use crate::equilibrium::{Interaction, Method};
+use crate::equilibrium::Interaction;
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Scene;
+use crate::methods::Method;
 
 /// Radius of a cylinder that stands for a dipole, m. So long that its next multipole vanishes, its field 10 cm away is a dipole's
 /// to 1e-5.
@@ -55,11 +56,11 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
         Ok(())
     }),
     ("what leads out of the plane (method `planar`)", |scene| {
-        scene.settings.method = Method::Planar;
+        scene.solver.method = Method::Planar;
         Ok(())
     }),
     ("all strain but one bend a core (method `constant-curvature`)", |scene| {
-        scene.settings.method = Method::ConstantCurvature;
+        scene.solver.method = Method::ConstantCurvature;
         Ok(())
     }),
 ];

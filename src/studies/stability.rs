@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use super::scenes::{LEVELS, SEGMENTS};
 use crate::design::{Design, Specification};
-use crate::equilibrium::{Interaction, Method, Settings};
+use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Status};
+use crate::manipulator::{Inputs, Scene, Status};
+use crate::methods::{self, Method};
 use judge::{Judge, Known};
 
 pub use picture::stability_picture;
@@ -98,8 +99,14 @@ impl Ray {
         let mut known = self.branch(&mut judge)?;
         let mut out = Vec::new();
         for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
-            let settings = Settings { interaction: self.interaction, method: *method, ..Settings::default() };
-            let mut manipulator = Manipulator::new(&design, None, settings, 2)?;
+            let scene = Scene {
+                specification: Specification::paper(self.segments),
+                magnets: None,
+                inputs: self.inputs(0.0),
+                settings: Settings { interaction: self.interaction, ..Settings::default() },
+                solver: methods::Settings { method: *method, ..methods::Settings::default() },
+            };
+            let mut manipulator = scene.device(2)?;
             let accuracy = if *method == Method::ConstantCurvature { ARCS } else { RESOLVED };
             for (start, first) in [("cold", WARM_STEPS), ("warm", 1)] {
                 manipulator.reset();

@@ -1,7 +1,8 @@
 //! `mcm solve`.
 
-use mcm::equilibrium::{Equilibrium, Inputs, Method};
+use mcm::equilibrium::{Equilibrium, Inputs};
 use mcm::manipulator::Scene;
+use mcm::methods::Method;
 use nalgebra::Vector3;
 use serde_json::Value;
 

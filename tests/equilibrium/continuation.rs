@@ -1,7 +1,7 @@
 //! Branches through folds: beside closed forms, bisection along the stable part, and the energy.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Diagram, Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Diagram, Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::manipulator::{Branch, Manipulator};
 use mcm::numerics::continuation::{End, Kind, Walk};
 use nalgebra::Vector3;

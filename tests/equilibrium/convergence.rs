@@ -2,7 +2,7 @@
 //! of the ring pairs.
 
 use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::magnetics::Assembly;
 use mcm::manipulator::Scene;
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! Straight shapes: where they lose their stability, and how the rings' attraction shortens them.
 
 use mcm::design::{Helix, gent_modulus};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Solution};
 use nalgebra::Vector3;
 
 use super::rows::{Row, number, row, rows, vector};

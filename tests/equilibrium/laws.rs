@@ -1,7 +1,7 @@
 //! Laws that need no reference: objectivity, balance of forces and moments, no net internal force.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector, hat};
 use nalgebra::{Matrix3, Vector3};
 

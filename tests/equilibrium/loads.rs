@@ -6,7 +6,7 @@
 use core::f64::consts::PI;
 
 use mcm::design::{Backbone, Design, Helix, Modulus, Segmented, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 

@@ -1,6 +1,6 @@
 //! The rows of `statics_dev.json` that are expected failures: their branch folds before the inputs are reached.
 
-use mcm::equilibrium::{Equilibrium, Inputs, Report};
+use mcm::equilibrium::{Equilibrium, Inputs, Report, Solution};
 use mcm::manipulator::{Scene, Status};
 use nalgebra::{DMatrix, SymmetricEigen};
 

@@ -2,7 +2,7 @@
 //! last good shape is kept.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings, Solution};
 use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

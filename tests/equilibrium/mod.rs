@@ -10,7 +10,6 @@ mod laws;
 mod loads;
 mod lost;
 mod map;
-mod methods;
 mod moments;
 mod neglected;
 mod reciprocity;

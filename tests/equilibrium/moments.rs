@@ -1,7 +1,7 @@
 //! A moment that is fixed in space has no potential, and does not choose the branch.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Outcome, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Outcome, Settings, Solution};
 use mcm::manipulator::{Outputs, Scene};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;

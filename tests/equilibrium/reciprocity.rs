@@ -1,7 +1,7 @@
 //! Rings in each other's and the magnet's field, against the wrench on charged faces, an independent formula.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::geometry::Pose;
 use mcm::magnetics::{AxialSource, Wrench};
 use nalgebra::Vector3;

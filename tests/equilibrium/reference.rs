@@ -1,6 +1,6 @@
 //! Every equilibrium of `statics_dev.json`, an independent energy model.
 
-use mcm::equilibrium::{Equilibrium, Interaction, Report};
+use mcm::equilibrium::{Equilibrium, Interaction, Report, Solution};
 use mcm::geometry::{Pose, rotation_log};
 
 use super::rows::{Row, list, number, rows, vector};

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

@@ -1,7 +1,7 @@
 //! Scaling laws: magnetostatics and linear elasticity have no length of their own.
 
 use mcm::design::{Backbone, Design, Modulus, Segmented, Specification, gent_modulus};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings, Solution};
 use mcm::geometry::Pose;
 use mcm::magnetics::{Assembly, AxialMagnet};
 use nalgebra::Vector3;

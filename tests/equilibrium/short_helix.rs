@@ -1,7 +1,7 @@
 //! Segments whose rings are closer than the paper's: pairs summed up over their charged faces.
 
 use mcm::design::{Design, Helix, Segmented, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Settings, Solution};
 use mcm::geometry::Pose;
 use mcm::magnetics::AxialSource;
 use nalgebra::Vector3;

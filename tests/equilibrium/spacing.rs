@@ -2,7 +2,7 @@
 //! beam column.
 
 use mcm::design::{Design, Helix, Segmented, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::error::Error;
 use mcm::geometry::Pose;
 use mcm::magnetics::{AxialSource, Wrench};

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use mcm::design::{Design, SpanKind, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings, Solution};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{BEND, PAPER_STOP_DEG, ROUNDING, assert_close};

@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use mcm::equilibrium::Inputs;
+use mcm::equilibrium::{Inputs, Solution};
 use nalgebra::Vector3;
 
 use super::table::{Rod, rows_of};

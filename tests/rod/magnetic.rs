@@ -1,6 +1,6 @@
 //! Magnetised rods and dipoles in a uniform field.
 
-use mcm::equilibrium::Inputs;
+use mcm::equilibrium::{Inputs, Solution};
 use nalgebra::Vector3;
 
 use super::table::{Chain, Rod, rows_of};

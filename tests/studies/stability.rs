@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Method, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::methods::Method;
 use mcm::studies::{Attempt, Panel, Ray, Verdict, stability_picture, stability_rays};
 
 use crate::tolerance::INTERPOLATED;

@@ -40,7 +40,7 @@ impl Solve {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let scene = read_scene(&self.scene)?.scene()?;
-        let mut manipulator = scene.manipulator(self.shape_points)?;
+        let mut manipulator = scene.device(self.shape_points)?;
         manipulator.solve(&scene.inputs)?;
         let jacobian = manipulator.jacobian();
         let outputs = manipulator.measure_margin();

@@ -34,7 +34,7 @@ fn counts(attempts: &[Attempt]) -> String {
         }
     }
     rows.sort_by_key(|row| {
-        (row.1 == "`full`", mcm::equilibrium::Method::named(row.0).map(|m| m as usize), row.2)
+        (row.1 == "`full`", mcm::methods::Method::named(row.0).map(|m| m as usize), row.2)
     });
     let labels = Verdict::ALL.map(|(_, label)| label);
     let header = format!("| method | level | start | attempts | {} |\n", labels.join(" | "));

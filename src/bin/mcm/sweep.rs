@@ -132,7 +132,7 @@ impl Sweep {
         others: &[f64],
         bar: &ProgressBar,
     ) -> Result<Walk, Failure> {
-        let manipulator = file.with(&along.key, along.values[0])?.scene()?.manipulator(2)?;
+        let manipulator = file.with(&along.key, along.values[0])?.scene()?.device(2)?;
         let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
         // A single value, or all the same: any span will do.
         let span = if along.span() > 0.0 { along.span() } else { 1.0 };
@@ -177,14 +177,15 @@ impl Sweep {
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings) == (&b.specification, &b.magnets, &b.settings)
+    (&a.specification, &a.magnets, &a.settings, &a.solver)
+        == (&b.specification, &b.magnets, &b.settings, &b.solver)
 }
 
 /// Solves each value of the first key for a device of its own.
 fn devices(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -> Result<Walk, Failure> {
     let solve = |&value: &f64| {
         let scene = file.with(&along.key, value)?.scene()?;
-        let mut manipulator = scene.manipulator(2)?;
+        let mut manipulator = scene.device(2)?;
         manipulator.solve(&scene.inputs)?;
         bar.inc(1);
         Ok(Row::new([&[value], others].concat(), Way::Forth, manipulator.measure_margin(), None))

@@ -3,7 +3,8 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::equilibrium::{Interaction, Method, Settings};
+use crate::equilibrium::{Interaction, Settings};
+use crate::methods::Method;
 
 /// A scene as its file states it, with everything that was left out filled in.
 ///

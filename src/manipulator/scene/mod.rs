@@ -6,11 +6,12 @@ mod text;
 
 pub use file::SceneFile;
 
-use super::{Inputs, Manipulator};
+use super::{Compared, Inputs, Manipulator, Solve};
 use crate::design::{Design, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
+use crate::methods::{self, Method};
 
 /// Everything that one solve needs, in SI units.
 ///
@@ -35,8 +36,10 @@ pub struct Scene {
     pub magnets: Option<Vec<AxialMagnet>>,
     /// What acts on it.
     pub inputs: Inputs,
-    /// Model and solver.
+    /// The model, and how the potential method solves it.
     pub settings: Settings,
+    /// Which method solves it, and how finely the others resolve it.
+    pub solver: methods::Settings,
 }
 
 impl Scene {
@@ -70,9 +73,40 @@ impl Scene {
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.
     ///
     /// # Errors
-    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`].
+    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names another
+    /// method than the potential one, see [`Scene::device`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
+        let (given, own) = (self.solver.method, Method::Potential);
+        if given != own {
+            let (given, own) = (given.name(), own.name());
+            return Err(Error::Unsupported(format!(
+                "a manipulator solves by method \"{own}\", not \"{given}\""
+            )));
+        }
         let magnet = self.assembly()?;
         Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)
+    }
+
+    /// The same by the method that the scene names.
+    ///
+    /// ```
+    /// use mcm::manipulator::Scene;
+    /// let text = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 20, 0]\n[model]\ninteraction = \"rings\"\n";
+    /// let angle = |method: &str| {
+    ///     let scene = Scene::parse(&format!("{text}method = \"{method}\""), "example")?;
+    ///     Ok::<f64, mcm::error::Error>(scene.device(2)?.solve(&scene.inputs)?.tip_angle)
+    /// };
+    /// assert!((angle("shooting")? - angle("potential")?).abs() < 1e-6);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Scene::manipulator`] and [`Compared::new`].
+    pub fn device(&self, shape_points: usize) -> Result<Box<dyn Solve>, Error> {
+        if self.solver.method == Method::Potential {
+            return Ok(self.manipulator(shape_points)?.into());
+        }
+        let (design, magnet) = (self.design()?, self.assembly()?);
+        Ok(Compared::new(&design, magnet.as_ref(), self.settings, self.solver, shape_points)?.into())
     }
 }

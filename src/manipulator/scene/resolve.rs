@@ -16,6 +16,7 @@ use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
 use crate::magnetics::AxialMagnet;
 use crate::manipulator::Inputs;
+use crate::methods;
 
 const MM_PER_M: f64 = 1e3;
 const MT_PER_T: f64 = 1e3;
@@ -50,7 +51,8 @@ impl SceneFile {
         let specification = self.design.specification()?;
         let inputs = self.inputs(&Design::new(specification.clone())?)?;
         let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
-        Ok(Scene { specification, magnets, inputs, settings: self.settings()? })
+        let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
+        Ok(Scene { specification, magnets, inputs, settings: self.settings()?, solver })
     }
 
     /// Writes down what `key` names if it was left out because it follows from the design.
@@ -99,9 +101,9 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Result<Settings, Error> {
-        let ModelTable { interaction, method, bending_stop, time_budget_s } = self.model;
+        let ModelTable { interaction, method: _, bending_stop, time_budget_s } = self.model;
         let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
-        Ok(Settings { interaction, bending_stop, time_budget, method, ..Settings::default() })
+        Ok(Settings { interaction, bending_stop, time_budget, ..Settings::default() })
     }
 }
 

@@ -1,7 +1,7 @@
 //! The map of failures, drawn.
 
 use super::{Attempt, SEGMENTS, Verdict};
-use crate::equilibrium::Method;
+use crate::methods::Method;
 use crate::studies::study::{AtlasRow, Kind, Panel, Study, Tint};
 
 /// The map: methods and levels down, starts and numbers of segments across.

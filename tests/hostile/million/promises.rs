@@ -3,7 +3,7 @@
 use std::fmt;
 
 use cpu_time::ThreadTime;
-use mcm::equilibrium::{Equilibrium, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution};
 use mcm::manipulator::{Inputs, Manipulator, Outcome, Outputs, Scene, Status};
 use nalgebra::Vector3;
 

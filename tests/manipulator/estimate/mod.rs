@@ -2,8 +2,9 @@
 
 mod scenes;
 
-use mcm::equilibrium::{Equilibrium, Gap, Interaction, Method, Settings};
+use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings, Solution};
 use mcm::manipulator::{Outputs, Scene as Read, Status};
+use mcm::methods::Method;
 use rayon::prelude::*;
 
 use crate::tolerance::{ESTIMATED_MEDIAN, ESTIMATED_SHARE, LEAST_TOLD};
@@ -103,7 +104,7 @@ fn the_degree_rises_with_the_bend_and_falls_again() {
 #[test]
 fn other_methods_tell_none() {
     let mut scene = bent();
-    scene.settings.method = Method::MultipleShooting;
-    let mut manipulator = scene.manipulator(2).unwrap();
+    scene.solver.method = Method::MultipleShooting;
+    let mut manipulator = scene.device(2).unwrap();
     assert!(manipulator.solve(&scene.inputs).unwrap().error_estimate <= 0.0);
 }

@@ -1,7 +1,7 @@
 //! Random scenes of every level, with the error that is told and the error that is.
 
 use mcm::design::{Design, Segmented, Specification, SpiralKind};
-use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings, Solution};
 use mcm::geometry::RotationVector;
 use mcm::manipulator::{Inputs, Manipulator, Status};
 use nalgebra::Vector3;

@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;

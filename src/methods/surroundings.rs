@@ -6,12 +6,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::line::{Line, Place};
-use crate::equilibrium::dead::weight;
-use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::pair::{PairLoad, blocks, overlap};
-use crate::equilibrium::rules::PairRules;
-use crate::equilibrium::settings::Interaction;
-use crate::equilibrium::source::Source;
+use crate::equilibrium::{Inputs, Interaction, PairLoad, PairRules, Source, blocks, overlap, weight};
 use crate::geometry::{Pose, hat};
 use crate::rod::{Load, Matter, Order};
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::Inputs;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::LinearField;

@@ -8,18 +8,14 @@ use super::engine::{Engine, Shape};
 use super::line::Line;
 use super::method::Method;
 use super::plane::Plane;
+use super::settings::Settings;
 use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
-use crate::equilibrium::chain::arc_lengths;
-use crate::equilibrium::contact::Placed;
-use crate::equilibrium::correction::Report;
-use crate::equilibrium::dead::{add_wrench, no_wrench, reaction_on_magnet};
-use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::outcome::{Contact, Outcome};
-use crate::equilibrium::rules::PairRules;
-use crate::equilibrium::settings::{Interaction, Settings};
-use crate::equilibrium::source::Source;
+use crate::equilibrium::{
+    self, Contact, Inputs, Interaction, Outcome, PairRules, Placed, Report, Solution, Source, add_wrench,
+    arc_lengths, no_wrench, reaction_on_magnet,
+};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
@@ -31,14 +27,16 @@ const RULE_CHOICES: u32 = 3;
 /// The equilibrium of a manipulator by one of the methods beside the potential one.
 ///
 /// It starts straight, later from its own last solution. Where the whole change of the inputs does not converge, parts of
-/// it are tried ([`super::Discretisation::smallest_part`]). A clone is a full snapshot.
+/// it are tried ([`Settings::smallest_part`]). A clone is a full snapshot.
 ///
 /// ```
 /// use mcm::design::{Design, Specification};
-/// use mcm::equilibrium::{Comparison, Inputs, Interaction, Method, Settings};
+/// use mcm::equilibrium::{self, Inputs, Interaction, Solution};
+/// use mcm::methods::{Comparison, Method, Settings};
 /// let design = Design::new(Specification::paper(1))?;
-/// let settings = Settings { interaction: Interaction::None, method: Method::ShootingExact, ..Settings::default() };
-/// let mut shooting = Comparison::new(&design, None, settings, 11)?;
+/// let model = equilibrium::Settings { interaction: Interaction::None, ..Default::default() };
+/// let settings = Settings { method: Method::ShootingExact, ..Settings::default() };
+/// let mut shooting = Comparison::new(&design, None, model, settings, 11)?;
 /// let mut inputs = Inputs::unloaded(2);
 /// inputs.uniform_field.y = 0.02;
 /// assert!(shooting.solve(&inputs)?.solved());
@@ -49,6 +47,7 @@ const RULE_CHOICES: u32 = 3;
 #[derive(Debug, Clone)]
 pub struct Comparison {
     line: Arc<Line>,
+    model: equilibrium::Settings,
     settings: Settings,
     magnet: Option<Assembly>,
     arc_lengths: Arc<Vec<f64>>,
@@ -67,7 +66,8 @@ struct State {
 }
 
 impl Comparison {
-    /// The straight manipulator; `shape_points` is the number of centreline points, at least 2.
+    /// The straight manipulator; `shape_points` is the number of centreline points, at least 2. Of the settings of the model
+    /// those of the potential method alone (strain modes, following of branches) do not count.
     ///
     /// # Errors
     /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for a method that cannot
@@ -75,30 +75,32 @@ impl Comparison {
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
+        model: equilibrium::Settings,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let settings = settings.checked()?;
+        let (model, settings) = (model.checked()?, settings.checked()?);
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let (own, other) = (settings.method.name(), Method::Potential.name());
-        if !settings.method.supports(settings.interaction) {
-            let level = settings.interaction.name();
+        if !settings.method.supports(model.interaction) {
+            let level = model.interaction.name();
             let [none, rings] = [Interaction::None, Interaction::Rings].map(Interaction::name);
             return Err(Error::Unsupported(format!(
                 "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
             )));
         }
-        if settings.bending_stop {
+        if model.bending_stop {
             let stop = "bending stop, which acts between the ends of a core";
             return Err(Error::Unsupported(format!("method \"{own}\" has no {stop}: choose \"{other}\"")));
         }
-        let line = Line::new(design, &settings)?;
+        let line = Line::new(design, &model)?;
         let state = State::straight(&line, &settings)?;
         Ok(Self {
-            rules: PairRules::new(&line.chain, &settings),
+            rules: PairRules::new(&line.chain, &model),
             magnet: magnet.cloned(),
             arc_lengths: Arc::new(arc_lengths.collect()),
             line: Arc::new(line),
+            model,
             settings,
             state,
         })
@@ -111,7 +113,13 @@ impl Comparison {
         }
     }
 
-    /// The settings.
+    /// The settings of the model.
+    #[must_use]
+    pub fn model(&self) -> &equilibrium::Settings {
+        &self.model
+    }
+
+    /// The settings of the method.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -130,7 +138,7 @@ impl Comparison {
         }
         let before = self.state.clone();
         let start = self.state.inputs.clone().unwrap_or_else(|| inputs.without_loads());
-        let smallest = self.settings.discretisation.smallest_part;
+        let smallest = self.settings.smallest_part;
         let mut report = Report::start();
         let (mut done, mut part) = (0.0, 1.0);
         while done < 1.0 && part >= smallest {
@@ -165,23 +173,23 @@ impl Comparison {
             starts.push(start + element.offset);
             start += element.offset + element.length;
         }
-        placed.contact(&self.settings, self.magnet.as_ref(), inputs, |k, s| shape.trace.pose(starts[k] + s))
+        placed.contact(&self.model, self.magnet.as_ref(), inputs, |k, s| shape.trace.pose(starts[k] + s))
     }
 
     /// One solve without further parts; whether it succeeded.
     fn attempt(&mut self, inputs: &Inputs, report: &mut Report) -> bool {
-        let knobs = self.settings.discretisation;
+        let settings = self.settings;
         let mut state = self.state.clone();
         self.rules.choose(&self.line.chain, &state.shape.nodes);
         for _ in 0..=RULE_CHOICES {
             let around = self.around(inputs, self.magnet.as_ref());
-            let end = state.engine.solve(&around, &knobs);
+            let end = state.engine.solve(&around, &settings);
             report.iterations += end.iterations;
             report.residual = end.residual;
             if !end.converged {
                 return false;
             }
-            let Some(shape) = state.engine.shape(&around, &knobs) else { return false };
+            let Some(shape) = state.engine.shape(&around, &settings) else { return false };
             state.shape = shape;
             // The rules must be those of the solved shape, or the answer would depend on the way to it.
             if !self.rules.choose(&self.line.chain, &state.shape.nodes) {
@@ -195,62 +203,11 @@ impl Comparison {
     fn around<'a>(&'a self, inputs: &'a Inputs, magnet: Option<&'a Assembly>) -> Surroundings<'a> {
         Surroundings {
             line: &self.line,
-            interaction: self.settings.interaction,
+            interaction: self.model.interaction,
             inputs,
             field: Source::external(magnet, inputs),
             rules: &self.rules,
         }
-    }
-
-    /// Pose of the tip: the distal face of the last body.
-    #[must_use]
-    pub fn tip(&self) -> Pose {
-        let nodes = &self.state.shape.nodes;
-        nodes[nodes.len() - 1].advanced(self.line.chain.tip_offset)
-    }
-
-    /// Poses of the rings' centres, base to tip.
-    pub fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
-        let nodes = &self.state.shape.nodes;
-        self.line.chain.rings.iter().map(|body| body.centre(&nodes[body.node]))
-    }
-
-    /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.
-    pub fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
-        self.state.shape.trace.core_angles(&self.line).into_iter()
-    }
-
-    /// Unstrained arc length (m) and position (m) of the shape points, base to tip.
-    pub fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
-        self.arc_lengths.iter().map(|s| (*s, self.state.shape.trace.pose(*s).position))
-    }
-
-    /// Force and moment (about the base position) that the clamp exerts.
-    #[must_use]
-    pub fn base_reaction(&self) -> Wrench {
-        self.state.wrenches[1]
-    }
-
-    /// Total external magnetic wrench on the manipulator in the last solved shape, torque about the base position.
-    #[must_use]
-    pub fn magnetic_wrench(&self) -> Wrench {
-        self.state.wrenches[0]
-    }
-
-    /// Wrench on the external magnet about its centre.
-    #[must_use]
-    pub fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
-            return no_wrench();
-        }
-        let background = self.background(inputs).unwrap_or_else(no_wrench);
-        reaction_on_magnet(&self.magnetic_wrench(), &background, inputs)
-    }
-
-    /// External field (T) at a point, m; `None` inside a magnet.
-    #[must_use]
-    pub fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        Source::external(self.magnet.as_ref(), inputs).at(point)
     }
 
     /// What the background field alone does to the last solved shape.
@@ -286,9 +243,49 @@ impl Comparison {
     }
 }
 
+impl Solution for Comparison {
+    fn tip(&self) -> Pose {
+        let nodes = &self.state.shape.nodes;
+        nodes[nodes.len() - 1].advanced(self.line.chain.tip_offset)
+    }
+
+    fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
+        let nodes = &self.state.shape.nodes;
+        self.line.chain.rings.iter().map(|body| body.centre(&nodes[body.node]))
+    }
+
+    fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.state.shape.trace.core_angles(&self.line).into_iter()
+    }
+
+    fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
+        self.arc_lengths.iter().map(|s| (*s, self.state.shape.trace.pose(*s).position))
+    }
+
+    fn base_reaction(&self) -> Wrench {
+        self.state.wrenches[1]
+    }
+
+    fn magnetic_wrench(&self) -> Wrench {
+        self.state.wrenches[0]
+    }
+
+    fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
+        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
+            return no_wrench();
+        }
+        let background = self.background(inputs).unwrap_or_else(no_wrench);
+        reaction_on_magnet(&self.magnetic_wrench(), &background, inputs)
+    }
+
+    fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        Source::external(self.magnet.as_ref(), inputs).at(point)
+    }
+}
+
 impl State {
     fn straight(line: &Line, settings: &Settings) -> Result<Self, Error> {
-        let engine = Engine::new(settings.method, line, &settings.discretisation).ok_or_else(|| {
+        let engine = Engine::new(line, settings).ok_or_else(|| {
             Error::Unsupported("the potential method is not one of the other methods".into())
         })?;
         let (trace, nodes) = Trace::straight(line);

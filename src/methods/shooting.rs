@@ -9,7 +9,7 @@ use super::engine::Shape;
 use super::strong_form::State;
 use super::surroundings::{NodeLoad, Surroundings, column};
 use super::trace::Trace;
-use crate::equilibrium::settings::Interaction;
+use crate::equilibrium::Interaction;
 use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::{self, Ending, LeastSquares};
 use crate::rod::Order;

@@ -1,8 +1,7 @@
 //! The chain as differential equations see it: rigid offset and spans of each element, one after another.
 
 use crate::design::{Design, Span};
-use crate::equilibrium::chain::Chain;
-use crate::equilibrium::settings::{Interaction, Settings};
+use crate::equilibrium::{Chain, Interaction, Settings};
 use crate::error::Error;
 
 /// A place on the deformable part of the chain.

@@ -15,10 +15,12 @@ mod node_system;
 mod planar;
 mod plane;
 mod runge_kutta;
+mod settings;
 mod shooting;
 mod strong_form;
 mod surroundings;
 mod trace;
 
 pub use comparison::Comparison;
-pub use method::{Discretisation, Method};
+pub use method::Method;
+pub use settings::Settings;

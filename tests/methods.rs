@@ -1,8 +1,9 @@
 //! The other methods beside the potential one: the same equilibria, to the accuracy that each states, or none.
 
 use mcm::design::Design;
-use mcm::equilibrium::{Discretisation, Inputs, Interaction, Method, Settings};
-use mcm::manipulator::{Manipulator, Outputs, Scene, Status};
+use mcm::equilibrium::{self, Inputs, Interaction};
+use mcm::manipulator::{Compared, Outputs, Scene, Solve, Status};
+use mcm::methods::{Method, Settings};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{
@@ -35,15 +36,24 @@ fn scene(table: &str, segments: usize, interaction: Interaction) -> Scene {
     scene
 }
 
-fn manipulator(scene: &Scene, settings: Settings) -> Manipulator {
-    Scene { settings, ..scene.clone() }.manipulator(21).expect("supported")
+fn device(scene: &Scene, solver: Settings) -> Box<dyn Solve> {
+    Scene { solver, ..scene.clone() }.device(21).expect("supported")
 }
 
-fn solved(scene: &Scene, settings: Settings) -> Outputs {
-    let mut manipulator = manipulator(scene, settings);
+fn by(method: Method) -> Settings {
+    Settings { method, ..Settings::default() }
+}
+
+fn solved(scene: &Scene, solver: Settings) -> Outputs {
+    let mut manipulator = device(scene, solver);
     let outputs = manipulator.solve(&scene.inputs).expect("valid inputs");
-    assert!(outputs.status != Status::NotSolved, "{settings:?}: {outputs:?}");
+    assert!(outputs.status != Status::NotSolved, "{solver:?}: {outputs:?}");
     outputs.clone()
+}
+
+/// By the potential method.
+fn reference(scene: &Scene, settings: equilibrium::Settings) -> Outputs {
+    solved(&Scene { settings, ..scene.clone() }, Settings::default())
 }
 
 /// Errors beside a reference: positions over the length, and wrenches.
@@ -86,9 +96,9 @@ fn every_method_agrees_with_the_potential_one() {
             for interaction in [Interaction::None, Interaction::Rings] {
                 let scene = scene(table, segments, interaction);
                 let length = scene.design().expect("a design").length();
-                let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+                let reference = reference(&scene, equilibrium::Settings { degree: 8, ..scene.settings });
                 for (method, label) in others() {
-                    let got = solved(&scene, Settings { method, ..scene.settings });
+                    let got = solved(&scene, by(method));
                     let error = errors(length, &got, &reference);
                     let Errors { positions, wrenches, energy } = error;
                     let case = format!("{label}, {name}, S = {segments}, {}", interaction.name());
@@ -110,19 +120,20 @@ fn each_converges_with_its_order() {
     for interaction in [Interaction::None, Interaction::Rings] {
         let scene = scene(SCENES[1].1, 3, interaction);
         let length = scene.design().expect("a design").length();
-        let reference = solved(&scene, Settings { degree: 8, ..scene.settings });
+        let reference = reference(&scene, equilibrium::Settings { degree: 8, ..scene.settings });
         let exact = reference.tip.position / length;
         for (method, label) in others().filter(|row| row.0 != Method::ConstantCurvature) {
             let at = |fineness: usize| {
-                let discretisation = Discretisation {
+                let solver = Settings {
+                    method,
                     steps: 4 * fineness,
                     stages: 1,
                     intervals: 4 * fineness,
                     mesh_tolerance: 1e9, // as it is
                     tolerance: METHOD_RESIDUAL,
-                    ..Discretisation::default()
+                    ..Settings::default()
                 };
-                let got = solved(&scene, Settings { method, discretisation, ..scene.settings });
+                let got = solved(&scene, solver);
                 got.tip.position / length
             };
             let [coarse, fine, finest] = [2, 4, 16].map(at);
@@ -135,9 +146,8 @@ fn each_converges_with_its_order() {
             assert!(method == Method::Collocation || error <= METHOD_FINE, "{case}");
         }
         // A tolerance instead of a mesh, and three Gauss points.
-        let discretisation =
-            Discretisation { mesh_tolerance: 1e-6, tolerance: METHOD_RESIDUAL, ..Discretisation::default() };
-        let got = solved(&scene, Settings { method: Method::Collocation, discretisation, ..scene.settings });
+        let solver = Settings { mesh_tolerance: 1e-6, tolerance: METHOD_RESIDUAL, ..by(Method::Collocation) };
+        let got = solved(&scene, solver);
         let error = (got.tip.position / length - exact).norm();
         assert!(error <= METHOD_FINE, "collocation to a residual of 1e-6: {error:e}");
     }
@@ -162,10 +172,8 @@ fn a_method_solves_or_says_that_it_has_not() {
                 let uniform_field = turn * Vector3::z() * (1e-3 * field);
                 let inputs = Inputs { uniform_field, ..scene.inputs.clone() };
                 for (method, label) in others() {
-                    let discretisation =
-                        Discretisation { iterations: 30, smallest_part: 1.0, ..Discretisation::default() };
-                    let settings = Settings { method, discretisation, ..scene.settings };
-                    let mut manipulator = manipulator(&scene, settings);
+                    let solver = Settings { iterations: 30, smallest_part: 1.0, ..by(method) };
+                    let mut manipulator = device(&scene, solver);
                     let straight = manipulator.outputs().tip;
                     let outputs = manipulator.solve(&inputs).expect("valid inputs");
                     let case =
@@ -195,13 +203,12 @@ fn a_method_solves_or_says_that_it_has_not() {
 fn warm_is_as_cold() {
     for (method, label) in others() {
         let scene = scene(SCENES[1].1, 3, Interaction::Rings);
-        let settings = Settings { method, ..scene.settings };
-        let mut warm = manipulator(&scene, settings);
+        let mut warm = device(&scene, by(method));
         assert_eq!(warm.solve(&scene.inputs).expect("valid").status, Status::Solved, "{label}");
         let mut moved = scene.clone();
         moved.inputs.magnet.position.z += 5e-3;
         assert_eq!(warm.solve(&moved.inputs).expect("valid").status, Status::Solved, "{label}");
-        let cold = solved(&moved, settings);
+        let cold = solved(&moved, by(method));
         let length = scene.design().expect("a design").length();
         let tips = [warm.outputs().tip.position, cold.tip.position].map(|p| p / length);
         assert_close(label, tips[0].as_slice(), tips[1].as_slice(), METHOD_COARSE);
@@ -212,36 +219,36 @@ fn warm_is_as_cold() {
 
 #[test]
 fn what_a_method_cannot_is_refused() {
-    let settings = |method, interaction| Settings { method, interaction, ..Settings::default() };
-    let new = |settings| Manipulator::new(&design(), None, settings, 2);
+    let model = |interaction| equilibrium::Settings { interaction, ..Default::default() };
+    let new = |model, settings| Compared::new(&design(), None, model, settings, 2);
     for (method, label) in others() {
         for interaction in [Interaction::Preceding, Interaction::Full, Interaction::Auto] {
-            let error = new(settings(method, interaction)).expect_err(label).to_string();
+            let error = new(model(interaction), by(method)).expect_err(label).to_string();
             let level = interaction.name();
             let expected =
                 format!("method \"{label}\" has no interaction \"{level}\": choose \"none\" or \"rings\"");
             assert!(error.contains(&expected), "{error}");
         }
-        let stop = Settings { bending_stop: true, ..settings(method, Interaction::None) };
-        assert!(new(stop).expect_err(label).to_string().contains("bending stop"));
+        let stop = equilibrium::Settings { bending_stop: true, ..model(Interaction::None) };
+        assert!(new(stop, by(method)).expect_err(label).to_string().contains("bending stop"));
 
-        let mut manipulator = new(settings(method, Interaction::None)).expect("supported");
+        let mut manipulator = new(model(Interaction::None), by(method)).expect("supported");
         let mut inputs = Inputs::unloaded(2);
         inputs.uniform_field.y = 0.02;
         let outputs = manipulator.solve(&inputs).expect("valid inputs");
         assert_eq!((outputs.status, outputs.method, outputs.stable), (Status::Solved, method, None));
-        let tolerances = manipulator.set_tolerances(1e-5, 1e-3);
-        for error in [manipulator.jacobian().map(drop), manipulator.snapshot().map(drop), tolerances] {
+        let scene = Scene { solver: by(method), ..scene("", 1, Interaction::None) };
+        for error in [manipulator.jacobian().map(drop), scene.manipulator(2).map(drop)] {
             assert!(error.expect_err(label).to_string().contains(label));
         }
     }
-    let mut planar = new(settings(Method::Planar, Interaction::None)).expect("supported");
+    let mut planar = new(model(Interaction::None), by(Method::Planar)).expect("supported");
     let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.01, 0.0), ..Inputs::unloaded(2) };
     assert!(planar.solve(&inputs).expect("a plane").status == Status::Solved);
     inputs.tip_force.x = 0.01;
     assert!(planar.solve(&inputs).expect_err("no plane").to_string().contains("does not lie in one plane"));
-    let coarse = Discretisation { steps: 0, ..Discretisation::default() };
-    assert!(new(Settings { discretisation: coarse, ..Settings::default() }).is_err());
+    assert!(new(model(Interaction::None), Settings { steps: 0, ..by(Method::Planar) }).is_err());
+    assert!(new(model(Interaction::None), by(Method::Potential)).is_err(), "it is none of the others");
 }
 
 fn design() -> Design {

@@ -6,7 +6,7 @@ use super::line::{Line, Place};
 use super::strong_form::Rates;
 use super::surroundings::Surroundings;
 use crate::design::SpanKind;
-use crate::equilibrium::dead::{add_wrench, no_wrench};
+use crate::equilibrium::{add_wrench, no_wrench};
 use crate::geometry::{Pose, RotationVector, rotation_log};
 use crate::magnetics::Wrench;
 use crate::numerics::quadrature::gauss_legendre;

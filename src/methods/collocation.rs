@@ -13,9 +13,9 @@ use super::condensation::Condensed;
 use super::engine::Shape;
 use super::line::Line;
 use super::mesh::{Interval, Tableau};
-use super::method::Discretisation;
 use super::node_shape::{Basis, NodeShape, couplings, flat, size};
 use super::node_system::{Defects, NodeSystem};
+use super::settings::Settings;
 use super::strong_form::{State, Vector12};
 use super::surroundings::Surroundings;
 use super::trace::Trace;
@@ -60,16 +60,16 @@ struct Collocated<'a, 'b> {
 }
 
 impl Collocation {
-    pub(super) fn straight(line: &Line, knobs: &Discretisation) -> Self {
+    pub(super) fn straight(line: &Line, settings: &Settings) -> Self {
         let mesh = (0..line.count())
-            .map(|element| Interval::straight(line, element, knobs.intervals, knobs.stages))
+            .map(|element| Interval::straight(line, element, settings.intervals, settings.stages))
             .collect();
         let guess = Guess { shape: NodeShape::straight(line), mesh };
-        Self { tableau: Tableau::new(knobs.stages), guess }
+        Self { tableau: Tableau::new(settings.stages), guess }
     }
 
     /// Solves and refines until no interval's residual is too large.
-    pub(super) fn solve(&mut self, around: &Surroundings<'_>, knobs: &Discretisation) -> Ending {
+    pub(super) fn solve(&mut self, around: &Surroundings<'_>, settings: &Settings) -> Ending {
         let base = around.inputs.base;
         let turn = base.rotation * self.guess.shape.nodes[0].rotation.transpose();
         let turned = |element: &Vec<Interval>| element.iter().map(|i| i.turned(&turn)).collect();
@@ -80,13 +80,13 @@ impl Collocation {
         let mut iterations = 0;
         for _ in 0..ROUNDS {
             let mut equations = Collocated::new(around, &self.tableau);
-            let end = newton::solve(&mut equations, &mut guess, knobs.tolerance, knobs.iterations);
+            let end = newton::solve(&mut equations, &mut guess, settings.tolerance, settings.iterations);
             iterations += end.iterations;
             let end = Ending { iterations, ..end };
             if !end.converged {
                 return end;
             }
-            let Some(refined) = equations.refined(&mut guess, knobs.mesh_tolerance) else { break };
+            let Some(refined) = equations.refined(&mut guess, settings.mesh_tolerance) else { break };
             if !refined {
                 self.guess = guess;
                 return end;

@@ -5,11 +5,12 @@ use nalgebra::Vector6;
 use super::arcs::Arcs;
 use super::collocation::Collocation;
 use super::line::Line;
-use super::method::{Discretisation, Method};
+use super::method::Method;
 use super::multiple_shooting::{self, Spatial};
 use super::node_shape::NodeShape;
 use super::planar::InPlane;
 use super::plane::Plane;
+use super::settings::Settings;
 use super::shooting::Shooting;
 use super::surroundings::Surroundings;
 use super::trace::Trace;
@@ -37,27 +38,27 @@ pub(super) struct Shape {
 
 impl Engine {
     /// Straight; `None` for the potential method, which is none of these.
-    pub(super) fn new(method: Method, line: &Line, knobs: &Discretisation) -> Option<Self> {
-        match method {
+    pub(super) fn new(line: &Line, settings: &Settings) -> Option<Self> {
+        match settings.method {
             Method::Potential => None,
-            Method::ShootingPaper => Some(Self::Shooting(Shooting::new(false, knobs.steps))),
-            Method::ShootingExact => Some(Self::Shooting(Shooting::new(true, knobs.steps))),
+            Method::ShootingPaper => Some(Self::Shooting(Shooting::new(false, settings.steps))),
+            Method::ShootingExact => Some(Self::Shooting(Shooting::new(true, settings.steps))),
             Method::MultipleShooting => Some(Self::MultipleShooting(NodeShape::straight(line))),
             Method::Planar => Some(Self::Planar(NodeShape::straight(line))),
-            Method::Collocation => Some(Self::Collocation(Collocation::straight(line, knobs))),
+            Method::Collocation => Some(Self::Collocation(Collocation::straight(line, settings))),
             Method::ConstantCurvature => Some(Self::Arcs(Arcs::straight(line))),
         }
     }
 
     /// Solves from the last solution, which stays as it was if that fails.
-    pub(super) fn solve(&mut self, around: &Surroundings<'_>, knobs: &Discretisation) -> Ending {
+    pub(super) fn solve(&mut self, around: &Surroundings<'_>, settings: &Settings) -> Ending {
         let base = &around.inputs.base;
-        let (tolerance, iterations) = (knobs.tolerance, knobs.iterations);
+        let (tolerance, iterations) = (settings.tolerance, settings.iterations);
         match self {
             Self::Shooting(shooting) => shooting.solve(around, tolerance, iterations),
             Self::MultipleShooting(shape) => {
                 *shape = shape.carried(base);
-                let space = Spatial::new(around, knobs.steps);
+                let space = Spatial::new(around, settings.steps);
                 multiple_shooting::solve(around, &space, shape, tolerance, iterations)
             }
             Self::Planar(shape) => {
@@ -65,27 +66,27 @@ impl Engine {
                     return Ending { converged: false, iterations: 0, residual: f64::INFINITY };
                 };
                 *shape = plane.carried(shape);
-                let plane = InPlane::new(around, plane, knobs.steps);
+                let plane = InPlane::new(around, plane, settings.steps);
                 multiple_shooting::solve(around, &plane, shape, tolerance, iterations)
             }
-            Self::Collocation(collocation) => collocation.solve(around, knobs),
+            Self::Collocation(collocation) => collocation.solve(around, settings),
             Self::Arcs(arcs) => arcs.solve(around, tolerance, iterations),
         }
     }
 
     /// The last solution, in the surroundings in which it was found.
-    pub(super) fn shape(&self, around: &Surroundings<'_>, knobs: &Discretisation) -> Option<Shape> {
+    pub(super) fn shape(&self, around: &Surroundings<'_>, settings: &Settings) -> Option<Shape> {
         let of_nodes =
             |shape: &NodeShape, trace| Shape { nodes: shape.nodes.clone(), base: shape.wrenches[0], trace };
         match self {
             Self::Shooting(shooting) => shooting.shape(around),
             Self::MultipleShooting(shape) => {
-                let trace = multiple_shooting::trace(around, &Spatial::new(around, knobs.steps), shape)?;
+                let trace = multiple_shooting::trace(around, &Spatial::new(around, settings.steps), shape)?;
                 Some(of_nodes(shape, trace))
             }
             Self::Planar(shape) => {
                 let plane = Plane::of(around.inputs, around.has_magnet()).ok()?;
-                let plane = InPlane::new(around, plane, knobs.steps);
+                let plane = InPlane::new(around, plane, settings.steps);
                 Some(of_nodes(shape, multiple_shooting::trace(around, &plane, shape)?))
             }
             Self::Collocation(collocation) => collocation.shape(around),

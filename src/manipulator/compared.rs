@@ -1,0 +1,80 @@
+//! A manipulator whose shapes another method finds than the potential one.
+
+use super::outputs::{Outputs, Resolution};
+use super::solve::Solve;
+use super::{Inputs, Jacobian};
+use crate::design::Design;
+use crate::equilibrium::Settings;
+use crate::error::Error;
+use crate::magnetics::Assembly;
+use crate::methods::{self, Comparison, Method};
+
+/// A manipulator by one of the methods that are kept to compare with, which remembers its shape from one solve to the next.
+///
+/// It tells nothing of stability, error or derivatives.
+#[derive(Debug, Clone)]
+pub struct Compared {
+    comparison: Comparison,
+    outputs: Outputs,
+}
+
+impl Compared {
+    /// A manipulator of `design` near `magnet` (`None`: no external magnet), unsolved.
+    ///
+    /// # Errors
+    /// As [`Comparison::new`].
+    pub fn new(
+        design: &Design,
+        magnet: Option<&Assembly>,
+        model: Settings,
+        settings: methods::Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
+        let comparison = Comparison::new(design, magnet, model, settings, shape_points)?;
+        let outputs = Outputs::straight(&comparison, Self::resolution(&comparison));
+        Ok(Self { comparison, outputs })
+    }
+
+    fn resolution(comparison: &Comparison) -> Resolution {
+        let model = comparison.model();
+        Resolution {
+            interaction: model.interaction,
+            degree: model.degree,
+            method: comparison.settings().method,
+            error_estimate: 0.0,
+        }
+    }
+}
+
+impl Solve for Compared {
+    fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
+        let report = self.comparison.solve(inputs)?;
+        if report.solved() {
+            self.outputs.read(&self.comparison, inputs, Self::resolution(&self.comparison));
+        }
+        self.outputs.record(&report, self.comparison.model().fold_margin);
+        Ok(&self.outputs)
+    }
+
+    fn outputs(&self) -> &Outputs {
+        &self.outputs
+    }
+
+    fn reset(&mut self) {
+        self.comparison.reset();
+        self.outputs = Outputs::straight(&self.comparison, Self::resolution(&self.comparison));
+    }
+
+    fn measure_margin(&mut self) -> &Outputs {
+        &self.outputs
+    }
+
+    fn jacobian(&self) -> Result<Jacobian, Error> {
+        let (own, other) = (self.comparison.settings().method.name(), Method::Potential.name());
+        Err(Error::NoDerivatives(format!("method \"{own}\" has no derivatives: choose \"{other}\"")))
+    }
+
+    fn duplicate(&self) -> Box<dyn Solve> {
+        Box::new(self.clone())
+    }
+}

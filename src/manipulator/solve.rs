@@ -1,0 +1,78 @@
+//! Inputs in, shape and forces out: what the potential method and the others have in common for those who compare them.
+
+use std::fmt;
+
+use super::compared::Compared;
+use super::{Inputs, Jacobian, Manipulator, Outputs};
+use crate::error::Error;
+
+/// A manipulator by any method; see [`super::Scene::solver`].
+pub trait Solve: fmt::Debug {
+    /// As [`Manipulator::solve`].
+    ///
+    /// # Errors
+    /// As [`Manipulator::solve`].
+    fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error>;
+
+    /// As [`Manipulator::outputs`].
+    fn outputs(&self) -> &Outputs;
+
+    /// Forgets the shape and the count of snaps.
+    fn reset(&mut self);
+
+    /// As [`Manipulator::measure_margin`]; methods that know no stability leave the outputs as they are.
+    fn measure_margin(&mut self) -> &Outputs;
+
+    /// As [`Manipulator::jacobian`].
+    ///
+    /// # Errors
+    /// As [`Manipulator::jacobian`]; [`Error::NoDerivatives`] by any other method.
+    fn jacobian(&self) -> Result<Jacobian, Error>;
+
+    /// A full snapshot: it answers bit for bit as the original would.
+    fn duplicate(&self) -> Box<dyn Solve>;
+}
+
+impl Solve for Manipulator {
+    fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
+        Self::solve(self, inputs)
+    }
+
+    fn outputs(&self) -> &Outputs {
+        Self::outputs(self)
+    }
+
+    fn reset(&mut self) {
+        Self::reset(self);
+    }
+
+    fn measure_margin(&mut self) -> &Outputs {
+        Self::measure_margin(self)
+    }
+
+    fn jacobian(&self) -> Result<Jacobian, Error> {
+        Self::jacobian(self)
+    }
+
+    fn duplicate(&self) -> Box<dyn Solve> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn Solve> {
+    fn clone(&self) -> Self {
+        self.duplicate()
+    }
+}
+
+impl From<Manipulator> for Box<dyn Solve> {
+    fn from(manipulator: Manipulator) -> Self {
+        Box::new(manipulator)
+    }
+}
+
+impl From<Compared> for Box<dyn Solve> {
+    fn from(compared: Compared) -> Self {
+        Box::new(compared)
+    }
+}
