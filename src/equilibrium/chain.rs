@@ -10,6 +10,7 @@ use crate::magnetics::{AxialSource, FieldTable, Outline};
 use crate::rod::{Element, Piece, Resolution, Sight};
 
 use super::settings::Settings;
+use super::terms::Frame;
 use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
@@ -156,6 +157,13 @@ impl Chain {
             |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
         let radii = chains.iter().map(widest).collect();
         Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, views })
+    }
+
+    /// What the nodes carry, and which: rings, and the tip on the last one.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, Frame<'_>)> {
+        let rings =
+            self.rings.iter().enumerate().map(|(number, body)| (body.node, Frame::Ring(number, body)));
+        rings.chain([(self.elements.len(), Frame::Tip(self.tip_offset))])
     }
 
     /// Unstrained length, m.

@@ -2,13 +2,12 @@
 
 use nalgebra::{DMatrix, DMatrixView, Matrix3, Vector3};
 
-use super::dead::weight;
-use super::field_rates::{FieldRate, field_rates};
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input};
 use super::potential::Potential;
+use super::terms::Frame;
 use crate::geometry::hat;
-use crate::magnetics::{Assembly, LinearField};
+use crate::magnetics::LinearField;
 use crate::rod::START;
 
 /// Mixed derivatives at a fixed base, one column an input; the base's own columns are zero.
@@ -18,38 +17,6 @@ pub(super) struct Columns {
     pub(super) gradient: DMatrix<f64>,
     /// By a rigid displacement (m) and rotation (rad, about the base) of the whole chain.
     pub(super) clamp: DMatrix<f64>,
-}
-
-/// Derivatives of a load's energy by the position and rotation of its frame (world axes), one column an input.
-struct Wrenches(DMatrix<f64>);
-
-impl Wrenches {
-    fn none(counts: &Counts) -> Self {
-        Self(DMatrix::zeros(6, counts.inputs()))
-    }
-
-    fn add(&mut self, column: usize, force: &Vector3<f64>, moment: &Vector3<f64>) {
-        for axis in 0..3 {
-            self.0[(axis, column)] += force[axis];
-            self.0[(3 + axis, column)] += moment[axis];
-        }
-    }
-
-    /// Adds a dipole (A m2) at `arm` from the frame's origin.
-    fn add_dipole(&mut self, moment: &Vector3<f64>, arm: &Vector3<f64>, rates: &[FieldRate]) {
-        for (column, (field, gradient)) in rates.iter().enumerate() {
-            let force = -gradient * moment;
-            self.add(column, &force, &(arm.cross(&force) - moment.cross(field)));
-        }
-    }
-
-    /// Adds `size` times a unit dead force along each axis, at `arm` from the frame's origin.
-    fn add_dead(&mut self, input: Input, size: f64, arm: &Vector3<f64>) {
-        for (axis, column) in input.columns().enumerate() {
-            let force = Vector3::ith(axis, -size);
-            self.add(column, &force, &arm.cross(&force));
-        }
-    }
 }
 
 /// The vectors of a 6-row matrix turned by `rotation`.
@@ -64,28 +31,28 @@ pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<
 impl Potential<'_> {
     /// The columns at the shape that was linearised last; `None` where a body lies inside or on an edge of
     /// the magnet, be it switched off.
-    pub(super) fn columns(&mut self, magnet: Option<&Assembly>, counts: &Counts) -> Option<Columns> {
+    pub(super) fn columns(&mut self, counts: &Counts) -> Option<Columns> {
         let mut gradient = DMatrix::zeros(self.chain.freedoms(), counts.inputs());
         let last = self.chain.elements.len();
-        let mut clamp = self.on_node(last, magnet, counts)?;
+        let mut clamp = self.on_node(last, counts)?;
         for k in (0..last).rev() {
             let axes = self.work.nodes[k].rotation;
             let into = axes.transpose();
             let mut block = self.end_motion(k) * turned(&into, &clamp);
-            for station in 0..self.chain.elements[k].stations.len() {
-                let load = turned(&into, &self.on_station(k, station, magnet, counts)?);
-                let element = &self.chain.elements[k];
-                let state = &self.work.configurations[k].stations[station];
+            let element = &self.chain.elements[k];
+            for (index, station) in element.stations.iter().enumerate() {
+                let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
+                let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0);
+                let state = &self.work.configurations[k].stations[index];
                 let tangent = &mut self.work.tangents[k];
                 let size = tangent.size;
-                let motion =
-                    DMatrixView::from_slice(tangent.station_motion(element, station, state), size, 6);
+                let motion = DMatrixView::from_slice(tangent.station_motion(element, index, state), size, 6);
                 block.gemm(1.0, &motion, &load, 1.0);
             }
             gradient
                 .rows_mut(self.chain.first[k], block.nrows() - START)
                 .copy_from(&block.rows(START, block.nrows() - START));
-            clamp = turned(&axes, &block.rows(0, START).into_owned()) + self.on_node(k, magnet, counts)?;
+            clamp = turned(&axes, &block.rows(0, START).into_owned()) + self.on_node(k, counts)?;
         }
         Some(Columns { gradient, clamp })
     }
@@ -100,59 +67,14 @@ impl Potential<'_> {
         DMatrix::from_column_slice(size, 6, tangent.motion(element, &row, &configuration.end.position, &left))
     }
 
-    /// Loads on a station, in world axes about its own position.
-    fn on_station(
-        &self,
-        k: usize,
-        index: usize,
-        magnet: Option<&Assembly>,
-        counts: &Counts,
-    ) -> Option<DMatrix<f64>> {
-        let station = &self.chain.elements[k].stations[index];
-        let pose = self.work.station(k, index);
-        let mut out = Wrenches::none(counts);
-        let matter = &station.matter;
-        if matter.magnetisation != 0.0 {
-            let points = self.field.points(station);
-            let moment = pose.axis() * (matter.magnetisation * matter.moments.volume / points.len() as f64);
-            for point in points {
-                let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
-                out.add_dipole(&moment, &arm, &field_rates(magnet, self.inputs, &(pose.position + arm))?);
-            }
-        }
-        for (axis, column) in Input::Gravity.columns().enumerate() {
-            let load = weight(&station.matter, &pose, &Vector3::ith(axis, 1.0));
-            out.add(column, &load.force, &load.moment());
-        }
-        Some(out.0)
-    }
-
-    /// Loads on a node: its ring's, and the tip's.
-    fn on_node(&self, node: usize, magnet: Option<&Assembly>, counts: &Counts) -> Option<DMatrix<f64>> {
+    /// Loads on what a node carries.
+    fn on_node(&self, node: usize, counts: &Counts) -> Option<DMatrix<f64>> {
         let pose = self.work.nodes[node];
-        let axis = pose.axis();
-        let mut out = Wrenches::none(counts);
-        for (index, body) in self.chain.rings.iter().enumerate().filter(|(_, body)| body.node == node) {
-            let half = body.half_length();
-            let centre = axis * half;
-            let local =
-                self.inputs.magnet.rotation.tr_mul(&(pose.position + centre - self.inputs.magnet.position));
-            let reach = magnet.map_or(f64::INFINITY, |magnet| magnet.distance(&local));
-            for (height, volume) in self.rules.external(index, reach).points() {
-                let arm = axis * (half + height);
-                let rates = field_rates(magnet, self.inputs, &(pose.position + arm))?;
-                out.add_dipole(&(axis * (body.magnetisation * volume)), &arm, &rates);
-            }
-            out.add_dead(Input::Gravity, body.ring.mass, &centre);
-            out.add_dead(Input::RingForce(index), 1.0, &centre);
+        let mut out = DMatrix::zeros(6, counts.inputs());
+        for (_, frame) in self.chain.frames().filter(|(own, _)| *own == node) {
+            out += self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0;
         }
-        if node == self.chain.elements.len() {
-            out.add_dead(Input::TipForce, 1.0, &(axis * self.chain.tip_offset));
-            for (axis, column) in Input::TipMoment.columns().enumerate() {
-                out.add(column, &Vector3::zeros(), &Vector3::ith(axis, -1.0));
-            }
-        }
-        Some(out.0)
+        Some(out)
     }
 }
 

@@ -4,8 +4,6 @@ use nalgebra::{DMatrix, DVectorViewMut, Matrix3};
 
 use super::potential::Potential;
 use super::reduction::turn_nodes;
-use super::settings::Interaction;
-use crate::geometry::hat;
 use crate::numerics::cholesky;
 use crate::numerics::trust_region::Objective;
 use crate::rod::Order;
@@ -43,23 +41,27 @@ impl Objective for Potential<'_> {
             }
         }
         self.work.lu = None;
-        let conservative = self.conservative();
+        let conservative = self.terms.have_potential();
         if !conservative {
-            self.work.lu = Some(self.asymmetric_matrix().lu());
+            let matrix = DMatrix::from_row_slice(size, size, &self.work.factor);
+            // What is left in `factor` is the symmetric part.
+            self.work.factor.copy_from_slice(((&matrix + matrix.transpose()) * 0.5).as_slice());
+            self.work.lu = Some(matrix.lu());
         }
-        self.work.definite = !self.one_sided() && cholesky::factorise(&mut self.work.factor, size);
+        self.work.definite =
+            !self.terms.pairs.one_sided() && cholesky::factorise(&mut self.work.factor, size);
         let regular = self.work.lu.as_ref().is_some_and(nalgebra::LU::is_invertible);
         self.work.factored = if conservative { self.work.definite } else { regular };
         self.work.factored
     }
 
     fn dissipates(&self) -> bool {
-        self.work.definite || self.one_sided()
+        self.work.definite || self.terms.pairs.one_sided()
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        let spans = self.settings.interaction.acts_on_spans();
-        let mutual = self.settings.interaction == Interaction::Full;
+        let spans = self.terms.spans.act();
+        let mutual = self.terms.spans.are_mutual();
         let work = &mut *self.work;
         work.rhs.fill(0.0);
         for (k, reduction) in work.reductions.iter().enumerate() {
@@ -121,11 +123,11 @@ impl Potential<'_> {
                 }
             }
         }
-        if !self.settings.interaction.acts_on_spans() {
+        if !self.terms.spans.act() {
             return true;
         }
         reduction.condense_outer(&work.cross[k], size);
-        let mutual = self.settings.interaction == Interaction::Full;
+        let mutual = self.terms.spans.are_mutual();
         for column in 0..size {
             let mut nodes = core::array::from_fn(|i| reduction.condensed_outer[i * size + column]);
             turn_nodes(&axes, &mut nodes);
@@ -147,16 +149,6 @@ impl Potential<'_> {
             }
         }
         true
-    }
-
-    /// The matrix of the nodes with what a dead moment on the tip adds, which is not symmetric.
-    fn asymmetric_matrix(&self) -> DMatrix<f64> {
-        let size = 6 * self.chain.elements.len();
-        let mut matrix = DMatrix::from_row_slice(size, size, &self.work.factor);
-        let turning = hat(&self.inputs.tip_moment) * -0.5;
-        let mut tip = matrix.view_mut((size - 3, size - 3), (3, 3));
-        tip += turning;
-        matrix
     }
 }
 

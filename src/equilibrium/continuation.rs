@@ -152,7 +152,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Family for Scaled<F> {
             DVector::from_column_slice(potential.gradient()).component_mul(&per_unit)
         };
         let mut potential = self.model.potential(&here, unknowns);
-        if !potential.conservative() {
+        if !potential.terms.have_potential() {
             let reason = "branches are traced where all forces have a potential: not at the level `preceding`, nor with a \
                           moment on the tip";
             return Err(Error::Unsupported(reason.into()));

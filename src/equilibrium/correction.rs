@@ -7,7 +7,7 @@ use super::outcome::Outcome;
 use super::potential::{Potential, THOROUGH, Workspace};
 use super::rules::PairRules;
 use super::settings::Settings;
-use super::source::Source;
+use super::terms::Terms;
 use crate::magnetics::Assembly;
 use crate::numerics::eigenvalue::{Lanczos, Search, inner};
 use crate::numerics::trust_region::{Objective, dual_norm, norm, spread};
@@ -85,8 +85,9 @@ impl<'a> Scene<'a> {
         work: &'a mut Workspace,
     ) -> Potential<'a> {
         let Self { chain, settings, magnet } = *self;
-        let field = Source::external(magnet, inputs).seen_by(chain, &inputs.base, settings.pair_accuracy);
-        Potential { chain, settings, inputs, field, rules, tabulated: false, work }
+        let mut terms = Terms::new(chain, settings, magnet, inputs, rules);
+        terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
+        Potential { chain, settings, inputs, terms, rules, work }
     }
 }
 

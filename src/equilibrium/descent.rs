@@ -49,7 +49,7 @@ impl Walk<'_> {
         let unit = self.scene.chain.unit();
         let mut reached = unknowns.to_vec();
         let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
-        let conservative = self.potential(inputs).conservative();
+        let conservative = self.potential(inputs).terms.have_potential();
         if !conservative && minimum.converged && !self.is_confirmed(inputs, &reached) {
             // In balance without being stable: a potential's descent leaves such a shape by itself.
             spread(&self.scene.chain.metric, &mut reached, PUSH * unit);
@@ -84,7 +84,7 @@ impl Walk<'_> {
         let (region, deadline) = (self.region(tolerance), self.deadline);
         let mut potential = self.potential(inputs);
         let proceed = || !deadline.has_passed();
-        let minimum = if potential.conservative() {
+        let minimum = if potential.terms.have_potential() {
             minimise(&mut potential, unknowns, &region, proceed)
         } else {
             settle(&mut potential, unknowns, &region, proceed)
@@ -116,7 +116,7 @@ impl Walk<'_> {
     /// Whether a shape as low as `reached` lies within `reach` of `last`, where overdamped motion leads: then the branch goes on
     /// there, and the descent has drifted along a direction that is neutral.
     fn has_drifted(&mut self, inputs: &Inputs, last: &[f64], reached: &[f64], reach: f64) -> bool {
-        if !self.potential(inputs).conservative() {
+        if !self.potential(inputs).terms.have_potential() {
             return false;
         }
         let mut settled = last.to_vec();

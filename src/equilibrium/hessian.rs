@@ -21,7 +21,7 @@ impl Potential<'_> {
             let size = moved.nrows();
             out +=
                 moved.tr_mul(&(DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size) * moved));
-            if self.settings.interaction.acts_on_spans() {
+            if self.terms.spans.act() {
                 let cross = DMatrixView::from_slice(&self.work.cross[k], size, rows);
                 let mixed = moved.tr_mul(&(cross * &nodes));
                 out += mixed.transpose() + mixed;

@@ -3,17 +3,14 @@
 use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
 
 use super::chain::Chain;
-use super::dead::{add_wrench, no_wrench, weight};
 use super::drift::Reference;
 use super::inputs::Inputs;
-use super::internal::Internal;
-use super::pair::{Mixed, PairLoad, blocks, overlap};
+use super::pair_loads::PairLoads;
 use super::reduction::Reduction;
 use super::rules::PairRules;
-use super::settings::{Interaction, Settings};
-use super::source::Source;
+use super::settings::Settings;
+use super::terms::{Frame, Mixed, TermWrenches, Terms, blocks};
 use crate::geometry::Pose;
-use crate::magnetics::Wrench;
 use crate::numerics::arnoldi::smallest_real_part;
 use crate::numerics::eigenvalue::{Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
@@ -37,9 +34,8 @@ pub(super) struct Workspace {
     pub(super) placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
-    pub(super) internal: Internal,
-    /// External magnetic force, and torque about the base position.
-    pub(super) magnetic: Wrench,
+    pub(super) pair_loads: PairLoads,
+    pub(super) wrenches: TermWrenches,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     pub(super) tangents: Vec<Tangent>,
@@ -75,8 +71,8 @@ impl Workspace {
             placed: vec![f64::NAN; chain.freedoms()],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
-            internal: Internal::new(chain),
-            magnetic: no_wrench(),
+            pair_loads: PairLoads::new(chain),
+            wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
             reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms(), columns)).collect(),
@@ -120,26 +116,12 @@ pub(super) struct Potential<'a> {
     pub(super) chain: &'a Chain,
     pub(super) settings: &'a Settings,
     pub(super) inputs: &'a Inputs,
-    pub(super) field: Source<'a>,
+    pub(super) terms: Terms<'a>,
     pub(super) rules: &'a PairRules,
-    /// Whether tables stand for the rings' fields at spans: in a slope alone, whose energy nobody compares.
-    pub(super) tabulated: bool,
     pub(super) work: &'a mut Workspace,
 }
 
 impl Potential<'_> {
-    /// Whether rings act on what follows them without a reaction, other than from the clamped base.
-    pub(super) fn one_sided(&self) -> bool {
-        let last = self.chain.elements.len();
-        self.settings.interaction == Interaction::Preceding
-            && self.chain.rings.iter().any(|body| (1..last).contains(&body.node))
-    }
-
-    /// Whether the forces have a potential: without reactions, or with a dead moment, they have none.
-    pub(super) fn conservative(&self) -> bool {
-        !self.one_sided() && self.inputs.tip_moment == Vector3::zeros()
-    }
-
     /// The smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper bound by `search`;
     /// positive where the shape is stable, NaN where none is found. `softest` is the first guess, and then its vector.
     ///
@@ -148,7 +130,7 @@ impl Potential<'_> {
     /// question: it takes the masses and the damping, which statics does not know.
     pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.chain.metric;
-        if self.conservative() {
+        if self.terms.have_potential() {
             return lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
         }
         smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
@@ -168,9 +150,9 @@ impl Potential<'_> {
     /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy. Tables may stand for the rings'
     /// fields, so that energies are not to be compared.
     pub(super) fn chord_slope(&mut self, x: &[f64]) -> Option<f64> {
-        self.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
+        self.terms.spans.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
         let energy = self.slope(x);
-        self.tabulated = false;
+        self.terms.spans.tabulated = false;
         energy
     }
 
@@ -190,15 +172,13 @@ impl Potential<'_> {
         for (k, element) in self.chain.elements.iter().enumerate() {
             energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
         }
-        self.work.magnetic = no_wrench();
+        self.work.wrenches = TermWrenches::none();
         energy += self.load_stations(order)?;
-        self.work.node_loads.fill(Load::zero());
-        self.load_rings(order)?;
+        self.load_nodes(order)?;
         if hessian {
             self.work.node_hessian.fill(0.0);
         }
-        energy += self.load_internal(unknowns, order)?;
-        self.load_tip();
+        energy += self.add_pair_loads(unknowns, order)?;
         for node in 1..self.work.node_loads.len() {
             let load = &self.work.node_loads[node];
             if hessian {
@@ -216,21 +196,13 @@ impl Potential<'_> {
     }
 
     fn load_stations(&mut self, order: Order) -> Option<f64> {
-        let mut energy = 0.0;
-        let gravity = self.inputs.gravity;
+        let (mut energy, base) = (0.0, self.inputs.base.position);
         for (k, element) in self.chain.elements.iter().enumerate() {
-            let start = self.work.nodes[k];
+            let axes = self.work.nodes[k].rotation;
             for (index, station) in element.stations.iter().enumerate() {
-                let pose = self.work.station(k, index);
-                let magnetic = self.field.on_station(station, &pose, order)?;
-                let axes = self.field.axes();
-                let arm = pose.position - self.inputs.base.position;
-                let (force, moment) = (axes * magnetic.force, axes * magnetic.moment());
-                add_wrench(&mut self.work.magnetic, &force, &moment, &arm);
-                let mut load = magnetic.in_axes(&axes.tr_mul(&start.rotation));
-                if gravity != Vector3::zeros() {
-                    load += weight(&station.matter, &pose, &gravity).in_axes(&start.rotation);
-                }
+                let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
+                let about = (&base, &mut self.work.wrenches);
+                let load = self.terms.load(&frame, &pose, &axes, order, about)?;
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;
             }
@@ -238,68 +210,15 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    fn load_rings(&mut self, order: Order) -> Option<()> {
-        for (index, (body, force)) in self.chain.rings.iter().zip(&self.inputs.ring_forces).enumerate() {
-            let node = self.work.nodes[body.node];
-            let arm = node.axis() * body.half_length();
-            let dead = force + self.inputs.gravity * body.ring.mass;
-            let reach = self.field.distance(&(node.position + arm));
-            let rule = self.rules.external(index, reach);
-            let magnetic = self.field.on_ring(body, &node, rule, order)?;
-            let lever = node.position - self.inputs.base.position;
-            add_wrench(&mut self.work.magnetic, &magnetic.force, &magnetic.moment(), &lever);
-            let load = &mut self.work.node_loads[body.node];
-            *load += magnetic;
-            *load += Load::dead_force(&dead, &node.position, &arm);
+    fn load_nodes(&mut self, order: Order) -> Option<()> {
+        let (axes, base) = (Matrix3::identity(), self.inputs.base.position);
+        self.work.node_loads.fill(Load::zero());
+        for (node, frame) in self.chain.frames() {
+            let pose = self.work.nodes[node];
+            let about = (&base, &mut self.work.wrenches);
+            self.work.node_loads[node] += self.terms.load(&frame, &pose, &axes, order, about)?;
         }
         Some(())
-    }
-
-    /// Adds the energies of all pairs of rings to the loads; their sum.
-    pub(super) fn load_pairs(&mut self, order: Order) -> Option<f64> {
-        if self.settings.interaction == Interaction::None {
-            return Some(0.0);
-        }
-        let mut energy = 0.0;
-        let mut number = 0;
-        for (i, first) in self.chain.rings.iter().enumerate() {
-            for (j, second) in self.chain.rings.iter().enumerate().skip(i + 1) {
-                let (from, to) = (&self.work.nodes[first.node], &self.work.nodes[second.node]);
-                let rule = self.rules.pair(number, j);
-                number += 1;
-                if overlap(first, from, second, to) > 0.0 {
-                    return None;
-                }
-                let source = Source::ring(first, from, false);
-                let pair = PairLoad::new(&source, [from, to], second, rule, order)?;
-                energy += pair.on_second.energy;
-                let mutual = self.settings.interaction != Interaction::Preceding;
-                for (node, load) in [(second.node, &pair.on_second), (first.node, &pair.on_first)] {
-                    if node == second.node || mutual {
-                        self.work.internal.nodes[node] += load.wrench_alone();
-                    }
-                }
-                if order == Order::Hessian {
-                    let pair = pair.hessian();
-                    self.add_block(second.node, second.node, &pair.second_second);
-                    self.add_block(second.node, first.node, &pair.first_second.transpose());
-                    if mutual {
-                        self.add_block(first.node, first.node, &pair.first_first);
-                        self.add_block(first.node, second.node, &pair.first_second);
-                    }
-                }
-            }
-        }
-        Some(energy)
-    }
-
-    fn load_tip(&mut self) {
-        let last = self.chain.elements.len();
-        let node = self.work.nodes[last];
-        let arm = node.axis() * self.chain.tip_offset;
-        let load = &mut self.work.node_loads[last];
-        *load += Load::dead_force(&self.inputs.tip_force, &node.position, &arm);
-        load.couple += crate::geometry::hat(&self.inputs.tip_moment) * -0.5;
     }
 
     /// Gradient and element Hessians, from the tip to the base.
@@ -329,7 +248,7 @@ impl Potential<'_> {
             if !linear {
                 return false;
             }
-            if order == Order::Hessian && self.settings.interaction.acts_on_spans() {
+            if order == Order::Hessian && self.terms.spans.act() {
                 self.mix(k);
             }
         }

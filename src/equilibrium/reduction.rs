@@ -9,7 +9,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use crate::numerics::cholesky;
 use crate::rod::{Configuration, START, Tangent};
 
-use super::pair::blocks;
+use super::terms::blocks;
 
 /// Columns of the two end nodes.
 const NODES: usize = 12;

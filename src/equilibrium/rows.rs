@@ -6,15 +6,15 @@
 use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vector3};
 
 use super::columns::turned;
-use super::field_rates::{FIELD_INPUTS, field_rates};
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input};
 use super::sensitivity::{Motion, Response, carry, inside};
 use super::solution::Solution;
 use super::solver::{Equilibrium, Place};
+use super::terms::FIELD_INPUTS;
 use crate::error::Error;
 use crate::geometry::{Pose, hat};
-use crate::magnetics::{LinearField, Wrench};
+use crate::magnetics::Wrench;
 use crate::rod::{Configuration, Row};
 
 /// Sine of an angle below which its corner counts as reached.
@@ -112,9 +112,13 @@ impl Equilibrium {
     pub(super) fn add_tip_field(&self, rows: &mut Rows<'_>, response: &Response) -> Result<(), Error> {
         let (inputs, tip) = (rows.inputs, self.tip().position);
         let here = self.field_at(inputs, &tip).ok_or_else(inside)?;
-        let rates = field_rates(response.magnet.as_ref(), inputs, &tip).ok_or_else(inside)?;
+        let mut terms = self.terms(inputs);
+        if !response.with_magnet {
+            terms.magnet = terms.magnet.removed();
+        }
+        let rates = terms.field_rates(&tip).ok_or_else(inside)?;
         let mut field = DMatrix::zeros(3, response.counts.inputs());
-        let mut gradient = LinearField::new(inputs.uniform_field, inputs.field_gradient).gradient();
+        let mut gradient = terms.background.gradient();
         for (column, (rate, _)) in rates.iter().enumerate() {
             field.set_column(column, rate);
             if column < 3 {

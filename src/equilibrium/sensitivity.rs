@@ -14,8 +14,6 @@ use super::rows::Rows;
 use super::settings::Interaction;
 use super::solver::Equilibrium;
 use crate::error::Error;
-use crate::geometry::hat;
-use crate::magnetics::Assembly;
 use crate::numerics::trust_region::{Objective, norm, spread};
 use crate::rod::START;
 
@@ -30,8 +28,8 @@ const ITERATIONS: usize = 4;
 #[derive(Debug)]
 pub(super) struct Response {
     pub(super) counts: Counts,
-    /// The external magnet, unless it is switched off where it cannot be switched on.
-    pub(super) magnet: Option<Assembly>,
+    /// Whether the external magnet, which may be switched off, could be switched on.
+    pub(super) with_magnet: bool,
     /// How the inputs change when the world moves about the base: see [`carried`].
     pub(super) by_base: DMatrix<f64>,
     /// Mixed derivatives.
@@ -87,7 +85,7 @@ impl Equilibrium {
             shape_points: self.shape.len(),
             cores: self.chain.cores.len(),
         };
-        let (shape, mut magnet) = (self.branch.unknowns.clone(), self.magnet.clone());
+        let shape = self.branch.unknowns.clone();
         let mut potential = self.potential(inputs, &shape);
         let stiffness = match potential.linearise(&shape) {
             Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
@@ -99,11 +97,12 @@ impl Equilibrium {
             );
             return Err(Error::NoDerivatives(reason));
         }
-        let mut columns = potential.columns(magnet.as_ref(), &counts);
+        let mut columns = potential.columns(&counts);
+        let with_magnet = columns.is_some();
         if columns.is_none() && inputs.magnet_strength == 0.0 {
             // Switched off inside the manipulator, a magnet can only stay so.
-            magnet = None;
-            columns = potential.columns(None, &counts);
+            potential.terms.magnet = potential.terms.magnet.removed();
+            columns = potential.columns(&counts);
         }
         let mut columns = columns.ok_or_else(inside)?;
         let by_base = carried(inputs, &counts);
@@ -115,7 +114,7 @@ impl Equilibrium {
         }
         let motion = potential.motion(&unknowns);
         let mut response =
-            Response { counts, magnet, by_base, columns, unknowns, motion, clamp: DMatrix::zeros(0, 0) };
+            Response { counts, with_magnet, by_base, columns, unknowns, motion, clamp: DMatrix::zeros(0, 0) };
         response.clamp = potential.clamp_rates(&response);
         Ok(response)
     }
@@ -177,9 +176,7 @@ impl Potential<'_> {
         }
         // Stored row by row, the matrices are seen transposed.
         let transposed = DMatrixView::from_slice(&self.work.node_hessian, 6 * last, 6 * last);
-        let mut on_nodes = transposed.tr_mul(&others);
-        let mut on_tip = on_nodes.rows_mut(6 * last - 3, 3);
-        on_tip -= hat(&self.inputs.tip_moment) * motion.nodes[last].rows(3, 3) * 0.5;
+        let on_nodes = transposed.tr_mul(&others);
         let mut wrench = DMatrix::zeros(6, others.ncols());
         for k in (0..last).rev() {
             wrench += on_nodes.rows(6 * k, 6);

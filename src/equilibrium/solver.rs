@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 
 use super::chain::{Chain, arc_lengths};
 use super::correction::{Report, Scene, Scratch, Walk, measure};
-use super::dead::{add_wrench, no_wrench, reaction_on_magnet};
 use super::deadline::Deadline;
 use super::follow::Branch;
 use super::inputs::Inputs;
@@ -14,13 +13,13 @@ use super::potential::{Potential, Workspace};
 use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
-use super::source::Source;
+use super::terms::Terms;
 use crate::design::Design;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
-use crate::rod::{Load, Order, Row};
+use crate::rod::Row;
 
 /// Where on the centreline a shape point lies.
 #[derive(Debug, Clone)]
@@ -207,37 +206,15 @@ impl Equilibrium {
         scene.potential(inputs, &self.rules, &mut self.work)
     }
 
+    /// What acts at `inputs`, with the rules that were chosen last.
+    pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
+        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), inputs, &self.rules)
+    }
+
     fn on_element(&self, element: usize, row: &Row) -> Pose {
         let unknowns = self.chain.part(element, &self.branch.unknowns);
         let local = self.work.configurations[element].pose_at(&self.chain.elements[element], row, unknowns);
         self.work.nodes[element].compose(&local)
-    }
-
-    /// What the background field alone does.
-    fn background_wrench(&self, inputs: &Inputs) -> Wrench {
-        if inputs.uniform_field == Vector3::zeros() && inputs.field_gradient.iter().all(|g| *g == 0.0) {
-            return no_wrench();
-        }
-        let field = Source::external(None, inputs);
-        let origin = self.work.nodes[0].position;
-        let mut out = no_wrench();
-        let mut add = |load: Option<Load>, at: &Vector3<f64>| {
-            if let Some(load) = load {
-                add_wrench(&mut out, &load.force, &load.moment(), &(at - origin));
-            }
-        };
-        for (index, body) in self.chain.rings.iter().enumerate() {
-            let node = &self.work.nodes[body.node];
-            let rule = self.rules.external(index, f64::INFINITY);
-            add(field.on_ring(body, node, rule, Order::Gradient), &node.position);
-        }
-        for (k, element) in self.chain.elements.iter().enumerate() {
-            for (index, station) in element.stations.iter().enumerate() {
-                let pose = self.work.station(k, index);
-                add(field.on_station(station, &pose, Order::Gradient), &pose.position);
-            }
-        }
-        out
     }
 }
 
@@ -274,18 +251,15 @@ impl Solution for Equilibrium {
     }
 
     fn magnetic_wrench(&self) -> Wrench {
-        self.work.magnetic
+        self.work.wrenches.magnetic()
     }
 
     fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
-            return no_wrench();
-        }
-        reaction_on_magnet(&self.magnetic_wrench(), &self.background_wrench(inputs), inputs)
+        self.work.wrenches.on_magnet(inputs)
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        Source::external(self.magnet.as_ref(), inputs).at(point)
+        self.terms(inputs).field_at(point)
     }
 }
 

@@ -5,15 +5,13 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::chain::{Chain, RingBody};
-use super::inputs::Inputs;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable, LinearField};
+use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable};
 use crate::rod::{Charges, Load, Matter, Order, Sample, Sheet, Station};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
 enum Magnet<'a> {
-    Absent,
     Assembly(&'a Assembly, f64),
     Ring(&'a AxialSource, Option<&'a FieldTable>),
 }
@@ -26,33 +24,19 @@ struct Near {
     along: Option<Matrix3<f64>>,
 }
 
-/// A magnet at a pose, and a linear field around it.
+/// A magnet at a pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source<'a> {
     frame: Pose,
     magnet: Magnet<'a>,
-    /// The linear field at the frame's origin and its gradient, in the frame's axes.
-    field: Vector3<f64>,
-    gradient: Matrix3<f64>,
     /// Largest spread (see [`Station::spread`]) with which material counts as one point.
     compact: f64,
 }
 
 impl<'a> Source<'a> {
-    /// The external magnet and the background field.
-    pub(crate) fn external(magnet: Option<&'a Assembly>, inputs: &Inputs) -> Self {
-        let background = LinearField::new(inputs.uniform_field, inputs.field_gradient);
-        let present = magnet.filter(|_| inputs.magnet_strength != 0.0);
-        let frame = if present.is_some() { inputs.magnet } else { Pose::identity() };
-        let turn = &frame.rotation;
-        Self {
-            magnet: present
-                .map_or(Magnet::Absent, |assembly| Magnet::Assembly(assembly, inputs.magnet_strength)),
-            field: turn.tr_mul(&background.at(&frame.position)),
-            gradient: turn.tr_mul(&background.gradient()) * turn,
-            frame,
-            compact: 0.0,
-        }
+    /// The external magnet at its pose, its field times `strength`.
+    pub(crate) fn assembly(assembly: &'a Assembly, frame: Pose, strength: f64) -> Self {
+        Self { frame, magnet: Magnet::Assembly(assembly, strength), compact: 0.0 }
     }
 
     /// The same for a `chain` with its base there, sampled as coarsely as this relative `accuracy` of the energies allows.
@@ -60,9 +44,6 @@ impl<'a> Source<'a> {
     /// A dipole at distance `d` along the axis has the mean `B (1 - 3 spread / d^2)` over a section. The distance is that
     /// of all the chain may reach, so that the choice depends on the inputs alone.
     pub(crate) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
-        if !self.has_magnet() {
-            return self;
-        }
         let reach = self.distance(&base.position) - chain.length();
         Self { compact: accuracy / 3.0 * reach * reach.max(0.0), ..self }
     }
@@ -77,15 +58,8 @@ impl<'a> Source<'a> {
         Self {
             frame: body.centre(node),
             magnet: Magnet::Ring(&body.source, body.table.as_deref().filter(|_| tabulated)),
-            field: Vector3::zeros(),
-            gradient: Matrix3::zeros(),
             compact: 0.0,
         }
-    }
-
-    /// Whether there is a magnet, and not the background field alone.
-    pub(crate) fn has_magnet(&self) -> bool {
-        !matches!(self.magnet, Magnet::Absent)
     }
 
     /// The axes in which the energies are given: the columns, in the world's axes.
@@ -100,11 +74,10 @@ impl<'a> Source<'a> {
         Some(self.frame.rotation * near.field)
     }
 
-    /// Distance from a point of the world to the nearest magnet, m; infinite without one.
+    /// Distance from a point of the world, m.
     pub(crate) fn distance(&self, point: &Vector3<f64>) -> f64 {
         let local = || self.frame.rotation.tr_mul(&(point - self.frame.position));
         match self.magnet {
-            Magnet::Absent => f64::INFINITY,
             Magnet::Assembly(assembly, _) => assembly.distance(&local()),
             Magnet::Ring(ring, _) => ring.distance(&local()),
         }
@@ -119,35 +92,28 @@ impl<'a> Source<'a> {
         {
             return Some(Near { field, gradient, along: None });
         }
-        let mut out =
-            Near { field: self.field + self.gradient * point, gradient: self.gradient, along: None };
         let (strength, jet) = match (self.magnet, order) {
-            (Magnet::Absent, _) => {
-                out.along = (order == Order::Hessian).then(Matrix3::zeros);
-                return Some(out);
-            }
             (Magnet::Assembly(assembly, _), _) if assembly.contains(point) => return None,
             (Magnet::Ring(ring, _), _) if ring.contains(point) => return None,
             (Magnet::Assembly(assembly, strength), Order::Gradient) => {
                 let (field, gradient) = assembly.field_gradient(point).ok()?;
-                out.field += field * strength;
-                out.gradient += gradient * strength;
-                return Some(out);
+                return Some(Near { field: field * strength, gradient: gradient * strength, along: None });
             }
             (Magnet::Ring(ring, _), Order::Gradient) => {
-                (out.field, out.gradient) = ring.field_gradient(point).ok()?;
-                return Some(out);
+                let (field, gradient) = ring.field_gradient(point).ok()?;
+                return Some(Near { field, gradient, along: None });
             }
             (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(point).ok()?),
             (Magnet::Ring(ring, _), Order::Hessian) => (1.0, ring.jet(point).ok()?),
         };
-        out.field += jet.field * strength;
-        out.gradient += jet.gradient * strength;
-        out.along = Some(jet.hessian_along(axis) * strength);
-        Some(out)
+        Some(Near {
+            field: jet.field * strength,
+            gradient: jet.gradient * strength,
+            along: Some(jet.hessian_along(axis) * strength),
+        })
     }
 
-    /// Energy of a ring whose node is at `node`, in the axes of the world; `None` where it touches a magnet.
+    /// Energy of a ring whose node is at `node`, in the axes of the source; `None` where it touches the magnet.
     pub(crate) fn on_ring(
         &self,
         body: &RingBody,
@@ -165,7 +131,7 @@ impl<'a> Source<'a> {
             let moment = body.magnetisation * volume;
             load.add_dipole(moment, &axis, &arm, &near.field, &near.gradient, near.along.as_ref());
         }
-        Some(load.in_axes(&self.frame.rotation.transpose()))
+        Some(load)
     }
 
     /// The same for a ring in the field of this one, by the magnetic charges of its two faces, proximal and distal.
@@ -201,37 +167,22 @@ impl<'a> Source<'a> {
             }
             load += charges.load(&local.rotation, height);
         }
-        Some(load.in_axes(&self.frame.rotation.transpose()))
+        Some(load)
     }
 
-    /// Energy of a station's material in the axes of the source; `pose` is the station's in the world.
-    pub(crate) fn on_station(&self, station: &Station, pose: &Pose, order: Order) -> Option<Load> {
-        // A linear field needs no more than the centroid.
-        let points = if self.has_magnet() { self.points(station) } else { &station.points.0 };
-        self.on_points(&station.matter, points, pose, order)
-    }
-
-    /// The same, for a section's material.
-    pub(crate) fn on_matter(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
-        self.on_points(matter, &matter.moments.points(), pose, order)
-    }
-
-    /// The same, where `points` carry the material in equal parts.
-    fn on_points(&self, matter: &Matter, points: &[Vector2<f64>], pose: &Pose, order: Order) -> Option<Load> {
-        let mut load = Load::zero();
+    /// The same for material of a section at `pose`, where `points` carry it in equal parts.
+    pub(crate) fn on_material(
+        &self,
+        matter: &Matter,
+        points: &[Vector2<f64>],
+        pose: &Pose,
+        order: Order,
+    ) -> Option<Load> {
         if matter.magnetisation == 0.0 {
-            return Some(load);
+            return Some(Load::zero());
         }
-        let local = self.locate(pose);
-        let axis = local.axis();
-        let moment = matter.magnetisation * matter.moments.volume;
-        if !self.has_magnet() && self.gradient == Matrix3::zeros() {
-            load.energy = -moment * axis.dot(&self.field);
-            load.couple = self.field * (axis.transpose() * -moment);
-            return Some(load);
-        }
-        let share = moment / points.len() as f64;
-        self.on_section(points.iter().map(|point| (*point, share)), &local, order)
+        let share = matter.magnetisation * matter.moments.volume / points.len() as f64;
+        self.on_section(points.iter().map(|point| (*point, share)), &self.locate(pose), order)
     }
 
     /// The same, for a sample of the material.

@@ -33,6 +33,11 @@ pub struct Wrench {
 }
 
 impl Wrench {
+    /// No force and no torque.
+    pub const NONE: Self = Self { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
+}
+
+impl Wrench {
     /// What the body at `position` (m) does to the source at the origin: the opposite force, and its torque about the origin.
     ///
     /// Together with the wrench it is in balance: no internal magnetic force or torque is left over.

@@ -13,8 +13,8 @@ use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
 use crate::equilibrium::{
-    self, Contact, Inputs, Interaction, Outcome, PairRules, Placed, Report, Solution, Source, add_wrench,
-    arc_lengths, no_wrench, reaction_on_magnet,
+    self, Contact, Inputs, Interaction, Outcome, PairRules, Placed, Report, Solution, TermWrenches, Terms,
+    arc_lengths,
 };
 use crate::error::Error;
 use crate::geometry::Pose;
@@ -61,8 +61,9 @@ struct State {
     engine: Engine,
     inputs: Option<Inputs>,
     shape: Shape,
-    /// External magnetic wrench, and what the clamp exerts.
-    wrenches: [Wrench; 2],
+    /// What acts from outside, and what the clamp exerts.
+    wrenches: TermWrenches,
+    clamp: Wrench,
 }
 
 impl Comparison {
@@ -152,13 +153,13 @@ impl Comparison {
         }
         let answers = if done >= 1.0 { self.answers(inputs) } else { None };
         let contact = self.contact(inputs);
-        let (Some((energy, wrenches)), None) = (answers, contact) else {
+        let (Some((energy, wrenches, clamp)), None) = (answers, contact) else {
             self.state = before;
             (report.outcome, report.progress) = (contact.map_or(report.outcome, Outcome::Contact), done);
             return Ok(report);
         };
         self.state.inputs = Some(inputs.clone());
-        self.state.wrenches = wrenches;
+        (self.state.wrenches, self.state.clamp) = (wrenches, clamp);
         (report.outcome, report.progress, report.energy) = (Outcome::Solved, 1.0, energy);
         Ok(report)
     }
@@ -182,7 +183,7 @@ impl Comparison {
         let mut state = self.state.clone();
         self.rules.choose(&self.line.chain, &state.shape.nodes);
         for _ in 0..=RULE_CHOICES {
-            let around = self.around(inputs, self.magnet.as_ref());
+            let around = self.around(inputs);
             let end = state.engine.solve(&around, &settings);
             report.iterations += end.iterations;
             report.residual = end.residual;
@@ -200,46 +201,23 @@ impl Comparison {
         true
     }
 
-    fn around<'a>(&'a self, inputs: &'a Inputs, magnet: Option<&'a Assembly>) -> Surroundings<'a> {
+    fn around<'a>(&'a self, inputs: &'a Inputs) -> Surroundings<'a> {
         Surroundings {
             line: &self.line,
-            interaction: self.model.interaction,
             inputs,
-            field: Source::external(magnet, inputs),
-            rules: &self.rules,
+            terms: Terms::new(&self.line.chain, &self.model, self.magnet.as_ref(), inputs, &self.rules),
         }
     }
 
-    /// What the background field alone does to the last solved shape.
-    fn background(&self, inputs: &Inputs) -> Option<Wrench> {
-        let around = self.around(inputs, None);
+    /// Energy (J) of a shape, what acts on it from outside, and what the clamp exerts.
+    fn answers(&self, inputs: &Inputs) -> Option<(f64, TermWrenches, Wrench)> {
+        let around = self.around(inputs);
         let shape = &self.state.shape;
-        let mut magnetic = shape.trace.totals(&around)?.magnetic;
-        for (index, body) in self.line.chain.rings.iter().enumerate() {
-            let node = &shape.nodes[body.node];
-            let load = around.on_ring(index, node, Order::Gradient)?;
-            add_wrench(&mut magnetic, &load.force, &load.moment(), &(node.position - inputs.base.position));
-        }
-        Some(magnetic)
-    }
-
-    /// Energy (J) of a shape, the external magnetic wrench on it, and what the clamp exerts.
-    fn answers(&self, inputs: &Inputs) -> Option<(f64, [Wrench; 2])> {
-        let around = self.around(inputs, self.magnet.as_ref());
-        let shape = &self.state.shape;
-        let Totals { mut magnetic, mut energy } = shape.trace.totals(&around)?;
+        let Totals { mut wrenches, mut energy } = shape.trace.totals(&around)?;
         let (loads, totals) = around.nodes(&shape.nodes, Order::Gradient)?;
-        for (load, node) in loads.iter().zip(&shape.nodes) {
-            energy += load.energy;
-            let on_ring = wrench(&load.magnetic);
-            add_wrench(
-                &mut magnetic,
-                &on_ring.force,
-                &on_ring.torque,
-                &(node.position - inputs.base.position),
-            );
-        }
-        Some((energy, [magnetic, wrench(&(totals[0] - shape.base))]))
+        energy += loads.iter().map(|load| load.energy).sum::<f64>();
+        wrenches.add(&around.node_wrenches(&shape.nodes)?, 1.0);
+        Some((energy, wrenches, wrench(&(totals[0] - shape.base))))
     }
 }
 
@@ -263,23 +241,19 @@ impl Solution for Comparison {
     }
 
     fn base_reaction(&self) -> Wrench {
-        self.state.wrenches[1]
+        self.state.clamp
     }
 
     fn magnetic_wrench(&self) -> Wrench {
-        self.state.wrenches[0]
+        self.state.wrenches.magnetic()
     }
 
     fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        if self.magnet.is_none() || inputs.magnet_strength == 0.0 {
-            return no_wrench();
-        }
-        let background = self.background(inputs).unwrap_or_else(no_wrench);
-        reaction_on_magnet(&self.magnetic_wrench(), &background, inputs)
+        self.state.wrenches.on_magnet(inputs)
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        Source::external(self.magnet.as_ref(), inputs).at(point)
+        self.around(inputs).terms.field_at(point)
     }
 }
 
@@ -293,7 +267,8 @@ impl State {
             engine,
             inputs: None,
             shape: Shape { nodes, base: Vector6::zeros(), trace },
-            wrenches: [no_wrench(); 2],
+            wrenches: TermWrenches::none(),
+            clamp: Wrench::NONE,
         })
     }
 }

@@ -14,6 +14,7 @@ use super::settings::Settings;
 use super::shooting::Shooting;
 use super::surroundings::Surroundings;
 use super::trace::Trace;
+use crate::equilibrium::Term;
 use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::Ending;
 
@@ -62,7 +63,7 @@ impl Engine {
                 multiple_shooting::solve(around, &space, shape, tolerance, iterations)
             }
             Self::Planar(shape) => {
-                let Ok(plane) = Plane::of(around.inputs, around.has_magnet()) else {
+                let Ok(plane) = Plane::of(around.inputs, around.terms.magnet.acts()) else {
                     return Ending { converged: false, iterations: 0, residual: f64::INFINITY };
                 };
                 *shape = plane.carried(shape);
@@ -85,7 +86,7 @@ impl Engine {
                 Some(of_nodes(shape, trace))
             }
             Self::Planar(shape) => {
-                let plane = Plane::of(around.inputs, around.has_magnet()).ok()?;
+                let plane = Plane::of(around.inputs, around.terms.magnet.acts()).ok()?;
                 let plane = InPlane::new(around, plane, settings.steps);
                 Some(of_nodes(shape, multiple_shooting::trace(around, &plane, shape)?))
             }

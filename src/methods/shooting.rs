@@ -9,7 +9,6 @@ use super::engine::Shape;
 use super::strong_form::State;
 use super::surroundings::{NodeLoad, Surroundings, column};
 use super::trace::Trace;
-use crate::equilibrium::Interaction;
 use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::{self, Ending, LeastSquares};
 use crate::rod::Order;
@@ -73,7 +72,7 @@ impl Shooting {
 impl Problem<'_, '_> {
     /// Number of nodes between the first and the last that get a reaction.
     fn reacting(&self) -> usize {
-        if self.around.interaction == Interaction::Rings { self.around.line.count() - 1 } else { 0 }
+        if self.around.has_pairs() { self.around.line.count() - 1 } else { 0 }
     }
 
     fn size(&self) -> usize {

@@ -6,7 +6,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::line::{Line, Place};
-use crate::equilibrium::{Inputs, Interaction, PairLoad, PairRules, Source, blocks, overlap, weight};
+use crate::equilibrium::{Frame, Inputs, TermWrenches, Terms, blocks};
 use crate::geometry::{Pose, hat};
 use crate::rod::{Load, Matter, Order};
 
@@ -14,10 +14,8 @@ use crate::rod::{Load, Matter, Order};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) line: &'a Line,
-    pub(super) interaction: Interaction,
     pub(super) inputs: &'a Inputs,
-    pub(super) field: Source<'a>,
-    pub(super) rules: &'a PairRules,
+    pub(super) terms: Terms<'a>,
 }
 
 /// What acts on a node: the ring there and, at the last one, the tip.
@@ -31,8 +29,6 @@ pub(super) struct NodeLoad {
     pub(super) own: Matrix6<f64>,
     /// The rings before it that act on it.
     pub(super) pairs: Vec<Pair>,
-    /// External magnetic part of the gradient.
-    pub(super) magnetic: Vector6<f64>,
 }
 
 /// How a ring before acts on the ring of a node, and that back on it.
@@ -72,9 +68,9 @@ fn turning_of(moment: &Vector3<f64>) -> Matrix6<f64> {
 }
 
 impl Surroundings<'_> {
-    /// Whether an external magnet acts.
-    pub(super) fn has_magnet(&self) -> bool {
-        self.field.has_magnet()
+    /// Whether rings act on one another.
+    pub(super) fn has_pairs(&self) -> bool {
+        self.terms.pairs.each().next().is_some()
     }
 
     /// Load per length at a place with the pose `pose`, in fixed axes.
@@ -83,79 +79,58 @@ impl Surroundings<'_> {
         self.external(&Matter::section(span, place.s), pose, order)
     }
 
-    /// Load of the external field and of gravity on some material.
+    /// Load of all that acts from outside on some material.
     pub(super) fn external(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
-        let mut load = self.magnetic(matter, pose, order)?;
-        if self.inputs.gravity != Vector3::zeros() {
-            load += weight(matter, pose, &self.inputs.gravity);
+        self.on(&Frame::Section(matter), pose, order, &mut TermWrenches::none())
+    }
+
+    /// Load of all that acts from outside on a frame, in fixed axes; adds each term's wrench about the base to `wrenches`.
+    pub(super) fn on(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        order: Order,
+        wrenches: &mut TermWrenches,
+    ) -> Option<Load> {
+        self.terms.load(frame, pose, &Matrix3::identity(), order, (&self.inputs.base.position, wrenches))
+    }
+
+    /// What acts from outside on all that the nodes carry.
+    pub(super) fn node_wrenches(&self, poses: &[Pose]) -> Option<TermWrenches> {
+        let mut out = TermWrenches::none();
+        for (node, frame) in self.line.chain.frames() {
+            self.on(&frame, &poses[node], Order::Gradient, &mut out)?;
         }
-        Some(load)
-    }
-
-    /// Load of the external field alone.
-    pub(super) fn magnetic(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
-        Some(self.field.on_matter(matter, pose, order)?.in_axes(&self.field.axes().transpose()))
-    }
-
-    /// Load of the external field on a ring whose node is at `pose`.
-    pub(super) fn on_ring(&self, index: usize, pose: &Pose, order: Order) -> Option<Load> {
-        let body = &self.line.chain.rings[index];
-        let centre = body.centre(pose).position;
-        self.field.on_ring(body, pose, self.rules.external(index, self.field.distance(&centre)), order)
+        Some(out)
     }
 
     /// Load on node `node`; `poses` are those of the nodes up to it. `None` where bodies touch.
     pub(super) fn node(&self, node: usize, poses: &[Pose], order: Order) -> Option<NodeLoad> {
-        let chain = &self.line.chain;
-        let pose = &poses[node];
         let mut load = Load::zero();
-        let mut magnetic = Vector6::zeros();
-        let index = chain.rings.iter().position(|body| body.node == node);
-        if let Some(index) = index {
-            load = self.on_ring(index, pose, order)?;
-            magnetic = gradient(&load);
-            let body = &chain.rings[index];
-            let arm = pose.axis() * body.half_length();
-            let dead = self.inputs.ring_forces[index] + self.inputs.gravity * body.ring.mass;
-            load += Load::dead_force(&dead, &pose.position, &arm);
-        }
-        let is_tip = node == self.line.count();
-        if is_tip {
-            let arm = pose.axis() * chain.tip_offset;
-            load += Load::dead_force(&self.inputs.tip_force, &pose.position, &arm);
+        for (_, frame) in self.line.chain.frames().filter(|(own, _)| *own == node) {
+            load += self.on(&frame, &poses[node], order, &mut TermWrenches::none())?;
         }
         let mut out = NodeLoad {
             energy: load.energy,
             gradient: gradient(&load),
             own: derivative(&load),
             pairs: Vec::new(),
-            magnetic,
         };
-        if is_tip {
-            // Dead in space: no derivative, and no energy.
-            out.gradient -= column(&Vector3::zeros(), &self.inputs.tip_moment);
-        }
-        if let Some(index) = index.filter(|_| self.interaction != Interaction::None) {
-            for earlier in 0..index {
-                self.add_pair(&mut out, [earlier, index], poses, order)?;
-            }
+        let of = |ring: usize| self.line.chain.rings[ring].node;
+        for pair in self.terms.pairs.each().filter(|[_, second]| of(*second) == node) {
+            self.add_pair(&mut out, pair, poses, order)?;
         }
         Some(out)
     }
 
     /// Adds the load of an earlier ring on a later one.
     fn add_pair(&self, out: &mut NodeLoad, rings: [usize; 2], poses: &[Pose], order: Order) -> Option<()> {
-        let [first, second] = rings.map(|index| &self.line.chain.rings[index]);
-        let (from, to) = (&poses[first.node], &poses[second.node]);
-        if overlap(first, from, second, to) > 0.0 {
-            return None;
-        }
-        let rule = self.rules.between(rings[0], rings[1]);
-        let load = PairLoad::new(&Source::ring(first, from, false), [from, to], second, rule, order)?;
+        let [first, second] = rings.map(|ring| self.line.chain.rings[ring].node);
+        let load = self.terms.pairs.load(rings, [&poses[first], &poses[second]], order)?;
         out.energy += load.on_second.energy;
         out.gradient += gradient(&load.on_second);
         let mut pair = Pair {
-            node: first.node,
+            node: first,
             by_first: Matrix6::zeros(),
             reaction: gradient(&load.on_first),
             reaction_by: [Matrix6::zeros(); 2],

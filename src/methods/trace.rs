@@ -6,9 +6,8 @@ use super::line::{Line, Place};
 use super::strong_form::Rates;
 use super::surroundings::Surroundings;
 use crate::design::SpanKind;
-use crate::equilibrium::{add_wrench, no_wrench};
+use crate::equilibrium::{Frame, TermWrenches};
 use crate::geometry::{Pose, RotationVector, rotation_log};
-use crate::magnetics::Wrench;
 use crate::numerics::quadrature::gauss_legendre;
 use crate::rod::{Matter, Order};
 
@@ -37,10 +36,10 @@ pub(super) struct Trace {
     links: Vec<Link>,
 }
 
-/// Magnetic wrench about the base position and energies of the spans.
+/// What acts from outside on the spans, and their energy (J).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Totals {
-    pub(super) magnetic: Wrench,
+    pub(super) wrenches: TermWrenches,
     pub(super) energy: f64,
 }
 
@@ -150,8 +149,7 @@ impl Trace {
     /// Adds up what the spans feel and store.
     pub(super) fn totals(&self, around: &Surroundings<'_>) -> Option<Totals> {
         let (points, weights) = gauss_legendre(LINK_POINTS);
-        let mut out = Totals { magnetic: no_wrench(), energy: 0.0 };
-        let origin = around.inputs.base.position;
+        let mut out = Totals { wrenches: TermWrenches::none(), energy: 0.0 };
         for (link, from) in self.links.iter().filter_map(|link| Some((link, link.place?))) {
             let span = &around.line.spans[from.element][from.piece];
             for (point, weight) in points.iter().zip(&weights) {
@@ -165,17 +163,10 @@ impl Trace {
                 let bent = Vector3::new(k.bending, k.bending, k.torsion).component_mul(&curvature);
                 let sheared = Vector3::new(k.shear, k.shear, k.axial).component_mul(&stretch);
                 let stored = 0.5 * (bent.dot(&curvature) + sheared.dot(&stretch));
-                let load = around.along(&place, &pose, Order::Gradient)?;
+                let (matter, mut wrenches) = (Matter::section(span, place.s), TermWrenches::none());
+                let load = around.on(&Frame::Section(&matter), &pose, Order::Gradient, &mut wrenches)?;
                 out.energy += weight * (stored + load.energy);
-                let matter = Matter::section(span, place.s);
-                let magnetic = around.magnetic(&matter, &pose, Order::Gradient)?;
-                let arm = pose.position - origin;
-                add_wrench(
-                    &mut out.magnetic,
-                    &(magnetic.force * weight),
-                    &(magnetic.moment() * weight),
-                    &arm,
-                );
+                out.wrenches.add(&wrenches, weight);
             }
         }
         Some(out)

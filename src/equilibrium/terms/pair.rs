@@ -1,12 +1,9 @@
-//! The mutual energy of two rings, with its derivatives by the poses of both.
+//! The mutual energy of two bodies, with its derivatives by the poses of both.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use super::chain::RingBody;
-use super::source::Source;
-use crate::geometry::{Pose, hat};
-use crate::magnetics::{PairRule, depth};
-use crate::rod::{Load, Order, turning};
+use crate::geometry::hat;
+use crate::rod::{Load, turning};
 
 /// The energy of a pair as loads on its two nodes.
 #[derive(Debug, Clone)]
@@ -30,43 +27,7 @@ pub(crate) struct PairHessian {
     pub(crate) second_second: Matrix6<f64>,
 }
 
-/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
-/// station, in fixed axes.
-#[derive(Debug, Clone)]
-pub(crate) struct Mixed {
-    pub(crate) station: usize,
-    pub(crate) node: usize,
-    pub(crate) matrix: Matrix6<f64>,
-}
-
-/// How deep two rings are inside one another, m; 0 where they share no volume. Nothing fits into their bores.
-pub(crate) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
-    let (from, to) = (first.centre(first_node), second.centre(second_node));
-    let extent = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
-    if (to.position - from.position).norm() > extent(first) + extent(second) {
-        return 0.0;
-    }
-    depth(&first.outline(), &second.outline(), &to.seen_from(&from))
-}
-
 impl PairLoad {
-    /// Energy of `second` in the field of `first`, whose nodes are at `nodes`; `None` where that is singular.
-    ///
-    /// The energy depends on the relative pose alone, so that forces and torques cancel to rounding.
-    pub(crate) fn new(
-        first: &Source<'_>,
-        nodes: [&Pose; 2],
-        second: &RingBody,
-        rule: PairRule<'_>,
-        order: Order,
-    ) -> Option<Self> {
-        let load = match rule {
-            PairRule::Axis(rule) => first.on_ring(second, nodes[1], rule, order)?,
-            PairRule::Faces(rules) => first.on_faces(second, nodes[1], rules, order)?,
-        };
-        Some(Self::reciprocal(&load, nodes[1].position - nodes[0].position))
-    }
-
     /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
     pub(crate) fn reciprocal(on_second: &Load, between: Vector3<f64>) -> Self {
         let whole = on_second.couple + on_second.force * between.transpose();

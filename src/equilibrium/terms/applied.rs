@@ -1,0 +1,72 @@
+//! Forces on the rings and the tip, and the moment on the tip: fixed in the world, whatever the shape.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{Frame, InputDerivatives, Term};
+use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::jacobian::Input;
+use crate::geometry::{Pose, hat};
+use crate::rod::{Load, Order};
+
+/// The loads among the inputs.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Applied<'a>(&'a Inputs);
+
+impl<'a> Applied<'a> {
+    pub(super) fn new(inputs: &'a Inputs) -> Self {
+        Self(inputs)
+    }
+
+    /// The input, its force (N), and the arm (m) from the frame's origin to where it acts.
+    fn force(self, frame: &Frame<'_>, pose: &Pose) -> Option<(Input, Vector3<f64>, Vector3<f64>)> {
+        let (input, force, distance) = match frame {
+            Frame::Ring(number, body) => {
+                (Input::RingForce(*number), self.0.ring_forces.get(*number)?, body.half_length())
+            }
+            Frame::Tip(offset) => (Input::TipForce, &self.0.tip_force, *offset),
+            Frame::Station(_) | Frame::Section(_) => return None,
+        };
+        Some((input, *force, pose.axis() * distance))
+    }
+}
+
+impl Term for Applied<'_> {
+    fn acts(&self) -> bool {
+        true
+    }
+
+    fn has_potential(&self) -> bool {
+        self.0.tip_moment == Vector3::zeros()
+    }
+
+    fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, _: Order) -> Option<Load> {
+        let Some((input, force, arm)) = self.force(frame, pose) else { return Some(Load::zero()) };
+        let mut load = Load::dead_force(&force, &pose.position, &arm);
+        if input == Input::TipForce && !self.has_potential() {
+            // No energy, and a moment that stays where the frame turns: its derivative is not symmetric.
+            let turning = hat(&self.0.tip_moment) * -0.5;
+            load.couple += turning;
+            (load.rotation_rotation, load.stiff) = (turning, true);
+        }
+        Some(load.in_axes(axes))
+    }
+
+    fn add_input_derivatives(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        out: &mut InputDerivatives,
+    ) -> Option<()> {
+        let Some((input, _, arm)) = self.force(frame, pose) else { return Some(()) };
+        for (axis, column) in input.columns().enumerate() {
+            let force = Vector3::ith(axis, -1.0);
+            out.add(column, &force, &arm.cross(&force));
+        }
+        if input == Input::TipForce {
+            for (axis, column) in Input::TipMoment.columns().enumerate() {
+                out.add(column, &Vector3::zeros(), &Vector3::ith(axis, -1.0));
+            }
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,99 @@
+//! The uniform and linear background field.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+
+use super::input_derivatives::{BACKGROUND_INPUTS, FieldRate, InputDerivatives};
+use super::{Frame, Term};
+use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::jacobian::Input;
+use crate::geometry::Pose;
+use crate::magnetics::LinearField;
+use crate::rod::{Load, Order};
+
+/// A field that is linear in the whole world: a body feels it at its centroid.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Background(LinearField);
+
+impl Background {
+    pub(super) fn new(inputs: &Inputs) -> Self {
+        Self(LinearField::new(inputs.uniform_field, inputs.field_gradient))
+    }
+
+    /// The field (T) at a point of the world.
+    pub(super) fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.0.at(point)
+    }
+
+    /// Its gradient, T/m.
+    pub(crate) fn gradient(&self) -> Matrix3<f64> {
+        self.0.gradient()
+    }
+
+    /// How it changes with its inputs at a point of the world.
+    pub(super) fn rates(point: &Vector3<f64>) -> [FieldRate; BACKGROUND_INPUTS] {
+        core::array::from_fn(|column| {
+            if column < 3 {
+                return (Vector3::ith(column, 1.0), Matrix3::zeros());
+            }
+            let entry = core::array::from_fn(|i| f64::from(u8::from(i == column - 3)));
+            let gradient = LinearField::new(Vector3::zeros(), entry).gradient();
+            (gradient * point, gradient)
+        })
+    }
+
+    /// Moment (A m2) of what a frame carries; zero for the tip.
+    fn moment(frame: &Frame<'_>) -> f64 {
+        match frame {
+            Frame::Ring(_, body) => body.source.moment(),
+            _ => frame.material().map_or(0.0, |matter| matter.magnetisation * matter.moments.volume),
+        }
+    }
+
+    /// From the frame's origin to the middle of that moment, m, world axes.
+    fn arm(frame: &Frame<'_>, pose: &Pose) -> Vector3<f64> {
+        if let Frame::Ring(_, body) = frame {
+            return pose.axis() * body.half_length();
+        }
+        let centroid = frame.material().map_or(Vector2::zeros(), |matter| matter.moments.centroid());
+        pose.rotation * Vector3::new(centroid.x, centroid.y, 0.0)
+    }
+}
+
+impl Term for Background {
+    fn acts(&self) -> bool {
+        self.0.at(&Vector3::zeros()) != Vector3::zeros() || self.gradient() != Matrix3::zeros()
+    }
+
+    fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
+        let mut load = Load::zero();
+        let moment = Self::moment(frame);
+        if moment == 0.0 {
+            return Some(load);
+        }
+        let (axis, gradient) = (axes.tr_mul(&pose.axis()), self.gradient());
+        if gradient == Matrix3::zeros() {
+            let field = axes.tr_mul(&self.at(&pose.position));
+            load.energy = -moment * axis.dot(&field);
+            load.couple = field * (axis.transpose() * -moment);
+            return Some(load);
+        }
+        let arm = Self::arm(frame, pose);
+        let field = axes.tr_mul(&self.at(&(pose.position + arm)));
+        let (gradient, arm) = (axes.tr_mul(&gradient) * axes, axes.tr_mul(&arm));
+        let flat = (order == Order::Hessian).then(Matrix3::zeros);
+        load.add_dipole(moment, &axis, &arm, &field, &gradient, flat.as_ref());
+        Some(load)
+    }
+
+    fn add_input_derivatives(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        out: &mut InputDerivatives,
+    ) -> Option<()> {
+        let (first, arm) = (Input::UniformField.columns().start, Self::arm(frame, pose));
+        let moment = pose.axis() * Self::moment(frame);
+        out.add_dipole(first, &moment, &arm, &Self::rates(&(pose.position + arm)));
+        Some(())
+    }
+}

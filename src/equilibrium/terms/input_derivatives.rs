@@ -1,0 +1,45 @@
+//! How the load on one frame changes with the inputs.
+
+use nalgebra::{DMatrix, Matrix3, Vector3};
+
+/// Inputs that make the background field: three of the uniform one, five of its gradient.
+pub(super) const BACKGROUND_INPUTS: usize = 8;
+
+/// Inputs that make the external field: those of the magnet (displacement, rotation and strength), then the background's.
+pub(crate) const FIELD_INPUTS: usize = 7 + BACKGROUND_INPUTS;
+
+/// Derivative of the field (T) and of its gradient (T/m) by one input.
+pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);
+
+/// Derivatives of the load's energy by position and rotation of its frame (six rows, world axes), one column an input.
+#[derive(Debug, Clone)]
+pub(crate) struct InputDerivatives(pub(crate) DMatrix<f64>);
+
+impl InputDerivatives {
+    /// Of no load.
+    pub(super) fn none(inputs: usize) -> Self {
+        Self(DMatrix::zeros(6, inputs))
+    }
+
+    /// Adds to one column.
+    pub(super) fn add(&mut self, column: usize, force: &Vector3<f64>, moment: &Vector3<f64>) {
+        for axis in 0..3 {
+            self.0[(axis, column)] += force[axis];
+            self.0[(3 + axis, column)] += moment[axis];
+        }
+    }
+
+    /// Adds a dipole (A m2) at `arm` from the frame's origin to the columns from `first` on.
+    pub(super) fn add_dipole(
+        &mut self,
+        first: usize,
+        moment: &Vector3<f64>,
+        arm: &Vector3<f64>,
+        rates: &[FieldRate],
+    ) {
+        for (column, (field, gradient)) in rates.iter().enumerate() {
+            let force = -gradient * moment;
+            self.add(first + column, &force, &(arm.cross(&force) - moment.cross(field)));
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! The external magnet: what its field does to rings and magnetised material.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::input_derivatives::{FieldRate, InputDerivatives};
+use super::{Frame, Term};
+use crate::equilibrium::chain::Chain;
+use crate::equilibrium::inputs::Inputs;
+use crate::equilibrium::jacobian::Input;
+use crate::equilibrium::rules::PairRules;
+use crate::equilibrium::source::Source;
+use crate::geometry::{Pose, hat};
+use crate::magnetics::{Assembly, Jet};
+use crate::rod::{Load, Order};
+
+/// Inputs of its own: displacement (3), rotation (3) and strength.
+const INPUTS: usize = 7;
+
+/// The magnet at its pose.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Magnet<'a> {
+    /// Also where it is switched off.
+    assembly: Option<&'a Assembly>,
+    /// Where it is switched on.
+    source: Option<Source<'a>>,
+    inputs: &'a Inputs,
+    rules: &'a PairRules,
+}
+
+impl<'a> Magnet<'a> {
+    pub(super) fn new(assembly: Option<&'a Assembly>, inputs: &'a Inputs, rules: &'a PairRules) -> Self {
+        let on = assembly.filter(|_| inputs.magnet_strength != 0.0);
+        let source = on.map(|assembly| Source::assembly(assembly, inputs.magnet, inputs.magnet_strength));
+        Self { assembly, source, inputs, rules }
+    }
+
+    /// The same for a chain whose sections are sampled as coarsely as this relative accuracy of the energies allows.
+    pub(crate) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
+        let seen = |source: Source<'a>| source.seen_by(chain, &self.inputs.base, accuracy);
+        Self { source: self.source.map(seen), ..self }
+    }
+
+    /// The same without the assembly: as if it could not be switched on.
+    pub(crate) fn removed(self) -> Self {
+        Self { assembly: None, source: None, ..self }
+    }
+
+    /// Its field (T) at a point of the world; `None` inside it.
+    pub(super) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.source.as_ref().map_or(Some(Vector3::zeros()), |source| source.at(point))
+    }
+
+    /// How its field changes with its own inputs at a point of the world; `None` inside it and on its edges, be it switched off.
+    ///
+    /// A field that moves as a body with velocity `v(x) = t + w x (x - c)` changes at a fixed point by
+    /// `w x B - G v`, and its gradient by `hat(w) G - G hat(w) - H v`.
+    pub(super) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; INPUTS]> {
+        let turn = &self.inputs.magnet.rotation;
+        let arm = point - self.inputs.magnet.position;
+        let own = match self.assembly {
+            None => Jet::zero(),
+            Some(assembly) => {
+                let local = turn.tr_mul(&arm);
+                if assembly.contains(&local) {
+                    return None;
+                }
+                assembly.jet(&local).ok()?.rotated(turn)
+            }
+        };
+        let jet = own * self.inputs.magnet_strength;
+        Some(core::array::from_fn(|column| {
+            let unit = Vector3::ith(column % 3, 1.0);
+            match column {
+                0..3 => (-jet.gradient * unit, -jet.hessian_along(&unit)),
+                3..6 => {
+                    let (spin, velocity) = (hat(&unit), unit.cross(&arm));
+                    let gradient = spin * jet.gradient - jet.gradient * spin - jet.hessian_along(&velocity);
+                    (spin * jet.field - jet.gradient * velocity, gradient)
+                }
+                _ => (own.field, own.gradient),
+            }
+        }))
+    }
+
+    /// Distance (m) of a point of the world from the assembly, switched on or off; infinite without one.
+    fn distance(&self, point: &Vector3<f64>) -> f64 {
+        let local = || self.inputs.magnet.rotation.tr_mul(&(point - self.inputs.magnet.position));
+        self.assembly.map_or(f64::INFINITY, |assembly| assembly.distance(&local()))
+    }
+}
+
+impl Term for Magnet<'_> {
+    fn acts(&self) -> bool {
+        self.source.is_some()
+    }
+
+    fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
+        let Some(source) = &self.source else { return Some(Load::zero()) };
+        let load = match frame {
+            Frame::Station(station) => {
+                source.on_material(&station.matter, source.points(station), pose, order)
+            }
+            Frame::Section(matter) => source.on_material(matter, &matter.moments.points(), pose, order),
+            Frame::Ring(number, body) => {
+                let centre = pose.position + pose.axis() * body.half_length();
+                let rule = self.rules.external(*number, self.distance(&centre));
+                source.on_ring(body, pose, rule, order)
+            }
+            Frame::Tip(_) => return Some(Load::zero()),
+        };
+        Some(load?.in_axes(&source.axes().tr_mul(axes)))
+    }
+
+    fn add_input_derivatives(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        out: &mut InputDerivatives,
+    ) -> Option<()> {
+        if self.assembly.is_none() {
+            return Some(());
+        }
+        let first = Input::MagnetPosition.columns().start;
+        match frame {
+            Frame::Station(station) if station.matter.magnetisation != 0.0 => {
+                let points =
+                    self.source.as_ref().map_or(&station.points.0[..], |source| source.points(station));
+                let whole = pose.axis() * (station.matter.magnetisation * station.matter.moments.volume);
+                let moment = whole / points.len() as f64;
+                for point in points {
+                    let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
+                    out.add_dipole(first, &moment, &arm, &self.rates(&(pose.position + arm))?);
+                }
+            }
+            Frame::Ring(number, body) => {
+                let (axis, half) = (pose.axis(), body.half_length());
+                let reach = self.distance(&(pose.position + axis * half));
+                for (height, volume) in self.rules.external(*number, reach).points() {
+                    let arm = axis * (half + height);
+                    let moment = axis * (body.magnetisation * volume);
+                    out.add_dipole(first, &moment, &arm, &self.rates(&(pose.position + arm))?);
+                }
+            }
+            Frame::Station(_) | Frame::Section(_) | Frame::Tip(_) => {}
+        }
+        Some(())
+    }
+}

@@ -1,0 +1,181 @@
+//! What acts on the chain, each in a file of its own: energies, loads, and derivatives by the inputs.
+//!
+//! A [`Term`] acts on single frames: its load depends on the pose of that frame alone. What rings do to one another and to spans
+//! ([`RingPairs`], [`RingsOnSpans`]) depends on two poses.
+
+mod applied;
+mod background;
+mod frame;
+mod input_derivatives;
+mod magnet;
+mod pair;
+mod ring_pairs;
+mod rings_on_spans;
+mod weight;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::chain::Chain;
+use super::inputs::Inputs;
+use super::rules::PairRules;
+use super::settings::Settings;
+use crate::geometry::Pose;
+use crate::magnetics::{Assembly, Wrench};
+use crate::rod::{Load, Order};
+
+pub(crate) use applied::Applied;
+pub(crate) use background::Background;
+pub(crate) use frame::Frame;
+pub(crate) use input_derivatives::{FIELD_INPUTS, FieldRate, InputDerivatives};
+pub(crate) use magnet::Magnet;
+pub(crate) use pair::blocks;
+pub(crate) use ring_pairs::{RingPairs, overlap};
+pub(crate) use rings_on_spans::{Mixed, RingsOnSpans};
+pub(crate) use weight::Weight;
+
+/// Something that acts on single frames.
+pub(crate) trait Term {
+    /// Whether it does anything at these inputs.
+    fn acts(&self) -> bool;
+
+    /// Whether its loads are derivatives of an energy.
+    fn has_potential(&self) -> bool {
+        true
+    }
+
+    /// Energy of what `frame` carries at `pose`, with its derivatives in `axes` (columns, in the world's); `None` where that is
+    /// not defined, as inside a magnet.
+    fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load>;
+
+    /// Adds the derivatives of that load, in the world's axes, by the term's own inputs; `None` where there are none.
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut InputDerivatives)
+    -> Option<()>;
+}
+
+/// Number of the terms that act on single frames.
+const LOCAL: usize = 4;
+
+/// Everything that acts on the chain.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Terms<'a> {
+    pub(crate) magnet: Magnet<'a>,
+    pub(crate) background: Background,
+    pub(crate) weight: Weight,
+    pub(crate) applied: Applied<'a>,
+    pub(crate) pairs: RingPairs<'a>,
+    pub(crate) spans: RingsOnSpans<'a>,
+}
+
+impl<'a> Terms<'a> {
+    /// At `inputs`, with the rules chosen last.
+    pub(crate) fn new(
+        chain: &'a Chain,
+        settings: &Settings,
+        magnet: Option<&'a Assembly>,
+        inputs: &'a Inputs,
+        rules: &'a PairRules,
+    ) -> Self {
+        Self {
+            magnet: Magnet::new(magnet, inputs, rules),
+            background: Background::new(inputs),
+            weight: Weight::new(inputs),
+            applied: Applied::new(inputs),
+            pairs: RingPairs::new(chain, settings.interaction, rules),
+            spans: RingsOnSpans::new(chain, settings.interaction, rules),
+        }
+    }
+
+    /// Those that act on single frames.
+    fn local(&self) -> [&dyn Term; LOCAL] {
+        [&self.magnet, &self.background, &self.weight, &self.applied]
+    }
+
+    /// Whether all forces have a potential.
+    pub(crate) fn have_potential(&self) -> bool {
+        !self.pairs.one_sided() && self.local().iter().all(|term| term.has_potential())
+    }
+
+    /// All that acts on one frame, in `axes`; adds each term's wrench about `origin` to `wrenches`.
+    pub(crate) fn load(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        axes: &Matrix3<f64>,
+        order: Order,
+        (origin, wrenches): (&Vector3<f64>, &mut TermWrenches),
+    ) -> Option<Load> {
+        let arm = pose.position - origin;
+        let mut sum = Load::zero();
+        for (term, wrench) in self.local().into_iter().zip(&mut wrenches.0) {
+            if term.acts() {
+                let load = term.load(frame, pose, axes, order)?;
+                let (force, moment) = (axes * load.force, axes * load.moment());
+                wrench.force -= force;
+                wrench.torque -= moment + arm.cross(&force);
+                sum += load;
+            }
+        }
+        Some(sum)
+    }
+
+    /// Derivatives of all that acts on one frame by all inputs, world axes.
+    pub(crate) fn input_derivatives(
+        &self,
+        frame: &Frame<'_>,
+        pose: &Pose,
+        inputs: usize,
+    ) -> Option<InputDerivatives> {
+        let mut out = InputDerivatives::none(inputs);
+        for term in self.local() {
+            term.add_input_derivatives(frame, pose, &mut out)?;
+        }
+        Some(out)
+    }
+
+    /// External field (T) at a point of the world; `None` inside a magnet.
+    pub(crate) fn field_at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        Some(self.background.at(point) + self.magnet.at(point)?)
+    }
+
+    /// How that field changes with the inputs that make it, in the order of the Jacobian's columns.
+    pub(crate) fn field_rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; FIELD_INPUTS]> {
+        let (magnet, background) = (self.magnet.rates(point)?, Background::rates(point));
+        let split = magnet.len();
+        Some(core::array::from_fn(|i| if i < split { magnet[i] } else { background[i - split] }))
+    }
+}
+
+/// What each term that acts on single frames does to the whole chain, about the base position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TermWrenches([Wrench; LOCAL]);
+
+impl TermWrenches {
+    /// Of no load.
+    pub(crate) fn none() -> Self {
+        Self([Wrench::NONE; LOCAL])
+    }
+
+    /// Adds `share` times others.
+    pub(crate) fn add(&mut self, others: &Self, share: f64) {
+        for (own, other) in self.0.iter_mut().zip(&others.0) {
+            own.force += other.force * share;
+            own.torque += other.torque * share;
+        }
+    }
+
+    /// That of all external fields.
+    pub(crate) fn magnetic(&self) -> Wrench {
+        let [magnet, background, ..] = &self.0;
+        Wrench { force: magnet.force + background.force, torque: magnet.torque + background.torque }
+    }
+
+    /// What the external magnet feels about its centre.
+    pub(crate) fn on_magnet(&self, inputs: &Inputs) -> Wrench {
+        let [magnet, ..] = &self.0;
+        if *magnet == Wrench::NONE {
+            return Wrench::NONE; // without signs on its zeros
+        }
+        let arm = inputs.magnet.position - inputs.base.position;
+        Wrench { force: -magnet.force, torque: arm.cross(&magnet.force) - magnet.torque }
+    }
+}

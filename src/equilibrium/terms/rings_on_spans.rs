@@ -1,0 +1,68 @@
+//! Rings on spans, and spans back on rings.
+
+use nalgebra::Matrix6;
+
+use super::pair::PairLoad;
+use crate::equilibrium::chain::Chain;
+use crate::equilibrium::rules::PairRules;
+use crate::equilibrium::settings::Interaction;
+use crate::equilibrium::source::Source;
+use crate::geometry::Pose;
+use crate::rod::{Order, Sample};
+
+/// All rings with all spans but the discs bonded to their faces.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RingsOnSpans<'a> {
+    chain: &'a Chain,
+    interaction: Interaction,
+    rules: &'a PairRules,
+    /// Whether tables may stand for the rings' fields: in a gradient alone, whose energy nobody compares.
+    pub(crate) tabulated: bool,
+}
+
+/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
+/// station, in fixed axes.
+#[derive(Debug, Clone)]
+pub(crate) struct Mixed {
+    pub(crate) station: usize,
+    pub(crate) node: usize,
+    pub(crate) matrix: Matrix6<f64>,
+}
+
+impl<'a> RingsOnSpans<'a> {
+    pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairRules) -> Self {
+        Self { chain, interaction, rules, tabulated: false }
+    }
+
+    /// Whether there are any.
+    pub(crate) fn act(&self) -> bool {
+        self.interaction.acts_on_spans()
+    }
+
+    /// Whether spans act back on the rings.
+    pub(crate) fn are_mutual(&self) -> bool {
+        self.interaction == Interaction::Full
+    }
+
+    /// Ring number `ring` with its node at `node`, as spans see it.
+    pub(crate) fn source(&self, ring: usize, node: &Pose) -> Source<'a> {
+        Source::ring(&self.chain.rings[ring], node, self.tabulated)
+    }
+
+    /// The samples of an element that a ring acts on.
+    pub(crate) fn samples(&self, element: usize, ring: usize) -> &'a [Sample] {
+        self.chain.views.samples(element, ring, self.rules.span(element, ring))
+    }
+
+    /// The energy of a ring, whose node is at `node`, and a sample of material with its station at `pose`, as loads on both.
+    pub(crate) fn load(
+        source: &Source<'_>,
+        node: &Pose,
+        sample: &Sample,
+        pose: &Pose,
+        order: Order,
+    ) -> Option<PairLoad> {
+        let load = source.on_sample(sample, pose, order)?.in_axes(&source.axes().transpose());
+        Some(PairLoad::reciprocal(&load, pose.position - node.position))
+    }
+}
