@@ -41,3 +41,5 @@ mod hostile;
 mod cli;
 
 mod layers;
+
+mod dependencies;
