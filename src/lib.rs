@@ -44,3 +44,10 @@ pub use nalgebra;
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {} // its Rust example is a doctest
+
+#[cfg(doctest)]
+#[doc = concat!("```\n", include_str!("../tests/examples/ring_field.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/shape.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/jacobian.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/snap.rs"), "```")]
+mod examples {} // and so are the example programs
