@@ -23,6 +23,7 @@ mod bindings {
             .allowlist_item("fmi2.*")
             .ignore_functions() // `ffi.rs` defines them; their types (`fmi2DoStepTYPE`...) are kept
             .default_enum_style(bindgen::EnumVariation::NewType { is_bitfield: false, is_global: false })
+            .ctypes_prefix("libc")
             .layout_tests(true)
             .rust_edition(bindgen::RustEdition::Edition2024)
             .raw_line("//! Types of the official headers in `fmu/headers`, as bindgen writes them (feature `bindgen`).")

@@ -1,6 +1,19 @@
 //! Statics of magnetic continuum manipulators (MCMs): given where the external magnet is, what shape,
 //! tip angle and forces does the catheter take?
 //!
+//! ```
+//! use mcm::manipulator::Scene;
+//!
+//! // Three segments of the paper's manipulator in a uniform field of 10 mT across their axis.
+//! let text = "[design]\nsegments = 3\n[field]\nuniform_mt = [0.0, 10.0, 0.0]";
+//! let scene = Scene::parse(text, "quick start")?;
+//! let mut manipulator = scene.manipulator(21)?; // 21 points of the centreline
+//! let outputs = manipulator.solve(&scene.inputs)?;
+//! assert_eq!(outputs.stable, Some(true));
+//! assert!((outputs.tip_angle.to_degrees() - 73.6).abs() < 0.1);
+//! # Ok::<(), mcm::error::Error>(())
+//! ```
+//!
 //! The rooms, in the order in which they may use one another:
 
 pub mod constants; // physical constants with their source
@@ -22,10 +35,21 @@ pub mod methods; // other methods for the same equilibrium, kept to compare with
 
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
+#[cfg(feature = "studies")]
 pub mod studies; // the paper's figures as numbers
 
 pub mod fmi; // the FMI 2.0 co-simulation FMU
 
+/// Vectors, rotations and matrices of this interface, in the version that it uses: `mcm::nalgebra::Vector3`.
+pub use nalgebra;
+
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 mod readme {} // its Rust example is a doctest
+
+#[cfg(doctest)]
+#[doc = concat!("```\n", include_str!("../tests/examples/ring_field.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/shape.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/jacobian.rs"), "```")]
+#[doc = concat!("```\n", include_str!("../tests/examples/snap.rs"), "```")]
+mod examples {} // and so are the example programs

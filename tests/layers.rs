@@ -168,6 +168,15 @@ fn top_level_holds_nothing_else() {
 }
 
 #[test]
+fn every_room_exists() {
+    let house = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for (room, _) in ROOMS {
+        let exists = house.join(room).is_dir() || house.join(format!("{room}.rs")).is_file();
+        assert!(exists, "src has no room `{room}`");
+    }
+}
+
+#[test]
 fn table_of_contents_lists_the_rooms_in_order() {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
     let order = |room: &str| ROOMS.iter().position(|(name, _)| *name == room).expect(room);

@@ -43,3 +43,5 @@ mod hostile;
 mod cli;
 
 mod layers;
+
+mod dependencies;

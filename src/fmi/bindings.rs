@@ -8,16 +8,16 @@ pub const fmi2TypesPlatform: &[u8; 8] = b"default\0";
 pub const fmi2True: u32 = 1;
 pub const fmi2False: u32 = 0;
 pub const fmi2Version: &[u8; 4] = b"2.0\0";
-pub type fmi2Component = *mut ::std::os::raw::c_void;
-pub type fmi2ComponentEnvironment = *mut ::std::os::raw::c_void;
-pub type fmi2FMUstate = *mut ::std::os::raw::c_void;
-pub type fmi2ValueReference = ::std::os::raw::c_uint;
+pub type fmi2Component = *mut libc::c_void;
+pub type fmi2ComponentEnvironment = *mut libc::c_void;
+pub type fmi2FMUstate = *mut libc::c_void;
+pub type fmi2ValueReference = libc::c_uint;
 pub type fmi2Real = f64;
-pub type fmi2Integer = ::std::os::raw::c_int;
-pub type fmi2Boolean = ::std::os::raw::c_int;
-pub type fmi2Char = ::std::os::raw::c_char;
+pub type fmi2Integer = libc::c_int;
+pub type fmi2Boolean = libc::c_int;
+pub type fmi2Char = libc::c_char;
 pub type fmi2String = *const fmi2Char;
-pub type fmi2Byte = ::std::os::raw::c_char;
+pub type fmi2Byte = libc::c_char;
 impl fmi2Status {
     pub const fmi2OK: fmi2Status = fmi2Status(0);
     pub const fmi2Warning: fmi2Status = fmi2Status(1);
@@ -28,14 +28,14 @@ impl fmi2Status {
 }
 #[repr(transparent)]
 #[derive(Debug, Copy, Clone, Hash, PartialEq, Eq)]
-pub struct fmi2Status(pub ::std::os::raw::c_uint);
+pub struct fmi2Status(pub libc::c_uint);
 impl fmi2Type {
     pub const fmi2ModelExchange: fmi2Type = fmi2Type(0);
     pub const fmi2CoSimulation: fmi2Type = fmi2Type(1);
 }
 #[repr(transparent)]
 #[derive(Debug, Copy, Clone, Hash, PartialEq, Eq)]
-pub struct fmi2Type(pub ::std::os::raw::c_uint);
+pub struct fmi2Type(pub libc::c_uint);
 impl fmi2StatusKind {
     pub const fmi2DoStepStatus: fmi2StatusKind = fmi2StatusKind(0);
     pub const fmi2PendingStatus: fmi2StatusKind = fmi2StatusKind(1);
@@ -44,7 +44,7 @@ impl fmi2StatusKind {
 }
 #[repr(transparent)]
 #[derive(Debug, Copy, Clone, Hash, PartialEq, Eq)]
-pub struct fmi2StatusKind(pub ::std::os::raw::c_uint);
+pub struct fmi2StatusKind(pub libc::c_uint);
 pub type fmi2CallbackLogger = ::std::option::Option<
     unsafe extern "C" fn(
         componentEnvironment: fmi2ComponentEnvironment,
@@ -56,9 +56,9 @@ pub type fmi2CallbackLogger = ::std::option::Option<
     ),
 >;
 pub type fmi2CallbackAllocateMemory =
-    ::std::option::Option<unsafe extern "C" fn(nobj: usize, size: usize) -> *mut ::std::os::raw::c_void>;
+    ::std::option::Option<unsafe extern "C" fn(nobj: usize, size: usize) -> *mut libc::c_void>;
 pub type fmi2CallbackFreeMemory =
-    ::std::option::Option<unsafe extern "C" fn(obj: *mut ::std::os::raw::c_void)>;
+    ::std::option::Option<unsafe extern "C" fn(obj: *mut libc::c_void)>;
 pub type fmi2StepFinished = ::std::option::Option<
     unsafe extern "C" fn(componentEnvironment: fmi2ComponentEnvironment, status: fmi2Status),
 >;
@@ -115,8 +115,8 @@ const _: () = {
 };
 #[doc = "Types for Common Functions"]
 pub type fmi2GetTypesPlatformTYPE =
-    ::std::option::Option<unsafe extern "C" fn() -> *const ::std::os::raw::c_char>;
-pub type fmi2GetVersionTYPE = ::std::option::Option<unsafe extern "C" fn() -> *const ::std::os::raw::c_char>;
+    ::std::option::Option<unsafe extern "C" fn() -> *const libc::c_char>;
+pub type fmi2GetVersionTYPE = ::std::option::Option<unsafe extern "C" fn() -> *const libc::c_char>;
 pub type fmi2SetDebugLoggingTYPE = ::std::option::Option<
     unsafe extern "C" fn(
         c: fmi2Component,

@@ -1,0 +1,40 @@
+//! The library alone needs few other crates; all that the program and the studies need comes with their features.
+
+use toml::{Table, Value};
+
+/// What the library and the FMU are made with.
+const OF_THE_LIBRARY: [&str; 10] = [
+    "cpu-time",
+    "crc32fast",
+    "libc",
+    "nalgebra",
+    "postcard",
+    "quick-xml",
+    "serde",
+    "strsim",
+    "thiserror",
+    "toml",
+];
+
+/// The names of the dependencies without which nothing is built.
+fn always_needed(manifest: &str) -> Vec<String> {
+    let manifest: Table = manifest.parse().unwrap();
+    let optional = |dependency: &Value| dependency.get("optional").and_then(Value::as_bool) == Some(true);
+    let dependencies = manifest["dependencies"].as_table().unwrap();
+    dependencies
+        .iter()
+        .filter(|(_, dependency)| !optional(dependency))
+        .map(|(name, _)| name.clone())
+        .collect()
+}
+
+#[test]
+fn what_the_library_does_not_need_is_optional() {
+    assert_eq!(always_needed(include_str!("../Cargo.toml")), OF_THE_LIBRARY);
+}
+
+#[test]
+fn a_dependency_is_needed_unless_it_is_optional() {
+    let manifest = "[dependencies]\na = \"1\"\nb = { version = \"1\", optional = true }\nc = { version = \"1\", optional = false }";
+    assert_eq!(always_needed(manifest), ["a", "c"]);
+}
