@@ -57,8 +57,7 @@ pub type fmi2CallbackLogger = ::std::option::Option<
 >;
 pub type fmi2CallbackAllocateMemory =
     ::std::option::Option<unsafe extern "C" fn(nobj: usize, size: usize) -> *mut libc::c_void>;
-pub type fmi2CallbackFreeMemory =
-    ::std::option::Option<unsafe extern "C" fn(obj: *mut libc::c_void)>;
+pub type fmi2CallbackFreeMemory = ::std::option::Option<unsafe extern "C" fn(obj: *mut libc::c_void)>;
 pub type fmi2StepFinished = ::std::option::Option<
     unsafe extern "C" fn(componentEnvironment: fmi2ComponentEnvironment, status: fmi2Status),
 >;
@@ -114,8 +113,7 @@ const _: () = {
         [::std::mem::offset_of!(fmi2EventInfo, nextEventTime) - 24usize];
 };
 #[doc = "Types for Common Functions"]
-pub type fmi2GetTypesPlatformTYPE =
-    ::std::option::Option<unsafe extern "C" fn() -> *const libc::c_char>;
+pub type fmi2GetTypesPlatformTYPE = ::std::option::Option<unsafe extern "C" fn() -> *const libc::c_char>;
 pub type fmi2GetVersionTYPE = ::std::option::Option<unsafe extern "C" fn() -> *const libc::c_char>;
 pub type fmi2SetDebugLoggingTYPE = ::std::option::Option<
     unsafe extern "C" fn(
