@@ -179,7 +179,9 @@ impl Walk<'_> {
         let unit = chain.unit();
         self.choose_rules(inputs, unknowns);
         for _ in 0..RULE_CHOICES {
-            if !self.work.factored || !self.chord(inputs, unknowns, reach.min(settings.follow_step), NEARLY) {
+            if self.work.factorisation.is_none()
+                || !self.chord(inputs, unknowns, reach.min(settings.follow_step), NEARLY)
+            {
                 break;
             }
             if !self.choose_rules_here() {
@@ -285,7 +287,9 @@ impl Walk<'_> {
 
     /// Whether what the last factorisation tells about stability holds for the present loads and `unknowns`.
     fn holds(&self, unknowns: &[f64]) -> bool {
-        self.work.reference.origin.judged && self.work.drift(self.scene.chain, unknowns) <= self.reach
+        let (work, chain) = (&*self.work, self.scene.chain);
+        let last = work.factorisation.as_ref();
+        last.is_some_and(|last| last.holds_at(work, chain, unknowns, self.reach))
     }
 
     /// Chooses the rules for a shape.
@@ -301,14 +305,17 @@ impl Walk<'_> {
 
     /// An upper bound of the margin at the shape `unknowns`, which the last correction has found.
     pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64], search: Search) {
-        let mut margin = if self.work.factored { self.look(inputs, softest, search) } else { f64::NAN };
+        let mut margin =
+            if self.work.factorisation.is_some() { self.look(inputs, softest, search) } else { f64::NAN };
         if margin.is_nan() || margin < DOUBTFUL {
             // The Hessian is that of a shape one step earlier, which may be held by what it was off.
             let mut potential = self.potential(inputs);
             let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
             margin = if regular { self.look(inputs, softest, search) } else { 0.0 };
         }
-        self.work.reference.origin.judged = self.work.factored;
+        if let Some(factorisation) = &mut self.work.factorisation {
+            factorisation.set_judged(true);
+        }
         if margin.is_finite() {
             let held = margin > FREE;
             (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));

@@ -108,7 +108,7 @@ impl Walk<'_> {
         let left = self.apart(&back, last) > RETURNED * distance
             && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
         // The factorisation is that of another shape.
-        self.work.factored = false;
+        self.work.factorisation = None;
         (self.report.residual, self.report.energy) = (residual, energy);
         left
     }

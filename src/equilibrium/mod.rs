@@ -2,22 +2,22 @@
 
 mod chain;
 mod columns;
-mod condensed;
+mod condensation;
 mod contact;
 mod continuation;
 mod correction;
 mod deadline;
 mod descent;
-mod drift;
+mod factorisation;
 mod follow;
 mod hessian;
 mod inputs;
 mod interpolation;
 mod jacobian;
+mod newton_equations;
 mod outcome;
 mod pair_loads;
 mod potential;
-mod reduction;
 mod refinement;
 mod rows;
 mod rules;

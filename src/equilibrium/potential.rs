@@ -1,12 +1,12 @@
 //! The potential of the whole chain, with exact gradient and Hessian.
 
-use nalgebra::{Dyn, LU, Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use super::chain::Chain;
-use super::drift::Reference;
+use super::condensation::Condensation;
+use super::factorisation::{Factorisation, Linearisation};
 use super::inputs::Inputs;
 use super::pair_loads::PairLoads;
-use super::reduction::Reduction;
 use super::rules::PairRules;
 use super::settings::Settings;
 use super::terms::{Frame, Mixed, TermWrenches, Terms, blocks};
@@ -39,25 +39,16 @@ pub(super) struct Workspace {
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     pub(super) tangents: Vec<Tangent>,
-    pub(super) reductions: Vec<Reduction>,
     /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
     /// a node.
     pub(super) mixed: Vec<Vec<Mixed>>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
-    pub(super) factor: Vec<f64>,
-    /// The factorisation where the matrix is not symmetric.
-    pub(super) lu: Option<LU<f64, Dyn, Dyn>>,
-    /// Whether `factor` and the reductions hold a factorisation, of this shape or an earlier one.
-    pub(super) factored: bool,
-    /// Where the Hessian was last made.
-    pub(super) reference: Reference,
-    /// Whether the symmetric part of that matrix is positive definite, and its Cholesky factor there.
-    pub(super) definite: bool,
-    /// Axes of the elements' start nodes in that factorisation.
-    pub(super) axes: Vec<Matrix3<f64>>,
-    pub(super) rhs: Vec<f64>,
+    /// The last Hessian while it is not factorised.
+    pub(super) linearisation: Option<Box<Linearisation>>,
+    /// That of this shape or an earlier one.
+    pub(super) factorisation: Option<Factorisation>,
 }
 
 impl Workspace {
@@ -75,18 +66,12 @@ impl Workspace {
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             tangents: chain.elements.iter().map(Tangent::new).collect(),
-            reductions: chain.elements.iter().map(|e| Reduction::new(e.freedoms(), columns)).collect(),
             mixed: vec![Vec::new(); count],
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],
             node_hessian: vec![0.0; size * size],
-            factor: vec![0.0; size * size],
-            lu: None,
-            factored: false,
-            reference: Reference::new(chain),
-            definite: false,
-            axes: vec![Matrix3::identity(); count],
-            rhs: vec![0.0; size],
+            linearisation: None,
+            factorisation: None,
         }
     }
 
@@ -139,7 +124,7 @@ impl Potential<'_> {
     /// Whether the shape factorised last is stable, for all that its factorisation tells; see [`Potential::margin`]. Where the
     /// symmetric part is positive definite no displacement gains energy, with a potential or without.
     pub(super) fn is_stable(&mut self) -> bool {
-        if self.work.definite {
+        if self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite) {
             return true;
         }
         let mut softest = vec![0.0; self.chain.metric.len()];
@@ -221,8 +206,13 @@ impl Potential<'_> {
         Some(())
     }
 
-    /// Gradient and element Hessians, from the tip to the base.
-    pub(super) fn backward(&mut self, unknowns: &[f64], order: Order) -> bool {
+    /// Gradient and, with storage for their condensation, element Hessians, from the tip to the base.
+    pub(super) fn backward(
+        &mut self,
+        unknowns: &[f64],
+        mut condensations: Option<&mut [Condensation]>,
+    ) -> bool {
+        let order = if condensations.is_some() { Order::Hessian } else { Order::Gradient };
         let mut force = Vector3::zeros();
         let mut moment = Vector3::zeros();
         for (k, element) in self.chain.elements.iter().enumerate().rev() {
@@ -243,13 +233,13 @@ impl Potential<'_> {
             force = axes * Vector3::new(g[0], g[1], g[2]);
             moment = axes * Vector3::new(g[3], g[4], g[5]);
             self.work.gradient[self.chain.first[k]..self.chain.first[k + 1]].copy_from_slice(&g[6..]);
-            let linear = order == Order::Gradient
-                || self.work.reductions[k].linearise(&self.work.configurations[k], &self.work.tangents[k]);
-            if !linear {
-                return false;
-            }
-            if order == Order::Hessian && self.terms.spans.act() {
-                self.mix(k);
+            if let Some(condensations) = &mut condensations {
+                if !condensations[k].linearise(&self.work.configurations[k], &self.work.tangents[k]) {
+                    return false;
+                }
+                if self.terms.spans.act() {
+                    self.mix(k);
+                }
             }
         }
         let base = &self.work.node_loads[0];

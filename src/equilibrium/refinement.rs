@@ -117,8 +117,8 @@ impl Refinement {
         let Self { model, projection, shape, step, coarse: own } = self;
         let unknowns = std::mem::take(&mut coarse.branch.unknowns);
         let mut potential = coarse.potential_as_ruled(inputs);
-        let factored =
-            potential.work.factored || (potential.linearise(&unknowns).is_some() && potential.factorise(0.0));
+        let factored = potential.work.factorisation.is_some()
+            || (potential.linearise(&unknowns).is_some() && potential.factorise(0.0));
         shape.fill(0.0);
         projection.raise(&unknowns, shape);
         coarse.branch.unknowns = unknowns;

@@ -66,8 +66,7 @@ impl Equilibrium {
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         let nothing = || Error::NoDerivatives("nothing is solved yet".into());
         let inputs = self.branch.inputs.clone().ok_or_else(nothing)?;
-        // Evaluations of the copy leave no trace.
-        let mut copy = self.clone();
+        let mut copy = self.apart();
         let response = copy.response(&inputs)?;
         let mut rows = Rows::new(&inputs, &response.counts);
         copy.add_tip(&mut rows, &response);

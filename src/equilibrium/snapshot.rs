@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::drift::Origin;
+use super::factorisation::Origin;
 use super::follow::{Branch, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
@@ -24,7 +24,7 @@ impl Equilibrium {
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             branch: self.branch.clone(),
-            origin: self.work.factored.then(|| self.work.reference.origin.clone()),
+            origin: self.work.factorisation.as_ref().map(|last| last.origin().clone()),
             rules: self.rules.chosen().collect(),
         }
     }
@@ -63,7 +63,9 @@ impl Equilibrium {
         }
         let mut potential = self.potential_as_ruled(&origin.inputs);
         let done = potential.linearise(&origin.unknowns).is_some() && potential.factorise(0.0);
-        self.work.reference.origin.judged = origin.judged;
+        if let Some(factorisation) = &mut self.work.factorisation {
+            factorisation.set_judged(origin.judged);
+        }
         done
     }
 }

@@ -99,7 +99,7 @@ impl Equilibrium {
     /// Back to the straight shape at the origin; the branch is forgotten.
     pub fn reset(&mut self) {
         self.branch = Branch::new(&self.chain);
-        self.work.factored = false;
+        self.work.factorisation = None;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
@@ -135,11 +135,12 @@ impl Equilibrium {
 
     /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
     /// unloaded manipulator without internal forces, 0 at a fold. `None` before the first solve.
-    pub fn margin(&mut self) -> Option<f64> {
-        let inputs = self.branch.inputs.clone()?;
-        let unknowns = self.branch.unknowns.clone();
-        let mut potential = self.potential(&inputs, &unknowns);
-        potential.linearise(&unknowns)?;
+    #[must_use]
+    pub fn margin(&self) -> Option<f64> {
+        let (inputs, unknowns) = (self.branch.inputs.as_ref()?, &self.branch.unknowns);
+        let mut apart = self.apart();
+        let mut potential = apart.potential(inputs, unknowns);
+        potential.linearise(unknowns)?;
         let regular = potential.factorise(0.0);
         regular.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
@@ -190,7 +191,7 @@ impl Equilibrium {
             potential.solve(&mut solution);
             solution
         });
-        self.work.factored = false; // not that of the branch
+        self.work.factorisation = None; // not that of the branch
         solved
     }
 
@@ -204,6 +205,20 @@ impl Equilibrium {
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
         let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         scene.potential(inputs, &self.rules, &mut self.work)
+    }
+
+    /// The same branch with a workspace of its own: its evaluations leave no trace here.
+    pub(super) fn apart(&self) -> Self {
+        Self {
+            chain: Arc::clone(&self.chain),
+            settings: self.settings,
+            magnet: self.magnet.clone(),
+            shape: Arc::clone(&self.shape),
+            branch: self.branch.clone(),
+            work: Workspace::new(&self.chain, &self.settings),
+            rules: self.rules.clone(),
+            scratch: Scratch::new(&self.chain),
+        }
     }
 
     /// What acts at `inputs`, with the rules that were chosen last.

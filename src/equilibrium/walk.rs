@@ -50,7 +50,7 @@ impl Walk<'_> {
             End::Neutral => {
                 // Factorisation and loads are those of a shape on the way, or on the way back.
                 self.potential(target).chord_slope(&branch.unknowns);
-                self.work.factored = false;
+                self.work.factorisation = None;
                 (self.report.stable, self.report.outcome) = (Some(false), Outcome::Neutral);
             }
             End::Lost => {
@@ -73,7 +73,7 @@ impl Walk<'_> {
 
     /// Leaves `branch` where it was or, where only the budget ended the way, at the last shape on it: asked again, it goes on.
     fn give_up(&mut self, branch: &mut Branch, outcome: Outcome) -> Report {
-        self.work.factored = false;
+        self.work.factorisation = None;
         match self.reached.take().filter(|_| outcome == Outcome::OutOfBudget) {
             Some((inputs, unknowns)) => branch.rest_at(inputs, unknowns),
             None => branch.unknowns.copy_from_slice(&self.scratch.last),

@@ -152,7 +152,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.ladder.present().clone().margin() {
+        if let Some(margin) = self.ladder.present().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs

@@ -1,4 +1,4 @@
-//! One element's Hessian in terms of its two end nodes: the mode amplitudes are eliminated.
+//! Static condensation of one element: its Hessian in terms of its two end nodes, the mode amplitudes eliminated.
 //!
 //! The first mode of each strain component is expressed by the displacement of the end nodes (linearised
 //! kinematics), the others are condensed by Cholesky. Congruence keeps the inertia, so that the condensed
@@ -17,9 +17,9 @@ const NODES: usize = 12;
 /// Amplitudes that the end nodes determine.
 const END: usize = 6;
 
-/// The elimination of one element.
+/// The static condensation (Schur complement) of one element.
 #[derive(Debug, Clone)]
-pub(super) struct Reduction {
+pub(super) struct Condensation {
     inner: usize,
     by_start: Matrix6<f64>,
     by_end: Matrix6<f64>,
@@ -41,7 +41,7 @@ pub(super) struct Reduction {
     pub(super) condensed: [[f64; NODES]; NODES],
 }
 
-impl Reduction {
+impl Condensation {
     /// Storage for an element with so many amplitudes, coupled to `columns` displacements of rings.
     pub(super) fn new(freedoms: usize, columns: usize) -> Self {
         let inner = freedoms - END;

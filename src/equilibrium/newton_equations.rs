@@ -1,0 +1,53 @@
+//! Newton's equations of the whole chain, as the trust region and Newton's method ask for them.
+
+use super::factorisation::Linearisation;
+use super::potential::Potential;
+use crate::numerics::trust_region::Objective;
+use crate::rod::Order;
+
+impl Objective for Potential<'_> {
+    fn slope(&mut self, x: &[f64]) -> Option<f64> {
+        let energy = self.load(x, Order::Gradient)?;
+        self.backward(x, None).then_some(energy)
+    }
+
+    fn linearise(&mut self, x: &[f64]) -> Option<f64> {
+        let storage = self.work.take_linearisation();
+        let mut made = storage.unwrap_or_else(|| Linearisation::new(self.chain, self.terms.spans.act()));
+        let energy = self.load(x, Order::Hessian)?;
+        let regular = self.backward(x, Some(&mut made.condensations));
+        made.note(self, x);
+        self.work.linearisation = Some(made);
+        regular.then_some(energy)
+    }
+
+    fn gradient(&self) -> &[f64] {
+        &self.work.gradient
+    }
+
+    /// Where the forces have no potential, whether the matrix is regular.
+    fn factorise(&mut self, shift: f64) -> bool {
+        let Some(made) = self.work.take_linearisation() else { return false };
+        match made.factorise(self, shift) {
+            Ok(factorisation) => self.work.factorisation = Some(factorisation),
+            Err(made) => self.work.linearisation = Some(made),
+        }
+        self.work.factorisation.is_some()
+    }
+
+    fn dissipates(&self) -> bool {
+        let definite = self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite);
+        definite || self.terms.pairs.one_sided()
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        match &mut self.work.factorisation {
+            Some(factorisation) => factorisation.solve(self.chain, x),
+            None => x.fill(f64::NAN),
+        }
+    }
+
+    fn metric(&self) -> &[f64] {
+        &self.chain.metric
+    }
+}
