@@ -1,14 +1,10 @@
 //! The chain as the solver sees it: nodes joined by elements, rings on nodes.
 
-use std::sync::Arc;
-
-use crate::constants::VACUUM_PERMEABILITY;
-use crate::design::{Design, Ring, SpanKind};
+use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
-use crate::geometry::Pose;
-use crate::magnetics::{AxialSource, FieldTable, Outline};
 use crate::rod::{Element, Piece, Resolution, Sight};
 
+use super::ring_body::{RingBody, tabulate};
 use super::settings::Settings;
 use super::terms::Frame;
 use super::views::{SPAN_SHARE, Views};
@@ -20,16 +16,6 @@ const EXTRA_DEGREES: usize = 4;
 /// their many points. For pairs of rings, whose few points have large weights of both signs, it would not do.
 const TABLE_ACCURACY: f64 = 1e-4;
 
-/// Tabulates the fields of the rings, equal ones once.
-fn tabulate(rings: &mut [RingBody]) {
-    for number in 0..rings.len() {
-        let (before, rest) = rings.split_at_mut(number);
-        let same = before.iter().find(|other| other.source == rest[0].source);
-        rest[0].table = same
-            .map_or_else(|| Some(Arc::new(FieldTable::new(&rest[0].source))), |other| other.table.clone());
-    }
-}
-
 /// Arc lengths (m) of so many points, equally spaced over a centreline of `length` (m).
 ///
 /// # Errors
@@ -37,48 +23,6 @@ fn tabulate(rings: &mut [RingBody]) {
 pub(crate) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
     check("number of shape points", points as f64, |v| v >= 2.0, ">= 2")?;
     Ok((0..points).map(move |i| length * i as f64 / (points - 1) as f64))
-}
-
-/// A rigid ring with its proximal face at a node.
-#[derive(Debug, Clone)]
-pub(crate) struct RingBody {
-    /// Dimensions and material.
-    pub(crate) ring: Ring,
-    /// Its node; 0 is the clamped base.
-    pub(crate) node: usize,
-    /// Its field, in its own frame.
-    pub(crate) source: AxialSource,
-    /// The same from a table, where spans are to be seen so.
-    pub(crate) table: Option<Arc<FieldTable>>,
-    /// Magnetisation, A/m.
-    pub(crate) magnetisation: f64,
-}
-
-impl RingBody {
-    fn new(ring: &Ring, node: usize) -> Result<Self, Error> {
-        Ok(Self {
-            ring: *ring,
-            node,
-            source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
-            table: None,
-            magnetisation: ring.remanence / VACUUM_PERMEABILITY,
-        })
-    }
-
-    /// Distance of its centre from its node, m.
-    pub(crate) fn half_length(&self) -> f64 {
-        0.5 * self.ring.length
-    }
-
-    /// Its outline; nothing of the manipulator or of a magnet is taken to fit into its bore.
-    pub(crate) fn outline(&self) -> Outline {
-        Outline::new(0.0, self.ring.outer_radius, self.ring.length)
-    }
-
-    /// Pose of its centre where that of its node is `node`.
-    pub(crate) fn centre(&self, node: &Pose) -> Pose {
-        node.advanced(self.half_length())
-    }
 }
 
 /// Nodes, elements and rings of a design.

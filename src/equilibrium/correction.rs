@@ -4,10 +4,11 @@ use super::chain::Chain;
 use super::deadline::Deadline;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::potential::{Potential, THOROUGH, Workspace};
+use super::potential::{Potential, THOROUGH};
 use super::rules::PairRules;
 use super::settings::Settings;
 use super::terms::Terms;
+use super::workspace::Workspace;
 use crate::magnetics::Assembly;
 use crate::numerics::eigenvalue::{Lanczos, Search, inner};
 use crate::numerics::trust_region::{Objective, dual_norm, norm, spread};
@@ -287,9 +288,8 @@ impl Walk<'_> {
 
     /// Whether what the last factorisation tells about stability holds for the present loads and `unknowns`.
     fn holds(&self, unknowns: &[f64]) -> bool {
-        let (work, chain) = (&*self.work, self.scene.chain);
-        let last = work.factorisation.as_ref();
-        last.is_some_and(|last| last.holds_at(work, chain, unknowns, self.reach))
+        let last = self.work.factorisation.as_ref();
+        last.is_some_and(|last| last.holds_at(self.scene.chain, unknowns, self.work.loads(), self.reach))
     }
 
     /// Chooses the rules for a shape.

@@ -9,11 +9,37 @@ use serde::{Deserialize, Serialize};
 use super::chain::Chain;
 use super::condensation::{Condensation, turn_nodes};
 use super::inputs::Inputs;
-use super::potential::{Potential, Workspace};
+use crate::geometry::Pose;
 use crate::numerics::cholesky;
+use crate::rod::Tangent;
 
-/// Entries of one load: its couple and its force.
-const ENTRIES: usize = 12;
+/// How rings and spans are coupled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SpanCoupling {
+    /// Not at all.
+    None,
+    /// Rings act on spans alone.
+    OneSided,
+    /// Spans act back on rings.
+    Mutual,
+}
+
+/// The Hessian of a shape in parts.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hessian<'a> {
+    pub(super) chain: &'a Chain,
+    /// By the displacements of the nodes, row by row.
+    pub(super) nodes: &'a [f64],
+    /// Of each element.
+    pub(super) elements: &'a [Tangent],
+    /// Of each element and the rings' nodes; empty where rings do not act on spans.
+    pub(super) mixed: &'a [Vec<f64>],
+    pub(super) spans: SpanCoupling,
+    /// Whether all forces have a potential, so that it is symmetric.
+    pub(super) symmetric: bool,
+    /// Whether every action among rings has its reaction.
+    pub(super) reciprocal: bool,
+}
 
 /// Where a Hessian was made: enough to make it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,8 +62,8 @@ pub(super) struct Linearisation {
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     origin: Origin,
-    /// What acted on nodes and elements.
-    loads: Vec<f64>,
+    /// What acted on nodes and elements: couple (N m) and force (N).
+    loads: Vec<(Matrix3<f64>, Vector3<f64>)>,
 }
 
 /// A Hessian that is factorised, with a shift or without.
@@ -48,9 +74,7 @@ pub(super) struct Factorisation {
     lu: Option<LU<f64, Dyn, Dyn>>,
     /// Whether its symmetric part is positive definite.
     pub(super) definite: bool,
-    /// Whether rings act on spans, and spans back on rings.
-    spans: bool,
-    mutual: bool,
+    spans: SpanCoupling,
 }
 
 impl Linearisation {
@@ -66,58 +90,63 @@ impl Linearisation {
             matrix: vec![0.0; size * size],
             rhs: vec![0.0; size],
             origin: Origin { unknowns, inputs, rules: Vec::new(), judged: false },
-            loads: vec![0.0; ENTRIES * (2 * count + 1)],
+            loads: Vec::with_capacity(2 * count + 1),
         })
     }
 
-    /// Keeps the shape `unknowns` and what acts on it, where `potential` has been linearised.
-    pub(super) fn note(&mut self, potential: &Potential<'_>, unknowns: &[f64]) {
-        for (axes, node) in self.axes.iter_mut().zip(&potential.work.nodes) {
+    /// Keeps where it has been made: the shape, the nodes' poses there, what acts on nodes and elements, and the rules.
+    pub(super) fn note(
+        &mut self,
+        (unknowns, nodes): (&[f64], &[Pose]),
+        loads: impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)>,
+        inputs: &Inputs,
+        rules: impl Iterator<Item = usize>,
+    ) {
+        for (axes, node) in self.axes.iter_mut().zip(nodes) {
             *axes = node.rotation;
         }
-        for (slot, load) in self.loads.chunks_exact_mut(ENTRIES).zip(potential.work.loads(potential.chain)) {
-            slot.copy_from_slice(&load);
-        }
+        self.loads.clear();
+        self.loads.extend(loads);
         let origin = &mut self.origin;
         origin.unknowns.copy_from_slice(unknowns);
-        origin.inputs.copy_from(potential.inputs);
+        origin.inputs.copy_from(inputs);
         origin.rules.clear();
-        origin.rules.extend(potential.rules.chosen());
+        origin.rules.extend(rules);
         origin.judged = false;
     }
 
-    /// Factorises the Hessian of `of`, made here, plus `shift` times the elastic one; itself where it is not positive definite
+    /// Factorises the Hessian that was made here, plus `shift` times the elastic one; itself where it is not positive definite
     /// or, without a potential, not regular.
     pub(super) fn factorise(
         mut self: Box<Self>,
-        of: &Potential<'_>,
+        hessian: &Hessian<'_>,
         shift: f64,
     ) -> Result<Factorisation, Box<Self>> {
         let size = self.rhs.len();
         self.origin.judged = false;
-        self.matrix.copy_from_slice(&of.work.node_hessian);
+        self.matrix.copy_from_slice(hessian.nodes);
         for k in 0..self.condensations.len() {
-            if !self.condense(of, k, shift) {
+            if !self.condense(hessian, k, shift) {
                 return Err(self);
             }
         }
         let mut lu = None;
-        if !of.terms.have_potential() {
+        if !hessian.symmetric {
             let whole = DMatrix::from_row_slice(size, size, &self.matrix);
             self.matrix.copy_from_slice(((&whole + whole.transpose()) * 0.5).as_slice());
             lu = Some(whole.lu());
         }
-        let definite = !of.terms.pairs.one_sided() && cholesky::factorise(&mut self.matrix, size);
+        let definite = hessian.reciprocal && cholesky::factorise(&mut self.matrix, size);
         let regular = lu.as_ref().map_or(definite, LU::is_invertible);
-        let (spans, mutual) = (of.terms.spans.act(), of.terms.spans.are_mutual());
-        if regular { Ok(Factorisation { made: self, lu, definite, spans, mutual }) } else { Err(self) }
+        let spans = hessian.spans;
+        if regular { Ok(Factorisation { made: self, lu, definite, spans }) } else { Err(self) }
     }
 
     /// Condenses element `k` and adds it to the matrix of the nodes.
-    fn condense(&mut self, of: &Potential<'_>, k: usize, shift: f64) -> bool {
+    fn condense(&mut self, hessian: &Hessian<'_>, k: usize, shift: f64) -> bool {
         let size = self.rhs.len();
         let own = &mut self.condensations[k];
-        if !own.condense(&of.work.tangents[k], &of.chain.elements[k].metric, shift) {
+        if !own.condense(&hessian.elements[k], &hessian.chain.elements[k].metric, shift) {
             return false;
         }
         let axes = self.axes[k];
@@ -134,11 +163,11 @@ impl Linearisation {
                 }
             }
         }
-        if !of.terms.spans.act() {
+        if hessian.spans == SpanCoupling::None {
             return true;
         }
-        own.condense_outer(&of.work.cross[k], size);
-        let mutual = of.terms.spans.are_mutual();
+        own.condense_outer(&hessian.mixed[k], size);
+        let mutual = hessian.spans == SpanCoupling::Mutual;
         for column in 0..size {
             let mut nodes = core::array::from_fn(|i| own.condensed_outer[i * size + column]);
             turn_nodes(&axes, &mut nodes);
@@ -177,7 +206,7 @@ impl Factorisation {
                     rhs[row] += value;
                 }
             }
-            if self.mutual {
+            if self.spans == SpanCoupling::Mutual {
                 condensation.eliminate_outer(part, rhs);
             }
         }
@@ -192,7 +221,7 @@ impl Factorisation {
             let part = &mut x[chain.first[k]..chain.first[k + 1]];
             let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| rhs[row]));
             turn_nodes(&axes[k].transpose(), &mut nodes);
-            if self.spans {
+            if self.spans != SpanCoupling::None {
                 condensation.recover_outer(rhs, part);
             }
             condensation.recover(&nodes, part);
@@ -209,51 +238,36 @@ impl Factorisation {
         self.made.origin.judged = judged;
     }
 
-    /// Whether what it told about stability holds for `unknowns` and the loads there, which `work` has added up last: they may
-    /// be as far as `reach` from its origin, in the radian norm.
-    pub(super) fn holds_at(&self, work: &Workspace, chain: &Chain, unknowns: &[f64], reach: f64) -> bool {
-        let Linearisation { origin, loads, .. } = &*self.made;
+    /// The storage, for the next one.
+    pub(super) fn into_linearisation(self) -> Box<Linearisation> {
+        self.made
+    }
+
+    /// Whether what it told about stability holds for `unknowns` with such `loads` on nodes and elements: they may be as far as
+    /// `reach` from its origin, in the radian norm.
+    pub(super) fn holds_at(
+        &self,
+        chain: &Chain,
+        unknowns: &[f64],
+        loads: impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)>,
+        reach: f64,
+    ) -> bool {
+        let Linearisation { origin, loads: before, .. } = &*self.made;
         if !origin.judged {
             return false;
         }
-        let turned = chain
-            .metric
+        let changes = unknowns.iter().zip(&origin.unknowns).map(|(a, b)| a - b);
+        let turned: f64 = chain.metric.iter().zip(changes).map(|(k, change)| k * change * change).sum();
+        let arm = chain.elements.first().map_or(0.0, |element| element.length);
+        let loaded: f64 = before
             .iter()
-            .zip(unknowns.iter().zip(&origin.unknowns))
-            .map(|(k, (a, b))| k * (a - b) * (a - b))
-            .sum::<f64>();
-        let mut loaded = 0.0;
-        for (slot, load) in loads.chunks_exact(ENTRIES).zip(work.loads(chain)) {
-            for (before, now) in slot.iter().zip(load) {
-                loaded += (now - before) * (now - before);
-            }
-        }
+            .zip(loads)
+            .map(|(before, now)| {
+                (now.0 - before.0).norm_squared() + ((now.1 - before.1) * arm).norm_squared()
+            })
+            .sum();
         let unit = chain.unit();
         turned.sqrt() / unit + loaded.sqrt() / (unit * unit) <= reach
-    }
-}
-
-impl Workspace {
-    /// The storage of the last Hessian, factorised or not.
-    pub(super) fn take_linearisation(&mut self) -> Option<Box<Linearisation>> {
-        self.factorisation
-            .take()
-            .map(|factorisation| factorisation.made)
-            .or_else(|| self.linearisation.take())
-    }
-
-    /// Couple (J) and force times the first element's length (J) of all nodes, then summed over each element's stations.
-    fn loads(&self, chain: &Chain) -> impl Iterator<Item = [f64; ENTRIES]> + '_ {
-        let arm = chain.elements.first().map_or(0.0, |element| element.length);
-        let nodes = self.node_loads.iter().map(|load| (load.couple, load.force));
-        let elements = self.station_loads.iter().map(|loads| {
-            loads.iter().fold((Matrix3::zeros(), Vector3::zeros()), |(couple, force), load| {
-                (couple + load.couple, force + load.force)
-            })
-        });
-        nodes.chain(elements).map(move |(couple, force)| {
-            core::array::from_fn(|i| if i < 9 { couple[i] } else { force[i - 9] * arm })
-        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Newton's equations of the whole chain, as the trust region and Newton's method ask for them.
 
-use super::factorisation::Linearisation;
+use super::factorisation::{Hessian, Linearisation, SpanCoupling};
 use super::potential::Potential;
 use crate::numerics::trust_region::Objective;
 use crate::rod::Order;
@@ -16,7 +16,7 @@ impl Objective for Potential<'_> {
         let mut made = storage.unwrap_or_else(|| Linearisation::new(self.chain, self.terms.spans.act()));
         let energy = self.load(x, Order::Hessian)?;
         let regular = self.backward(x, Some(&mut made.condensations));
-        made.note(self, x);
+        made.note((x, &self.work.nodes), self.work.loads(), self.inputs, self.rules.chosen());
         self.work.linearisation = Some(made);
         regular.then_some(energy)
     }
@@ -28,7 +28,20 @@ impl Objective for Potential<'_> {
     /// Where the forces have no potential, whether the matrix is regular.
     fn factorise(&mut self, shift: f64) -> bool {
         let Some(made) = self.work.take_linearisation() else { return false };
-        match made.factorise(self, shift) {
+        let hessian = Hessian {
+            chain: self.chain,
+            nodes: &self.work.node_hessian,
+            elements: &self.work.tangents,
+            mixed: &self.work.cross,
+            spans: match (self.terms.spans.act(), self.terms.spans.are_mutual()) {
+                (false, _) => SpanCoupling::None,
+                (true, false) => SpanCoupling::OneSided,
+                (true, true) => SpanCoupling::Mutual,
+            },
+            symmetric: self.terms.have_potential(),
+            reciprocal: !self.terms.pairs.one_sided(),
+        };
+        match made.factorise(&hessian, shift) {
             Ok(factorisation) => self.work.factorisation = Some(factorisation),
             Err(made) => self.work.linearisation = Some(made),
         }

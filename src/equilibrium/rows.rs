@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vect
 use super::columns::turned;
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input};
-use super::sensitivity::{Motion, Response, carry, inside};
+use super::response::{Motion, Response, carry, inside};
 use super::solution::Solution;
 use super::solver::{Equilibrium, Place};
 use super::terms::FIELD_INPUTS;

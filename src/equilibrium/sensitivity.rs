@@ -6,10 +6,11 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::columns::{Columns, carried, turned};
+use super::columns::{carried, turned};
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input, Jacobian};
 use super::potential::Potential;
+use super::response::{Motion, Response, carry, inside};
 use super::rows::Rows;
 use super::settings::Interaction;
 use super::solver::Equilibrium;
@@ -23,35 +24,6 @@ const SINGULAR: f64 = 1e-5;
 
 /// Inverse iterations that look for it: near a fold, each gains orders of magnitude.
 const ITERATIONS: usize = 4;
-
-/// How the shape answers to the inputs, one column each; in the base's columns seen from the base.
-#[derive(Debug)]
-pub(super) struct Response {
-    pub(super) counts: Counts,
-    /// Whether the external magnet, which may be switched off, could be switched on.
-    pub(super) with_magnet: bool,
-    /// How the inputs change when the world moves about the base: see [`carried`].
-    pub(super) by_base: DMatrix<f64>,
-    /// Mixed derivatives.
-    pub(super) columns: Columns,
-    /// Rates of the unknowns.
-    pub(super) unknowns: DMatrix<f64>,
-    pub(super) motion: Motion,
-    /// Rates of the clamp's wrench.
-    pub(super) clamp: DMatrix<f64>,
-}
-
-/// Displacements (m) and rotations (rad) of the nodes, and of the columns of each element's tangent.
-#[derive(Debug)]
-pub(super) struct Motion {
-    pub(super) nodes: Vec<DMatrix<f64>>,
-    pub(super) elements: Vec<DMatrix<f64>>,
-}
-
-/// What is said of a point where no field is known.
-pub(super) fn inside() -> Error {
-    Error::NoDerivatives("a part lies inside or on an edge of the external magnet".into())
-}
 
 impl Equilibrium {
     /// Derivatives of all outputs by all inputs at the last solved shape.
@@ -191,10 +163,4 @@ impl Potential<'_> {
         }
         wrench
     }
-}
-
-/// Fills the base's columns, seen from the base: what surrounds the chain moves the other way.
-pub(super) fn carry(rates: &mut DMatrix<f64>, by_base: &DMatrix<f64>) {
-    let columns = -&*rates * by_base;
-    rates.columns_mut(Input::BasePosition.columns().start, 6).copy_from(&columns);
 }

@@ -4,7 +4,8 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::chain::{Chain, RingBody};
+use super::chain::Chain;
+use super::ring_body::RingBody;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable};
 use crate::rod::{Charges, Load, Matter, Order, Sample, Sheet, Station};

@@ -1,6 +1,6 @@
 //! How finely each ring sees the material of each element: by their distance and by the bend between them.
 
-use super::chain::RingBody;
+use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
 use crate::geometry::Pose;
 use crate::rod::{Element, Piece, Sample, Sight};

@@ -78,3 +78,9 @@ impl Solve for Compared {
         Box::new(self.clone())
     }
 }
+
+impl From<Compared> for Box<dyn Solve> {
+    fn from(compared: Compared) -> Self {
+        Box::new(compared)
+    }
+}

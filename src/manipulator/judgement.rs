@@ -3,9 +3,11 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::ladder::CLIMB;
 use crate::equilibrium::{Equilibrium, Gap, Inputs, Solution};
 use crate::geometry::Pose;
+
+/// Part of the tolerance beyond which a cheaper model of the interaction is left.
+pub(super) const CLIMB: f64 = 0.5;
 
 /// Change of what surrounds or loads the manipulator, relative to its size, after which a model is judged again.
 const CHANGED: f64 = 0.02;

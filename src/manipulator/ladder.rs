@@ -12,15 +12,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judgement::Judgement;
+use super::judgement::{CLIMB, Judgement};
 use super::models::Models;
 use crate::design::Design;
 use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Assembly;
-
-/// Part of the tolerance beyond which a cheaper model of the interaction is left.
-pub(super) const CLIMB: f64 = 0.5;
 
 /// The same for a discretisation of the richest, whose error is told with a margin.
 const REFINE: f64 = 1.0;

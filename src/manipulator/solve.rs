@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::compared::Compared;
 use super::{Inputs, Jacobian, Manipulator, Outputs};
 use crate::error::Error;
 
@@ -68,11 +67,5 @@ impl Clone for Box<dyn Solve> {
 impl From<Manipulator> for Box<dyn Solve> {
     fn from(manipulator: Manipulator) -> Self {
         Box::new(manipulator)
-    }
-}
-
-impl From<Compared> for Box<dyn Solve> {
-    fn from(compared: Compared) -> Self {
-        Box::new(compared)
     }
 }

@@ -8,8 +8,8 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 use super::arc::{Arc, Bent};
-use super::engine::Shape;
 use super::line::{Line, Place};
+use super::shape::Shape;
 use super::strong_form::Rates;
 use super::surroundings::{Surroundings, column, derivative, gradient};
 use super::trace::Trace;

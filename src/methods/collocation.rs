@@ -10,12 +10,12 @@
 use nalgebra::Matrix6;
 
 use super::condensation::Condensed;
-use super::engine::Shape;
 use super::line::Line;
 use super::mesh::{Interval, Tableau};
 use super::node_shape::{Basis, NodeShape, couplings, flat, size};
 use super::node_system::{Defects, NodeSystem};
 use super::settings::Settings;
+use super::shape::Shape;
 use super::strong_form::{State, Vector12};
 use super::surroundings::Surroundings;
 use super::trace::Trace;

@@ -4,11 +4,12 @@ use std::sync::Arc;
 
 use nalgebra::{Vector3, Vector6};
 
-use super::engine::{Engine, Shape};
+use super::engine::Engine;
 use super::line::Line;
 use super::method::Method;
 use super::plane::Plane;
 use super::settings::Settings;
+use super::shape::Shape;
 use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;

@@ -1,7 +1,5 @@
 //! What the methods have in common: they solve in given surroundings, from their own last solution.
 
-use nalgebra::Vector6;
-
 use super::arcs::Arcs;
 use super::collocation::Collocation;
 use super::line::Line;
@@ -11,11 +9,10 @@ use super::node_shape::NodeShape;
 use super::planar::InPlane;
 use super::plane::Plane;
 use super::settings::Settings;
+use super::shape::Shape;
 use super::shooting::Shooting;
 use super::surroundings::Surroundings;
-use super::trace::Trace;
 use crate::equilibrium::Term;
-use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::Ending;
 
 /// A method and its last solution.
@@ -26,15 +23,6 @@ pub(super) enum Engine {
     Planar(NodeShape),
     Collocation(Collocation),
     Arcs(Arcs),
-}
-
-/// A solved shape.
-#[derive(Debug, Clone)]
-pub(super) struct Shape {
-    pub(super) nodes: Vec<Pose>,
-    /// Internal wrench behind the base node.
-    pub(super) base: Vector6<f64>,
-    pub(super) trace: Trace,
 }
 
 impl Engine {

@@ -16,6 +16,7 @@ mod planar;
 mod plane;
 mod runge_kutta;
 mod settings;
+mod shape;
 mod shooting;
 mod strong_form;
 mod surroundings;

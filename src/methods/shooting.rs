@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector6};
 
-use super::engine::Shape;
+use super::shape::Shape;
 use super::strong_form::State;
 use super::surroundings::{NodeLoad, Surroundings, column};
 use super::trace::Trace;

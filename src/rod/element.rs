@@ -5,18 +5,15 @@ use core::ops::Range;
 use nalgebra::Vector2;
 
 use super::basis::{Ends, Modes, Part};
-use super::cubature::{Sight, fine_points};
+use super::fine_points::fine_points;
 use super::matter::Matter;
 use super::moments::SectionMoments;
+use super::piece::Piece;
+use super::row::{COMPONENTS, Row};
+use super::sight::Sight;
 use super::stop::{Contact, Stop};
-use crate::design::{Span, SpanKind, Stiffness};
+use crate::design::{SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
-
-/// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
-pub const COMPONENTS: usize = 6;
-
-/// The first components are rotations, the others strains.
-pub(super) const ROTATIONS: usize = 3;
 
 /// Curvature about `d3`, whose modes are all polynomials.
 const TORSION: usize = 2;
@@ -39,28 +36,6 @@ pub struct Resolution {
     pub nearest: Option<Sight>,
     /// Whether windings that touch stiffen a core.
     pub bending_stop: bool,
-}
-
-/// A span, or a part of one, inside an element.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece<'a> {
-    /// The span.
-    pub span: &'a Span,
-    /// Length of the part, m.
-    pub length: f64,
-}
-
-/// The mode values at one arc length, and how positions are integrated up to there.
-#[derive(Debug, Clone)]
-pub struct Row {
-    /// Arc length from the element's start, m.
-    pub arc_length: f64,
-    /// `psi`: mode values by degree of freedom, 1/m.
-    pub rate: Vec<f64>,
-    /// Integrals of `psi` up to here by degree of freedom.
-    pub integral: Vec<f64>,
-    /// Weight of each station's tangent in the position here, m.
-    pub position: Vec<f64>,
 }
 
 /// A Gauss point of an element.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::element::{COMPONENTS, Element, ROTATIONS, Row};
+use super::element::Element;
+use super::row::{COMPONENTS, ROTATIONS, Row};
 use crate::geometry::{Pose, RotationVector};
 
 /// A Gauss point of a deformed element, in the frame of the node before it.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::element::{Piece, ROTATIONS, Row};
+use super::piece::Piece;
+use super::row::{ROTATIONS, Row};
 use crate::design::SpanKind;
 use crate::geometry::{RotationVector, hat};
 

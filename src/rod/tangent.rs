@@ -7,9 +7,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::bending::{self, Bending};
-use super::element::{COMPONENTS, Element, ROTATIONS, Row};
+use super::element::Element;
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
+use super::row::{COMPONENTS, ROTATIONS, Row};
 use super::stop::Contact;
 
 /// How far an evaluation goes.

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::failure::Failure;
 use super::files::open_table;
-use super::study::{leave, progress_bar};
+use super::study_files::{leave, progress_bar};
 
 const HEADER: &str = "\
 | field | segments | level | start | method | resolution | time (us) | tip error over length | angle (deg) | force and torque |

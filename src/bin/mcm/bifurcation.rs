@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 
 use super::failure::Failure;
-use super::study::{leave_drawn, tell};
+use super::study_files::{leave_drawn, tell};
 
 /// Leaves bifurcation.csv, bifurcation.png and bifurcation.md in `out`; the tables are printed, too.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, fidelity_scenes, omissions};
 
 use super::failure::Failure;
-use super::study::{leave, progress_bar};
+use super::study_files::{leave, progress_bar};
 
 const HEADER: &str = "\
 | scene | model | tolerance over length | time (us) | over the richest | tip error over length | angle (deg) | steps by the richest |

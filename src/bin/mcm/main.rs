@@ -13,6 +13,7 @@ mod picture;
 mod solve;
 mod stability;
 mod study;
+mod study_files;
 mod sweep;
 mod verdict;
 

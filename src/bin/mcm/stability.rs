@@ -8,7 +8,7 @@ use mcm::studies::{Attempt, Verdict, stability_picture, stability_rays};
 use rayon::prelude::*;
 
 use super::failure::Failure;
-use super::study::{leave, progress_bar};
+use super::study_files::{leave, progress_bar};
 
 /// Solves and judges, and leaves stability.csv, stability.md and stability.png in `out`; the counts are printed, too.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {

@@ -1,6 +1,6 @@
 //! A frame of the chain, by what it carries.
 
-use crate::equilibrium::chain::RingBody;
+use crate::equilibrium::ring_body::RingBody;
 use crate::rod::{Matter, Station};
 
 /// What a frame carries, whose pose is told beside it.

@@ -1,7 +1,8 @@
 //! Rings on rings.
 
 use super::pair::PairLoad;
-use crate::equilibrium::chain::{Chain, RingBody};
+use crate::equilibrium::chain::Chain;
+use crate::equilibrium::ring_body::RingBody;
 use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::Source;

@@ -1,0 +1,63 @@
+//! What studies leave behind.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use mcm::studies;
+use serde::Serialize;
+
+use super::failure::Failure;
+use super::files::create_table;
+use super::picture;
+
+/// Leaves a study's columns and picture as NAME.csv and NAME.png in `out`; an empty cell is a value that does not exist.
+pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Result<(), Failure> {
+    let mut table = create_table(&file(out, name, "csv"))?;
+    table.write_record(study.columns.iter().map(|column| &column.name))?;
+    let rows = study.columns.first().map_or(0, |column| column.values.len());
+    for row in 0..rows {
+        let cells = study.columns.iter().map(|column| Some(column.values[row]).filter(|v| !v.is_nan()));
+        table.serialize(cells.collect::<Vec<_>>())?;
+    }
+    table.flush()?;
+    picture::write(study, &file(out, name, "png"))
+}
+
+/// Leaves rows, picture and a Markdown table as NAME.csv, NAME.png and NAME.md in `out`, and prints the last.
+pub(super) fn leave(
+    out: &Path,
+    name: &str,
+    rows: &[impl Serialize],
+    picture: &studies::Study,
+    markdown: &str,
+) -> Result<ExitCode, Failure> {
+    let mut table = create_table(&file(out, name, "csv"))?;
+    rows.iter().try_for_each(|row| table.serialize(row))?;
+    table.flush()?;
+    picture::write(picture, &file(out, name, "png"))?;
+    tell(out, name, markdown)
+}
+
+/// Leaves a Markdown table as NAME.md in `out` and prints it.
+pub(super) fn tell(out: &Path, name: &str, markdown: &str) -> Result<ExitCode, Failure> {
+    std::fs::write(file(out, name, "md"), markdown)?;
+    std::io::stdout().write_all(markdown.as_bytes())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn file(out: &Path, name: &str, ending: &str) -> PathBuf {
+    out.join(name).with_extension(ending)
+}
+
+/// Hidden when standard error is no terminal.
+pub(super) fn progress_bar(count: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(count);
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(std::time::Duration::from_millis(100));
+    bar
+}

@@ -1,0 +1,198 @@
+//! All loads on the chain at one shape, added up frame by frame and pair by pair.
+
+use nalgebra::{Matrix3, Matrix6};
+
+use super::pair_loads::Made;
+use super::potential::Potential;
+use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
+use crate::rod::{Load, Order};
+
+impl Potential<'_> {
+    /// Places the chain and adds up all loads; the energy, or `None` where something touches.
+    pub(super) fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
+        let hessian = order == Order::Hessian;
+        self.work.place(self.chain, &self.inputs.base, unknowns);
+        let mut energy = 0.0;
+        for (k, element) in self.chain.elements.iter().enumerate() {
+            energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
+        }
+        self.work.wrenches = TermWrenches::none();
+        energy += self.load_stations(order)?;
+        self.load_nodes(order)?;
+        if hessian {
+            self.work.node_hessian.fill(0.0);
+        }
+        energy += self.add_pair_loads(unknowns, order)?;
+        for node in 1..self.work.node_loads.len() {
+            let load = &self.work.node_loads[node];
+            if hessian {
+                let own = blocks(
+                    &load.position_position,
+                    &load.position_rotation,
+                    &load.position_rotation.transpose(),
+                    &load.rotation_hessian(),
+                );
+                self.add_block(node, node, &own);
+            }
+        }
+        energy += self.work.node_loads.iter().map(|load| load.energy).sum::<f64>();
+        energy.is_finite().then_some(energy)
+    }
+
+    fn load_stations(&mut self, order: Order) -> Option<f64> {
+        let (mut energy, base) = (0.0, self.inputs.base.position);
+        for (k, element) in self.chain.elements.iter().enumerate() {
+            let axes = self.work.nodes[k].rotation;
+            for (index, station) in element.stations.iter().enumerate() {
+                let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
+                let about = (&base, &mut self.work.wrenches);
+                let load = self.terms.load(&frame, &pose, &axes, order, about)?;
+                energy += load.energy;
+                self.work.station_loads[k][index] = load;
+            }
+        }
+        Some(energy)
+    }
+
+    fn load_nodes(&mut self, order: Order) -> Option<()> {
+        let (axes, base) = (Matrix3::identity(), self.inputs.base.position);
+        self.work.node_loads.fill(Load::zero());
+        for (node, frame) in self.chain.frames() {
+            let pose = self.work.nodes[node];
+            let about = (&base, &mut self.work.wrenches);
+            self.work.node_loads[node] += self.terms.load(&frame, &pose, &axes, order, about)?;
+        }
+        Some(())
+    }
+
+    /// Adds what rings do to rings and to spans to the loads; the energy, or `None` where something touches.
+    ///
+    /// The first step after a change of the inputs starts from the shape of the last solve: nothing is made anew.
+    pub(super) fn add_pair_loads(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
+        let (base, rules, tabulated) = (&self.inputs.base, self.rules.number(), self.terms.spans.tabulated);
+        let kept = self.work.pair_loads.at(unknowns, base, rules, tabulated);
+        let kept = kept.filter(|_| order == Order::Gradient);
+        let energy = if let Some(energy) = kept {
+            energy
+        } else {
+            let pair_loads = &mut self.work.pair_loads;
+            pair_loads.made = None;
+            pair_loads.nodes.fill(Load::zero());
+            pair_loads.stations.iter_mut().for_each(|loads| loads.fill(Load::zero()));
+            let energy = self.load_ring_pairs(order)? + self.load_rings_on_spans(order)?;
+            let pair_loads = &mut self.work.pair_loads;
+            pair_loads.made = Some(Made { energy, rules, tabulated });
+            pair_loads.base = *base;
+            pair_loads.unknowns.copy_from_slice(unknowns);
+            energy
+        };
+        let work = &mut *self.work;
+        let stations = work.station_loads.iter_mut().flatten().zip(work.pair_loads.stations.iter().flatten());
+        for (load, own) in stations.chain(work.node_loads.iter_mut().zip(&work.pair_loads.nodes)) {
+            *load += *own;
+        }
+        Some(energy)
+    }
+
+    /// Adds the energies of all pairs of rings to the kept loads; their sum.
+    fn load_ring_pairs(&mut self, order: Order) -> Option<f64> {
+        let (pairs, mut energy) = (self.terms.pairs, 0.0);
+        let mutual = pairs.are_mutual();
+        for numbers in pairs.each() {
+            let [first, second] = numbers.map(|number| self.chain.rings[number].node);
+            let load = pairs.load(numbers, [&self.work.nodes[first], &self.work.nodes[second]], order)?;
+            energy += load.on_second.energy;
+            self.work.pair_loads.nodes[second] += load.on_second.wrench_alone();
+            if mutual {
+                self.work.pair_loads.nodes[first] += load.on_first.wrench_alone();
+            }
+            if order == Order::Hessian {
+                let pair = load.hessian();
+                self.add_block(second, second, &pair.second_second);
+                self.add_block(second, first, &pair.first_second.transpose());
+                if mutual {
+                    self.add_block(first, first, &pair.first_first);
+                    self.add_block(first, second, &pair.first_second);
+                }
+            }
+        }
+        Some(energy)
+    }
+
+    /// Adds the energies of all rings with all spans to the kept loads; their sum.
+    fn load_rings_on_spans(&mut self, order: Order) -> Option<f64> {
+        let (spans, mut energy) = (self.terms.spans, 0.0);
+        if !spans.act() {
+            return Some(energy);
+        }
+        let mutual = spans.are_mutual();
+        for k in 0..self.chain.elements.len() {
+            self.work.mixed[k].clear();
+            let start = self.work.nodes[k];
+            for (ring, body) in self.chain.rings.iter().enumerate() {
+                let node = self.work.nodes[body.node];
+                let source = spans.source(ring, &node);
+                for sample in spans.samples(k, ring) {
+                    let pose = self.work.station(k, sample.station);
+                    let load = RingsOnSpans::load(&source, &node, sample, &pose, order)?;
+                    energy += load.on_second.energy;
+                    self.work.pair_loads.stations[k][sample.station] +=
+                        load.on_second.in_axes(&start.rotation);
+                    if mutual {
+                        self.work.pair_loads.nodes[body.node] += load.on_first.wrench_alone();
+                    }
+                    if order == Order::Hessian && body.node > 0 {
+                        let second = load.hessian();
+                        if mutual {
+                            self.add_block(body.node, body.node, &second.first_first);
+                        }
+                        let (station, matrix) = (sample.station, second.first_second);
+                        self.work.mixed[k].push(Mixed { station, node: body.node, matrix });
+                    }
+                }
+            }
+        }
+        Some(energy)
+    }
+
+    /// Columns of the rings' nodes beside the Hessian of element `k`.
+    pub(super) fn mix(&mut self, k: usize) {
+        let element = &self.chain.elements[k];
+        let axes = self.work.nodes[k].rotation;
+        let zero = Matrix3::zeros();
+        let turn: Matrix6<f64> = blocks(&axes, &zero, &zero, &axes);
+        let cross = &mut self.work.cross[k];
+        cross.fill(0.0);
+        let tangent = &mut self.work.tangents[k];
+        let size = tangent.size;
+        let mixed = &mut self.work.mixed[k];
+        mixed.sort_unstable_by_key(|mixed| mixed.station);
+        for own in mixed.chunk_by(|a, b| a.station == b.station) {
+            let station = own[0].station;
+            let motion =
+                tangent.station_motion(element, station, &self.work.configurations[k].stations[station]);
+            for mixed in own {
+                let pull = mixed.matrix * turn;
+                for (row, target) in
+                    cross[6 * (mixed.node - 1) * size..].chunks_exact_mut(size).take(6).enumerate()
+                {
+                    for (column, moved) in motion.chunks_exact(size).enumerate() {
+                        let factor = pull[(row, column)];
+                        target.iter_mut().zip(moved).for_each(|(entry, value)| *entry += factor * value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds a block between two nodes; the base's (node 0) is left out.
+    pub(super) fn add_block(&mut self, row: usize, column: usize, block: &Matrix6<f64>) {
+        let (Some(row), Some(column)) = (row.checked_sub(1), column.checked_sub(1)) else { return };
+        let size = 6 * self.chain.elements.len();
+        for i in 0..6 {
+            for j in 0..6 {
+                self.work.node_hessian[(6 * row + i) * size + 6 * column + j] += block[(i, j)];
+            }
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! A ring of the chain: a rigid magnet on a node.
+
+use std::sync::Arc;
+
+use crate::constants::VACUUM_PERMEABILITY;
+use crate::design::Ring;
+use crate::error::Error;
+use crate::geometry::Pose;
+use crate::magnetics::{AxialSource, FieldTable, Outline};
+
+/// A rigid ring with its proximal face at a node.
+#[derive(Debug, Clone)]
+pub(crate) struct RingBody {
+    /// Dimensions and material.
+    pub(crate) ring: Ring,
+    /// Its node; 0 is the clamped base.
+    pub(crate) node: usize,
+    /// Its field, in its own frame.
+    pub(crate) source: AxialSource,
+    /// The same from a table, where spans are to be seen so.
+    pub(crate) table: Option<Arc<FieldTable>>,
+    /// Magnetisation, A/m.
+    pub(crate) magnetisation: f64,
+}
+
+impl RingBody {
+    pub(super) fn new(ring: &Ring, node: usize) -> Result<Self, Error> {
+        Ok(Self {
+            ring: *ring,
+            node,
+            source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
+            table: None,
+            magnetisation: ring.remanence / VACUUM_PERMEABILITY,
+        })
+    }
+
+    /// Distance of its centre from its node, m.
+    pub(crate) fn half_length(&self) -> f64 {
+        0.5 * self.ring.length
+    }
+
+    /// Its outline; nothing of the manipulator or of a magnet is taken to fit into its bore.
+    pub(crate) fn outline(&self) -> Outline {
+        Outline::new(0.0, self.ring.outer_radius, self.ring.length)
+    }
+
+    /// Pose of its centre where that of its node is `node`.
+    pub(crate) fn centre(&self, node: &Pose) -> Pose {
+        node.advanced(self.half_length())
+    }
+}
+
+/// Tabulates the fields of the rings, equal ones once.
+pub(super) fn tabulate(rings: &mut [RingBody]) {
+    for number in 0..rings.len() {
+        let (before, rest) = rings.split_at_mut(number);
+        let same = before.iter().find(|other| other.source == rest[0].source);
+        rest[0].table = same
+            .map_or_else(|| Some(Arc::new(FieldTable::new(&rest[0].source))), |other| other.table.clone());
+    }
+}

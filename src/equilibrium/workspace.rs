@@ -1,0 +1,97 @@
+//! What evaluations overwrite.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::chain::Chain;
+use super::factorisation::{Factorisation, Linearisation};
+use super::pair_loads::PairLoads;
+use super::settings::Settings;
+use super::terms::{Mixed, TermWrenches};
+use crate::geometry::Pose;
+use crate::rod::{Configuration, Load, START, Tangent};
+
+/// Everything that an evaluation overwrites; kept between solves so that none allocates.
+#[derive(Debug, Clone)]
+pub(super) struct Workspace {
+    pub(super) configurations: Vec<Configuration>,
+    pub(super) nodes: Vec<Pose>,
+    /// The unknowns for which they are placed; not a number before the first ones.
+    pub(super) placed: Vec<f64>,
+    pub(super) station_loads: Vec<Vec<Load>>,
+    pub(super) node_loads: Vec<Load>,
+    pub(super) pair_loads: PairLoads,
+    pub(super) wrenches: TermWrenches,
+    /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
+    pub(super) base: (Vector3<f64>, Vector3<f64>),
+    pub(super) tangents: Vec<Tangent>,
+    /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
+    /// a node.
+    pub(super) mixed: Vec<Vec<Mixed>>,
+    pub(super) cross: Vec<Vec<f64>>,
+    pub(super) gradient: Vec<f64>,
+    pub(super) node_hessian: Vec<f64>,
+    /// The last Hessian while it is not factorised.
+    pub(super) linearisation: Option<Box<Linearisation>>,
+    /// That of this shape or an earlier one.
+    pub(super) factorisation: Option<Factorisation>,
+}
+
+impl Workspace {
+    pub(super) fn new(chain: &Chain, settings: &Settings) -> Self {
+        let count = chain.elements.len();
+        let size = 6 * count;
+        let columns = if settings.interaction.acts_on_spans() { size } else { 0 };
+        Self {
+            configurations: chain.elements.iter().map(Configuration::straight).collect(),
+            nodes: vec![Pose::identity(); count + 1],
+            placed: vec![f64::NAN; chain.freedoms()],
+            station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
+            node_loads: vec![Load::zero(); count + 1],
+            pair_loads: PairLoads::new(chain),
+            wrenches: TermWrenches::none(),
+            base: (Vector3::zeros(), Vector3::zeros()),
+            tangents: chain.elements.iter().map(Tangent::new).collect(),
+            mixed: vec![Vec::new(); count],
+            cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
+            gradient: vec![0.0; chain.freedoms()],
+            node_hessian: vec![0.0; size * size],
+            linearisation: None,
+            factorisation: None,
+        }
+    }
+
+    /// Pose of a station in the world.
+    pub(super) fn station(&self, element: usize, index: usize) -> Pose {
+        let state = &self.configurations[element].stations[index];
+        self.nodes[element].compose(&Pose { position: state.position, rotation: state.directors })
+    }
+
+    /// Places all stations and nodes for the given base and unknowns, if they are not there.
+    pub(super) fn place(&mut self, chain: &Chain, base: &Pose, unknowns: &[f64]) {
+        if self.nodes[0] == *base && self.placed == unknowns {
+            return;
+        }
+        self.placed.copy_from_slice(unknowns);
+        self.nodes[0] = *base;
+        for (k, element) in chain.elements.iter().enumerate() {
+            self.configurations[k].update(element, chain.part(k, unknowns));
+            self.nodes[k + 1] = self.nodes[k].compose(&self.configurations[k].end);
+        }
+    }
+
+    /// The storage of the last Hessian, factorised or not.
+    pub(super) fn take_linearisation(&mut self) -> Option<Box<Linearisation>> {
+        self.factorisation.take().map(Factorisation::into_linearisation).or_else(|| self.linearisation.take())
+    }
+
+    /// What acts on all nodes, then on each element: couple (N m) and force (N).
+    pub(super) fn loads(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_ {
+        let nodes = self.node_loads.iter().map(|load| (load.couple, load.force));
+        let elements = self.station_loads.iter().map(|loads| {
+            loads.iter().fold((Matrix3::zeros(), Vector3::zeros()), |(couple, force), load| {
+                (couple + load.couple, force + load.force)
+            })
+        });
+        nodes.chain(elements)
+    }
+}

@@ -1,0 +1,20 @@
+//! Strain modes at one arc length.
+
+/// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
+pub const COMPONENTS: usize = 6;
+
+/// The first components are rotations, the others strains.
+pub(super) const ROTATIONS: usize = 3;
+
+/// The mode values at one arc length, and how positions are integrated up to there.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Arc length from the element's start, m.
+    pub arc_length: f64,
+    /// `psi`: mode values by degree of freedom, 1/m.
+    pub rate: Vec<f64>,
+    /// Integrals of `psi` up to here by degree of freedom.
+    pub integral: Vec<f64>,
+    /// Weight of each station's tangent in the position here, m.
+    pub position: Vec<f64>,
+}
