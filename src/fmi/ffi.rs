@@ -21,7 +21,7 @@ use super::location;
 use super::log::{Category, Log};
 use super::registry;
 use super::state::{Call, Ending};
-use super::variable::Value;
+use super::value::Value;
 use logger::{Logger, c_string, status};
 use memory::{NO_ARRAY, answer, array, get, keep, pointer, set, text, write};
 

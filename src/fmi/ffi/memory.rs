@@ -8,7 +8,7 @@ use super::super::bindings::{fmi2FMUstate, fmi2String, fmi2ValueReference};
 use super::super::instance::Instance;
 use super::super::registry;
 use super::super::state::Ending;
-use super::super::variable::Value;
+use super::super::value::Value;
 
 pub(super) const NO_ARRAY: &str = "an array is null or not aligned";
 
