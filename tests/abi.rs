@@ -16,6 +16,8 @@ mod derivatives;
 
 mod states;
 
+mod strings;
+
 const OK: fmi2Status = fmi2Status::fmi2OK;
 const ERROR: fmi2Status = fmi2Status::fmi2Error;
 const DISCARD: fmi2Status = fmi2Status::fmi2Discard;
@@ -105,6 +107,7 @@ fn null_is_survived_and_length_zero_may_come_with_it() {
         assert_eq!(fmi2SetString(component, ptr::null(), 0, ptr::null()), OK);
         assert_eq!(fmi2SetDebugLogging(component, 1, 0, ptr::null()), OK);
         assert_eq!(fmi2GetReal(component, ptr::null(), 3, ptr::null_mut()), ERROR);
+        assert!(heard(102).pop().unwrap().ends_with("vr is null"));
         assert_eq!(fmi2GetReal(component, &raw const reference, 1, ptr::null_mut()), ERROR);
         assert_eq!(fmi2SetReal(component, &raw const reference, 1, ptr::null()), ERROR);
         assert_eq!(fmi2SetDebugLogging(component, 1, 2, ptr::null()), ERROR);

@@ -1,28 +1,27 @@
-//! Derivatives of an instance's inputs and outputs by time, and of outputs by inputs.
+//! Derivatives of an instance: of inputs and outputs with respect to time, and of outputs with respect to inputs.
 
 use std::sync::Arc;
 
-use super::condition::Condition;
+use super::derivative_role::{direction, output_derivative};
+use super::fmu_state::FmuState;
 use super::instance::Instance;
-use super::slope::{Slope, direction, rate};
 use super::state::Ending;
-use super::variable::{Kind, Role};
+use super::variable::{Causality, Variability};
 use crate::error::Error;
 
 impl Instance {
-    /// Sets time derivatives of inputs for the step to come: all of them, or none.
+    /// Sets time derivatives of inputs for the next step, in the unit of the input per second: all of them, or none if one
+    /// is refused.
     ///
-    /// `orders` are the orders of the derivatives. Inputs are taken as linear in time, so higher orders than the first
-    /// are left aside, and the log says so if they are not zero.
+    /// `orders` are the orders of the derivatives. Inputs are taken as linear in time, so that derivatives of an order above
+    /// the first are not used; if one of them is not zero, the log says so.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Ending {
-        let Some(variables) = self.find(references) else { return Ending::Error };
-        let mut rates = self.condition.rates.clone();
-        let mut higher = None;
-        for (((variable, &reference), &order), &value) in
-            variables.iter().zip(references).zip(orders).zip(values)
-        {
+        let entries = || references.iter().zip(orders).zip(values);
+        let mut unused = None;
+        for ((&reference, &order), &value) in entries() {
+            let Some(variable) = self.variable(reference) else { return Ending::Error };
             let name = &variable.name;
-            if variable.role != Role::Input || !matches!(variable.kind, Kind::Real(_)) {
+            if variable.causality != Causality::Input || variable.variability != Variability::Continuous {
                 return self.refuse(&format!("{name} is no continuous input: it has no time derivative"));
             }
             if order < 1 {
@@ -32,58 +31,61 @@ impl Instance {
                 let quantity = format!("time derivative of {name}");
                 return self.refuse(&Error::range(quantity, value, "finite").to_string());
             }
-            if order == 1 {
-                rates.set(reference, value);
-            } else if value != 0.0 {
-                higher = Some(name.clone());
+            if order > 1 && value != 0.0 {
+                unused = Some(name);
             }
         }
-        self.condition.rates = rates;
-        if let Some(name) = higher {
+        if let Some(name) = unused {
             self.log.notice(&format!("derivatives of {name} above the first order are not used"));
+        }
+        for ((&reference, _), &value) in entries().filter(|((_, order), _)| **order == 1) {
+            self.fmu_state.input_derivatives.set(reference, value);
         }
         Ending::Ok
     }
 
-    /// Time derivatives of outputs at the present time: by those of the inputs, and 0 where these are held.
+    /// Time derivatives of outputs at the present time, in the unit of the output per second. They follow from the time
+    /// derivatives of the inputs, and are 0 where the inputs are held constant.
     ///
-    /// Orders above the first are answered with 0, as the standard has it for what is not known (section 4.2.1).
+    /// Derivatives of an order above the first are unknown and therefore returned as 0 (FMI 2.0.4, section 4.2.1).
     ///
     /// # Errors
-    /// The ending, when there are none.
+    /// [`Ending::Error`], explained in the log, when there are none.
     pub fn output_derivatives(&mut self, references: &[u32], orders: &[i32]) -> Result<Vec<f64>, Ending> {
         if let Some(order) = orders.iter().find(|order| **order < 1) {
             return Err(self.refuse(&format!("the order {order} of a derivative is not allowed")));
         }
-        let (knowns, seed): (Vec<_>, Vec<_>) = self.condition.rates.present().unzip();
+        let (knowns, seed): (Vec<_>, Vec<_>) = self.fmu_state.input_derivatives.nonzero().unzip();
         let mut values = self.directional_derivative(references, &knowns, &seed)?;
         let higher = values.iter_mut().zip(orders).filter(|(_, order)| **order > 1);
         higher.for_each(|(value, _)| *value = 0.0);
         Ok(values)
     }
 
-    /// Derivatives of the outputs `unknowns` in the direction `seed` of the inputs `knowns`.
+    /// Derivatives of the outputs `unknowns` with respect to the inputs `knowns`, times the direction `seed`.
     ///
-    /// Gravity, the tunable parameter, counts as an input.
+    /// Gravity, a tunable parameter, counts as an input.
     ///
     /// # Errors
-    /// The ending, when there are none.
+    /// [`Ending::Error`], explained in the log, when there are none.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
         knowns: &[u32],
         seed: &[f64],
     ) -> Result<Vec<f64>, Ending> {
-        for variable in self.find(knowns).ok_or(Ending::Error)? {
-            if !matches!(variable.slope, Slope::Input(_) | Slope::InputQuaternion(_)) {
+        for &reference in knowns {
+            let variable = self.variable(reference).ok_or(Ending::Error)?;
+            if !variable.derivative_role.is_known() {
                 let name = &variable.name;
                 return Err(
                     self.refuse(&format!("there are no derivatives by {name}: it is no continuous input"))
                 );
             }
         }
-        for variable in self.find(unknowns).ok_or(Ending::Error)? {
-            if !matches!(variable.slope, Slope::Still | Slope::Output(_) | Slope::TipQuaternion) {
+        for &reference in unknowns {
+            let variable = self.variable(reference).ok_or(Ending::Error)?;
+            if !variable.derivative_role.is_unknown() {
                 let name = &variable.name;
                 return Err(self.refuse(&format!("{name} has no derivatives: it is no continuous output")));
             }
@@ -97,26 +99,36 @@ impl Instance {
         if seed.iter().all(|value| *value == 0.0) {
             return Ok(vec![0.0; unknowns.len()]);
         }
-        self.rates_along(unknowns, knowns, seed).map_err(|error| self.refuse(&error.to_string()))
+        self.derivatives_along(unknowns, knowns, seed).map_err(|error| self.refuse(&error.to_string()))
     }
 
-    fn rates_along(&mut self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Result<Vec<f64>, Error> {
-        let nothing = || Error::NoDerivatives("nothing is solved yet".into());
-        let Condition { device, jacobian, given, .. } = &mut self.condition;
-        let device = device.as_ref().ok_or_else(nothing)?;
+    fn derivatives_along(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+    ) -> Result<Vec<f64>, Error> {
+        let not_solved = || Error::NoDerivatives("nothing is solved yet".into());
+        let FmuState { manipulator, jacobian, host_values, .. } = &mut self.fmu_state;
+        let manipulator = manipulator.as_ref().ok_or_else(not_solved)?;
         let jacobian = match jacobian {
             Some(known) => known,
-            None => jacobian.insert(Arc::new(device.jacobian()?)),
+            None => jacobian.insert(Arc::new(manipulator.jacobian()?)),
         };
         let table = self.package.table();
-        let rates = knowns.iter().zip(seed).filter_map(|(&known, &rate)| Some((table.find(known)?, rate)));
-        let direction = direction(jacobian, given, rates).ok_or_else(nothing)?;
-        let rates = jacobian.along(&direction)?;
-        let of = |&unknown: &u32| rate(jacobian, rates.as_slice(), device.outputs(), table.find(unknown)?);
-        let rates: Vec<f64> =
-            unknowns.iter().map(|unknown| of(unknown).ok_or_else(nothing)).collect::<Result<_, _>>()?;
-        if rates.iter().all(|rate| rate.is_finite()) {
-            Ok(rates)
+        let seeded = knowns.iter().zip(seed).filter_map(|(&known, &seed)| Some((table.find(known)?, seed)));
+        let direction = direction(jacobian, host_values, seeded).ok_or_else(not_solved)?;
+        let all = jacobian.along(&direction)?;
+        let of_output = |&unknown: &u32| {
+            let variable = table.find(unknown)?;
+            output_derivative(jacobian, all.as_slice(), manipulator.outputs(), variable)
+        };
+        let derivatives: Vec<f64> = unknowns
+            .iter()
+            .map(|unknown| of_output(unknown).ok_or_else(not_solved))
+            .collect::<Result<_, _>>()?;
+        if derivatives.iter().all(|derivative| derivative.is_finite()) {
+            Ok(derivatives)
         } else {
             Err(Error::NoDerivatives("they are too large for numbers".into()))
         }

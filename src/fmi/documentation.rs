@@ -1,38 +1,32 @@
-//! `documentation/index.html`: conventions, limits and all variables, written from the table.
+//! `documentation/index.html`: conventions, limits and all variables, the latter written from the table.
 
 use std::fmt::Write as _;
 
 use quick_xml::escape::escape;
 
-use super::given::Given;
-use super::variable::{Kind, Role, Value};
+use super::host_values::HostValues;
+use super::value::{DataType, Value};
 use super::variables::Table;
 
-/// What stands above the table of variables.
+/// The page above the table of variables.
 const PREAMBLE: &str = include_str!("../../modelDescription/preamble.html");
 
-/// The page for one table.
+/// The text of the page for a table with these start values.
 #[must_use]
-pub fn page(table: &Table, start: &Given) -> String {
+pub fn page(table: &Table, start: &HostValues) -> String {
     let mut page = PREAMBLE.replace("{version}", env!("CARGO_PKG_VERSION"));
     page.push_str(
         "<table>\n<tr><th>variable</th><th>role</th><th>unit</th><th>start</th><th>meaning</th></tr>\n",
     );
     for variable in table.variables() {
-        let role = match variable.role {
-            Role::Input => "input",
-            Role::Fixed => "fixed parameter",
-            Role::Tunable => "tunable parameter",
-            Role::Constant => "constant",
-            Role::Output => "output",
+        let causality = variable.causality_in_words();
+        let unit = match variable.data_type {
+            DataType::Real(quantity) => quantity.unit,
+            DataType::Integer => "integer",
+            DataType::Boolean => "true or false",
+            DataType::Enumeration(enumeration) => enumeration.name,
         };
-        let unit = match variable.kind {
-            Kind::Real(quantity) => quantity.unit,
-            Kind::Integer => "integer",
-            Kind::Boolean => "true or false",
-            Kind::Enumeration(enumeration) => enumeration.name,
-        };
-        let start = match variable.given(start) {
+        let start = match variable.host_value(start) {
             Some(Value::Real(value)) => format!("{value:?}"),
             Some(Value::Integer(value)) => value.to_string(),
             Some(Value::Boolean(value)) => value.to_string(),
@@ -42,7 +36,7 @@ pub fn page(table: &Table, start: &Given) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(
             page,
-            "<tr><td><code>{name}</code></td><td>{role}</td><td>{unit}</td><td>{start}</td><td>{meaning}</td></tr>"
+            "<tr><td><code>{name}</code></td><td>{causality}</td><td>{unit}</td><td>{start}</td><td>{meaning}</td></tr>"
         );
     }
     page.push_str("</table>\n</body>\n</html>\n");

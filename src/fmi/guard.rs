@@ -1,4 +1,4 @@
-//! A panic stops here: it must not cross the C boundary, nor print into the host's terminal.
+//! The guard that stops panics: they must not cross the C boundary, nor print to the host's terminal.
 
 use std::cell::{Cell, RefCell};
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook, take_hook};
@@ -11,16 +11,16 @@ thread_local! {
 
 static HOOK: Once = Once::new();
 
-/// The hook that was set before. Were it captured, the new hook would need memory that is lost when the host unloads the
-/// library.
+/// The panic hook that was set before. It is kept here and not captured by the new hook, which would then need memory that
+/// is lost when the host unloads the library.
 static BEFORE: OnceLock<Hook> = OnceLock::new();
 
-/// What std calls when a thread panics.
+/// A panic hook: what the standard library calls when a thread panics.
 type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 
-/// Does `work`; a panic in it becomes its text.
+/// Does `work` and catches a panic in it.
 ///
-/// Panics elsewhere in the process are left to the hook that was set before.
+/// Panics elsewhere in the process are handled by the hook that was set before.
 ///
 /// ```
 /// use mcm::fmi::guard::guarded;
@@ -30,7 +30,7 @@ type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Send + Sync>;
 /// ```
 ///
 /// # Errors
-/// The message and place of the panic.
+/// The message of the panic and its location in the source.
 pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     HOOK.call_once(|| {
         BEFORE.get_or_init(take_hook);
@@ -43,7 +43,7 @@ pub fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, String> {
         }));
     });
     let outer = GUARDED.replace(true);
-    // Whatever the work was changing is thrown away by the caller: see `Instance::break_down`.
+    // What the work was changing may be inconsistent now; the caller discards it: see `Instance::break_down`.
     let result = catch_unwind(AssertUnwindSafe(work));
     GUARDED.set(outer);
     result.map_err(|_| TEXT.take().unwrap_or_else(|| "panic".into()))

@@ -1,11 +1,11 @@
-//! A GUID that follows from content: another design has another one, the same design always the same.
+//! A GUID that is computed from the content of an FMU, so that it is the same for the same design and no other.
 
 /// Offset basis and prime of the 128-bit FNV-1a hash (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake:
 /// RFC 9923, section 5).
 const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-/// The GUID of some texts, in braces, as UUID version 8 (RFC 9562: content of one's own making).
+/// The GUID of a list of texts, in braces, as a UUID of version 8 (RFC 9562: with content defined by its maker).
 ///
 /// ```
 /// use mcm::fmi::guid::guid;
@@ -17,7 +17,7 @@ const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 pub fn guid<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
     let mut hash = BASIS;
     for text in texts {
-        // A byte that no text contains keeps the texts apart.
+        // A byte that does not occur in UTF-8 separates the texts.
         for byte in text.bytes().chain([0xff]) {
             hash = (hash ^ u128::from(byte)).wrapping_mul(PRIME);
         }

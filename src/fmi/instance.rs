@@ -1,36 +1,39 @@
-//! One instance of the FMU, safe: the C functions are its thin twins.
+//! One instance of the FMU in safe Rust: each C function only translates its arguments and calls one method.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::condition::Condition;
+use super::fmu_state::FmuState;
 use super::log::Log;
 use super::package::Package;
 use super::state::{Call, Ending, State};
-use super::variable::{Role, Value, Variable};
-use super::variables::MARGIN;
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outcome, Status};
 
-/// Times closer than this, relative to the larger of time and step, are the same: hosts add up their steps.
-const TIME_SLACK: f64 = 1e-9;
+/// Relative tolerance for communication points, with respect to the larger of time and step size: hosts compute times by
+/// adding up step sizes, with rounding errors.
+const TIME_TOLERANCE: f64 = 1e-9;
 
 /// An instance of the FMU.
 #[derive(Debug)]
 pub struct Instance {
     pub(super) package: Arc<Package>,
     pub(super) log: Log,
-    pub(super) condition: Condition,
-    pub(super) saved: BTreeMap<usize, Condition>,
-    surprised: bool,
+    pub(super) fmu_state: FmuState,
+    /// FMU states that the host has saved, by handle.
+    pub(super) saved_states: BTreeMap<usize, FmuState>,
+    /// Whether the log has told of an unexpected communication point, which it does once.
+    told_of_unexpected_time: bool,
 }
 
-/// The package that a host means by GUID and resource paths.
+/// The package that a host wants to instantiate.
+///
+/// It is read from the first of the directories `resources` that holds one; if none does, it is the built-in default
+/// design.
 ///
 /// # Errors
-/// [`Error::Syntax`] for resources that are altered or of another GUID, and for a GUID that is not the built-in
-/// design's when there are no resources.
+/// [`Error::Syntax`] for resources that were altered, and for a GUID that is not that of the package.
 pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
     let mut found = None;
     for path in resources {
@@ -53,7 +56,7 @@ pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
 }
 
 impl Instance {
-    /// A fresh instance.
+    /// A new instance of a package, which writes to this log.
     #[must_use]
     pub fn new(package: Arc<Package>, log: Log) -> Self {
         let counts = package.table().counts();
@@ -63,30 +66,30 @@ impl Instance {
             counts.rings,
             counts.cores
         ));
-        let condition = Condition::new(package.start());
-        Self { package, log, condition, saved: BTreeMap::new(), surprised: false }
+        let fmu_state = FmuState::new(package.start());
+        Self { package, log, fmu_state, saved_states: BTreeMap::new(), told_of_unexpected_time: false }
     }
 
-    /// Where it stands.
+    /// State of the calling sequence.
     #[must_use]
     pub fn state(&self) -> State {
-        self.condition.state
+        self.fmu_state.state
     }
 
-    /// Time of the last communication point.
+    /// Time of the last communication point, s.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.condition.time
+        self.fmu_state.time
     }
 
-    /// Tells the log why a call is refused.
+    /// Writes to the log why a call is refused, and returns the ending of that call.
     #[must_use]
     pub fn refuse(&self, reason: &str) -> Ending {
         self.log.error(reason);
         Ending::Error
     }
 
-    /// Whether `call` is allowed now; if not, the log says so.
+    /// Whether `call` is allowed in the present state; if not, the log says so and calls it by `name`.
     #[must_use]
     pub fn allows(&self, call: Call, name: &str) -> bool {
         let allowed = self.state().allows(call);
@@ -99,14 +102,14 @@ impl Instance {
         allowed
     }
 
-    /// After a panic: nothing is trusted any more; only a reset gives a fresh start.
+    /// Discards everything after a panic, which may have left it inconsistent; only a reset makes the instance usable again.
     pub fn break_down(&mut self, message: &str) -> Ending {
-        self.condition = Condition { state: State::Broken, ..Condition::new(self.package.start()) };
-        self.saved.clear();
+        self.fmu_state = FmuState { state: State::Broken, ..FmuState::new(self.package.start()) };
+        self.saved_states.clear();
         self.refuse(&format!("internal failure, reset or free the instance: {message}"))
     }
 
-    /// Chooses what the host hears.
+    /// Switches log categories on or off, as [`Log::choose`].
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Ending {
         match self.log.choose(on, categories) {
             Ok(()) => Ending::Ok,
@@ -114,98 +117,108 @@ impl Instance {
         }
     }
 
-    /// Takes start and stop time. A tolerance is of no use here: solves always converge tightly.
+    /// Sets start time and stop time, s. The tolerance of the standard has no use here: every solve converges tightly.
     pub fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Ending {
-        if !start.is_finite() || stop.is_some_and(|stop| stop.is_nan() || stop < start) {
-            return self.refuse(&format!("start time {start} and stop time {stop:?} are no interval"));
+        if !start.is_finite() {
+            return self.refuse(&Error::range("start time (s)", start, "finite").to_string());
         }
-        self.condition.time = start;
-        self.condition.stop = stop;
+        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
+            return self.refuse(&Error::range("stop time (s)", stop, "the start time or later").to_string());
+        }
+        self.fmu_state.time = start;
+        self.fmu_state.stop_time = stop;
         Ending::Ok
     }
 
-    /// Enters initialisation.
+    /// Enters initialisation mode.
     pub fn enter_initialization(&mut self) -> Ending {
-        self.condition.state = State::Initialization;
+        self.fmu_state.state = State::Initialization;
         Ending::Ok
     }
 
-    /// Checks the parameters, finds the first equilibrium, and stands at the first communication point.
+    /// Leaves initialisation mode: checks the parameters and solves the first equilibrium.
+    ///
+    /// Parameters that are refused can be corrected, as the instance stays in initialisation mode then.
     pub fn exit_initialization(&mut self) -> Ending {
-        let ending = if self.condition.solved { Ok(Ending::Ok) } else { self.solve_here() };
+        let ending = if self.fmu_state.solved { Ok(Ending::Ok) } else { self.solve_at_host_values() };
         match ending {
             Ok(Ending::Ok) => {
-                self.condition.state = State::Stepping;
-                self.log.event(&format!("initialised at t = {}", self.condition.time));
+                self.fmu_state.state = State::Stepping;
+                self.log.event(&format!("initialised at t = {}", self.fmu_state.time));
                 Ending::Ok
             }
             Ok(failed) => {
-                self.condition.state = State::Failed;
+                self.fmu_state.state = State::Failed;
                 failed
             }
             Err(error) => self.refuse(&error.to_string()),
         }
     }
 
-    /// The end.
+    /// Terminates the simulation.
     pub fn terminate(&mut self) -> Ending {
-        self.condition.state = State::Terminated;
+        self.fmu_state.state = State::Terminated;
         Ending::Ok
     }
 
-    /// Back to the state after instantiation; saved states stay.
+    /// Returns to the state after instantiation. States that the host has saved are kept.
     pub fn reset(&mut self) -> Ending {
-        self.condition = Condition::new(self.package.start());
-        self.surprised = false;
-        self.log.relieve();
+        self.fmu_state = FmuState::new(self.package.start());
+        self.told_of_unexpected_time = false;
+        self.log.forget_repetitions();
         Ending::Ok
     }
 
-    /// Steps from `time` to `time + step`: finds the equilibrium for the inputs now set or, where they have time
-    /// derivatives, follows it along their path.
-    pub fn do_step(&mut self, time: f64, step: f64) -> Ending {
-        let end = time + step;
-        if !time.is_finite() || !end.is_finite() || step < 0.0 {
-            return self.refuse(&format!("a step from t = {time} by {step} is none"));
+    /// Steps from the communication point `time` by `step_size`, both in s.
+    ///
+    /// The new equilibrium is that for the inputs now set. Where inputs have time derivatives, the equilibrium follows the
+    /// inputs along their path, and the inputs keep the values at its end.
+    pub fn do_step(&mut self, time: f64, step_size: f64) -> Ending {
+        let end = time + step_size;
+        if !time.is_finite() || !end.is_finite() || step_size < 0.0 {
+            return self.refuse(&format!(
+                "cannot step from t = {time} by {step_size}: both must be finite, and the step size not negative"
+            ));
         }
-        let slack = TIME_SLACK * time.abs().max(self.condition.time.abs()).max(step);
-        if let Some(stop) = self.condition.stop.filter(|stop| end > stop + slack) {
+        let tolerance = TIME_TOLERANCE * time.abs().max(self.fmu_state.time.abs()).max(step_size);
+        if let Some(stop) = self.fmu_state.stop_time.filter(|stop| end > stop + tolerance) {
             return self.refuse(&format!("a step to t = {end} goes beyond the stop time {stop}"));
         }
-        let unexpected = (time - self.condition.time).abs() > slack && !self.surprised;
-        if unexpected {
-            let expected = self.condition.time;
+        let unexpected = (time - self.fmu_state.time).abs() > tolerance;
+        if unexpected && !self.told_of_unexpected_time {
+            let expected = self.fmu_state.time;
             self.log.notice(&format!("step from t = {time}, but the last one ended at t = {expected}"));
-            self.surprised = true;
+            self.told_of_unexpected_time = true;
         }
-        // Inputs that have not changed are solved again: `Snapped` must not outlive its step.
-        self.condition.solved &= self.condition.ahead;
-        let moving = self.condition.rates.move_inputs() && step > 0.0;
-        let ending = if moving { self.travel(step) } else { self.ensure_solved() };
+        // Unchanged inputs are solved again, because the status `Snapped` holds for one step only.
+        self.fmu_state.solved &= self.fmu_state.solved_ahead;
+        let moving = self.fmu_state.input_derivatives.move_inputs() && step_size > 0.0;
+        let ending = if moving { self.follow_inputs(step_size) } else { self.ensure_solved() };
         if ending != Ending::Ok {
             return ending;
         }
-        self.condition.rates.spend();
-        self.condition.ahead = false;
-        self.condition.time = end;
-        self.condition.snaps = self.condition.device.as_ref().map_or(0, |device| device.outputs().snaps);
-        self.log.relieve();
+        let manipulator = self.fmu_state.manipulator.as_ref();
+        self.fmu_state.snaps = manipulator.map_or(0, |manipulator| manipulator.outputs().snaps);
+        self.fmu_state.input_derivatives.mark_used();
+        self.fmu_state.solved_ahead = false;
+        self.fmu_state.time = end;
+        self.log.forget_repetitions();
         Ending::Ok
     }
 
-    /// Follows the inputs' path for `duration`; then they keep the values reached.
-    fn travel(&mut self, duration: f64) -> Ending {
-        let condition = &self.condition;
-        let path = condition.given.inputs().and_then(|start| {
-            let (mut points, end) = condition.rates.path(self.package.table(), &condition.given, duration)?;
-            if !condition.solved {
-                points.insert(0, start);
+    /// Follows the equilibrium while the inputs move along their path for `duration` (s).
+    fn follow_inputs(&mut self, duration: f64) -> Ending {
+        let FmuState { host_values, input_derivatives, solved, .. } = &self.fmu_state;
+        let path = host_values.inputs().and_then(|start| {
+            let (mut waypoints, end) = input_derivatives.path(self.package.table(), host_values, duration)?;
+            if !solved {
+                waypoints.insert(0, start);
             }
-            Ok((points, end))
+            Ok((waypoints, end))
         });
-        match path.and_then(|(points, end)| Ok((self.solve(&points)?, end))) {
+        match path.and_then(|(waypoints, end)| Ok((self.solve(&waypoints)?, end))) {
             Ok((Ending::Ok, end)) => {
-                self.condition.given = end;
+                self.fmu_state.host_values = end;
                 Ending::Ok
             }
             Ok((failed, _)) => failed,
@@ -213,149 +226,60 @@ impl Instance {
         }
     }
 
-    /// Whether outputs follow what is set.
+    /// Whether the outputs are those of the inputs now set, and not those of the last communication point.
     pub(super) fn is_live(&self) -> bool {
         matches!(self.state(), State::Initialization | State::Stepping)
     }
 
-    /// The variables with these value references; if one is unknown, the log says so.
-    pub(super) fn find(&self, references: &[u32]) -> Option<Vec<&Variable>> {
-        let find = |&reference: &u32| {
-            let found = self.package.table().find(reference);
-            if found.is_none() {
-                self.log.error(&format!("there is no variable with value reference {reference}"));
-            }
-            found
-        };
-        references.iter().map(find).collect()
-    }
-
-    /// The values with these references, read by `read`, which knows values of one type (`kind` in words).
-    ///
-    /// Solves first if an output is asked for and inputs have changed. Where no equilibrium was ever found, only what tells
-    /// of the search can be read.
-    ///
-    /// # Errors
-    /// The ending, when there are no values.
-    pub fn get<T>(
-        &mut self,
-        references: &[u32],
-        kind: &str,
-        read: fn(Value) -> Option<T>,
-    ) -> Result<Vec<T>, Ending> {
-        let variables = self.find(references).ok_or(Ending::Error)?;
-        let margin = variables.iter().any(|variable| variable.name == MARGIN);
-        if self.is_live() && variables.iter().any(|variable| variable.role == Role::Output) {
-            let ending = self.ensure_solved();
-            if ending != Ending::Ok {
-                return Err(ending);
-            }
-        }
-        if let Some(device) = self.condition.device.as_mut().filter(|_| margin) {
-            device.measure_margin();
-        }
-        let device = self.condition.device.as_ref();
-        let (outputs, has_shape) =
-            (device.map(Manipulator::outputs), device.is_some_and(Manipulator::has_shape));
-        let variables = self.find(references).ok_or(Ending::Error)?;
-        let mut values = Vec::with_capacity(variables.len());
-        for variable in variables {
-            if variable.role == Role::Output && !has_shape && !variable.tells_of_search() {
-                return Err(
-                    self.refuse(&format!("{} has no value: no equilibrium was found yet", variable.name))
-                );
-            }
-            let value = variable.given(&self.condition.given).or_else(|| variable.answer(outputs?));
-            match value.and_then(read) {
-                Some(value) => values.push(value),
-                None => return Err(self.refuse(&format!("{} is no {kind}", variable.name))),
-            }
-        }
-        Ok(values)
-    }
-
-    /// Sets all of these variables, or none.
-    pub fn set(&mut self, references: &[u32], values: impl Iterator<Item = Value>) -> Ending {
-        let Some(variables) = self.find(references) else { return Ending::Error };
-        let mut given = self.condition.given.clone();
-        let mut rebuild = false;
-        for (variable, value) in variables.into_iter().zip(values) {
-            let name = &variable.name;
-            if !self.state().may_set(variable.role) {
-                let role = variable.role;
-                return self.refuse(&format!("{name} ({role:?}) cannot be set in state {:?}", self.state()));
-            }
-            if !variable.holds(value) {
-                return self.refuse(&format!("{name} is of another type than the value {value:?}"));
-            }
-            if !variable.set(&mut given, value) {
-                return self.refuse(&match value {
-                    Value::Real(value) => Error::range(name, value, "finite").to_string(),
-                    other => format!("{name} has no item {other:?}"),
-                });
-            }
-            rebuild |= variable.role == Role::Fixed;
-        }
-        if given != self.condition.given {
-            self.condition.given = given;
-            self.condition.solved = false;
-            if rebuild {
-                self.condition.device = None;
-            }
-        }
-        Ending::Ok
-    }
-
-    /// Solves for the inputs now set, unless that was done.
+    /// Solves the equilibrium for the inputs now set, unless that is done already.
     pub(super) fn ensure_solved(&mut self) -> Ending {
-        if self.condition.solved {
+        if self.fmu_state.solved {
             return Ending::Ok;
         }
-        match self.solve_here() {
+        match self.solve_at_host_values() {
             Ok(ending) => ending,
             Err(error) => self.refuse(&error.to_string()),
         }
     }
 
-    /// Solves for the inputs now set.
-    fn solve_here(&mut self) -> Result<Ending, Error> {
-        let inputs = self.condition.given.inputs()?;
+    fn solve_at_host_values(&mut self) -> Result<Ending, Error> {
+        let inputs = self.fmu_state.host_values.inputs()?;
         self.solve(&[inputs])
     }
 
-    /// Follows the equilibrium along a path of inputs.
-    fn solve(&mut self, path: &[Inputs]) -> Result<Ending, Error> {
-        let condition = &mut self.condition;
+    /// Follows the equilibrium along a path of inputs, given by its waypoints.
+    fn solve(&mut self, waypoints: &[Inputs]) -> Result<Ending, Error> {
+        let now = &mut self.fmu_state;
         let counts = self.package.table().counts();
-        let mut device = match condition.device.take() {
-            Some(device) => device,
-            None => condition.given.manipulator(counts.shape_points)?,
+        let mut manipulator = match now.manipulator.take() {
+            Some(manipulator) => manipulator,
+            None => now.host_values.manipulator(counts.shape_points)?,
         };
-        if condition.state == State::Initialization {
-            device.reset(); // the first equilibrium does not depend on what was read before
+        if now.state == State::Initialization {
+            manipulator.reset(); // the first equilibrium must not depend on what was read before
         }
-        condition.jacobian = None;
-        let device = condition.device.insert(device);
-        let settings = &condition.given.settings;
-        device.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
-        let snaps = device.outputs().snaps;
-        let outputs = device.follow(path, condition.snaps)?;
+        now.jacobian = None;
+        let manipulator = now.manipulator.insert(manipulator);
+        let settings = &now.host_values.settings;
+        manipulator.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
+        let snaps = manipulator.outputs().snaps;
+        let outputs = manipulator.follow(waypoints, now.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];
         if lengths != [counts.rings, counts.cores, counts.shape_points] {
             return Err(Error::Unsupported(format!("the model answers with other lengths: {lengths:?}")));
         }
-        let (was_near_fold, time, margin) = (condition.near_fold, condition.time, outputs.stability_margin);
+        let (was_near_fold, time, margin) = (now.near_fold, now.time, outputs.stability_margin);
         let (status, outcome, snapped) = (outputs.status, outputs.outcome, outputs.snaps > snaps);
         if status == Status::NotSolved {
-            if condition.state == State::Stepping {
-                condition.state = State::Failed;
+            if now.state == State::Stepping {
+                now.state = State::Failed;
             }
-            let reason = reason(device, time);
+            let reason = why_not_solved(manipulator, time);
             return Ok(self.refuse(&reason));
         }
-        condition.solved = true;
-        condition.ahead = true;
-        condition.near_fold = status == Status::NearFold;
+        now.solved = true;
+        now.solved_ahead = true;
+        now.near_fold = status == Status::NearFold;
         if snapped {
             self.log.notice(&format!("snapped to another branch after t = {time}"));
         } else if outcome == Outcome::Neutral && !was_near_fold {
@@ -367,10 +291,10 @@ impl Instance {
     }
 }
 
-/// Why there is no equilibrium, and what is left.
-fn reason(device: &Manipulator, time: f64) -> String {
-    let (outcome, percent) = (device.outputs().outcome, 100.0 * device.outputs().progress);
-    if device.has_shape() {
+/// Why no equilibrium was found, and what the host can do.
+fn why_not_solved(manipulator: &Manipulator, time: f64) -> String {
+    let (outcome, percent) = (manipulator.outputs().outcome, 100.0 * manipulator.outputs().progress);
+    if manipulator.has_shape() {
         format!(
             "no equilibrium found after t = {time}, {percent:.0} % of the way: {outcome}; the last good outputs can be read, \
              reset or restore a state"

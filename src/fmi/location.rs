@@ -1,13 +1,13 @@
-//! Where a host says that the unpacked resources are.
+//! The directory of the unpacked resources, from the resource location that a host passes to `fmi2Instantiate`.
 
 use std::path::PathBuf;
 
 use crate::error::Error;
 
-/// The paths that a resource location may mean, likeliest first; none if the host gave none.
+/// The paths that a resource location may mean, likeliest first; none if it is empty.
 ///
-/// Hosts write `file:/dir`, `file:///dir`, `file:////dir`, or a plain path, with or without a slash at the end, with
-/// blanks escaped or raw. Where a percent sign leaves doubt, both readings are returned.
+/// Hosts write `file:/dir`, `file:///dir`, `file:////dir` or a plain path, with or without a slash at the end, and with
+/// blanks escaped or not. If the location contains a percent sign, both the decoded and the literal path are returned.
 ///
 /// ```
 /// use mcm::fmi::location::paths;
@@ -18,7 +18,7 @@ use crate::error::Error;
 /// ```
 ///
 /// # Errors
-/// [`Error::Syntax`] for a location that is no file on this machine.
+/// [`Error::Syntax`] for a location with another scheme than `file:`.
 pub fn paths(location: &str) -> Result<Vec<PathBuf>, Error> {
     let location = location.trim();
     if location.is_empty() {
@@ -48,7 +48,7 @@ pub fn paths(location: &str) -> Result<Vec<PathBuf>, Error> {
     Ok(paths)
 }
 
-/// Without the slash at the end, and without the one before a drive letter.
+/// The path without a slash at its end and without one before a drive letter.
 fn trimmed(path: &str) -> PathBuf {
     let path = if path.len() > 1 { path.trim_end_matches('/') } else { path };
     let drive = |path: &str| {
@@ -58,8 +58,8 @@ fn trimmed(path: &str) -> PathBuf {
     PathBuf::from(if drive(path) { &path[1..] } else { path })
 }
 
-/// The text with `%20` and its like replaced; `None` if that gives no text. A percent sign without two hexadecimal
-/// digits after it stands for itself.
+/// The text with escapes such as `%20` decoded; `None` if the result is not UTF-8. A percent sign that is not followed by
+/// two hexadecimal digits stands for itself.
 fn decoded(text: &str) -> Option<String> {
     let bytes = text.as_bytes();
     let digit = |at: usize| (*bytes.get(at)? as char).to_digit(16);

@@ -1,4 +1,4 @@
-//! What is told to the host, under which category.
+//! Messages to the host, by log category.
 
 use std::cell::RefCell;
 
@@ -7,21 +7,21 @@ use super::state::Ending;
 /// A log category of the model description.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Category {
-    /// What happened, when all went well.
+    /// Instantiation and initialisation that succeeded.
     Events,
-    /// What a user should know of a call that went well.
+    /// What a user should know about a call that succeeded.
     Warning,
-    /// Refusals and failures.
+    /// Calls that were refused or failed.
     Error,
-    /// All of them, when a host chooses what to hear.
+    /// Every category; only for switching them on or off.
     All,
 }
 
 impl Category {
-    /// Every category.
+    /// The categories in the order of the model description.
     pub const ALL: [Self; 4] = [Self::Events, Self::Warning, Self::Error, Self::All];
 
-    /// The standard's name.
+    /// Its name in the model description.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -32,7 +32,7 @@ impl Category {
         }
     }
 
-    /// What is logged under it.
+    /// Its description in the model description.
     #[must_use]
     pub fn description(self) -> &'static str {
         match self {
@@ -50,16 +50,16 @@ impl Category {
     }
 }
 
-/// Takes a message to the host.
+/// A function that passes a message to the host, with the status of the call.
 pub type Sink = Box<dyn Fn(Ending, Category, &str) + Send>;
 
-/// How often the same message is told in a row.
+/// How often the same message may be repeated without another one in between.
 const REPETITIONS: u32 = 10;
 
-/// The way to the host's log.
+/// The log of an instance.
 ///
-/// The standard wants the logger called whenever a call does not end well (section 2.1.3), so errors go there unless the
-/// host has switched their category off, and so do notices; what is merely of interest goes there when the host asks.
+/// The standard demands that the logger is called whenever a call fails (section 2.1.3). Errors and notices are therefore
+/// logged unless the host has switched off their category, events only if the host has switched them on.
 pub struct Log {
     sink: Sink,
     on: [bool; 3],
@@ -67,36 +67,37 @@ pub struct Log {
 }
 
 impl Log {
-    /// A log into `sink`; `events` says whether the host also wants what is merely of interest.
+    /// A log that passes its messages to `sink`; `events` says whether events are switched on.
     #[must_use]
     pub fn new(sink: Sink, events: bool) -> Self {
         Self { sink, on: [events, true, true], last: RefCell::default() }
     }
 
-    /// Tells the host about an event.
+    /// Logs an event.
     pub fn event(&self, message: &str) {
         self.tell(Ending::Ok, Category::Events, message);
     }
 
-    /// Tells the host what a user should know of a call that went well.
+    /// Logs what a user should know about a call that succeeded.
     ///
-    /// The category is the standard's for warnings, by which a log is filtered; the status that goes with it is that of the
-    /// call, OK: a host that acts upon the statuses in its log must not see one that no call has answered.
+    /// The category is the standard's for warnings, but the status is OK, which the call will return: a host that reacts to
+    /// the status of a message must not see a warning that no call returns.
     pub fn notice(&self, message: &str) {
         self.tell(Ending::Ok, Category::Warning, message);
     }
 
-    /// Tells the host why a call failed.
+    /// Logs why a call failed.
     pub fn error(&self, message: &str) {
         self.tell(Ending::Error, Category::Error, message);
     }
 
-    /// All is well again: what was said before may be said anew.
-    pub fn relieve(&self) {
+    /// Forgets which message came last, after a step that succeeded: it may be repeated again.
+    pub fn forget_repetitions(&self) {
         *self.last.borrow_mut() = Default::default();
     }
 
-    /// A host that repeats a refused call for ever does not fill its log.
+    /// Passes a message on, unless it was repeated too often: a host that repeats a refused call for ever must not fill its
+    /// log.
     fn tell(&self, ending: Ending, category: Category, message: &str) {
         if !self.on.get(category as usize).is_some_and(|on| *on) {
             return;
@@ -117,10 +118,11 @@ impl Log {
         }
     }
 
-    /// Switches categories on or off; without names events alone, as the others explain an answer.
+    /// Switches categories on or off. Without names, all are switched on, or the events off: errors and notices explain
+    /// what a call returns, and are switched off by name only.
     ///
     /// # Errors
-    /// The name of the first category that does not exist; nothing has changed then.
+    /// The name of the first category that does not exist. Nothing is changed then.
     pub fn choose<'a>(&mut self, on: bool, categories: &[&'a str]) -> Result<(), &'a str> {
         let chosen = categories.iter().map(|name| Category::named(name).ok_or(*name));
         let chosen = chosen.collect::<Result<Vec<_>, _>>()?;

@@ -1,29 +1,33 @@
-//! The device as an FMI 2.0 co-simulation FMU.
+//! The manipulator as an FMU for co-simulation (FMI 2.0).
 
 #[rustfmt::skip]
 pub mod bindings; // types of the official headers
 
 pub mod units; // units and quantities
 
-pub mod given; // inputs and parameters as the host sets them
+pub mod host_values; // inputs and parameters as the host has set them
 
-pub mod slope; // where a variable stands in the device's Jacobian
+pub mod value; // values and data types
+
+pub mod dependency; // which inputs and parameters each output depends on
+
+pub mod derivative_role; // where a variable stands in the Jacobian
 
 pub mod variable; // one row of the table
 
-pub mod variables; // the table: reference, name, causality, unit, start, get, set
+pub mod variables; // the table of all variables, in the order of their value references
 
-pub mod state; // which call is allowed when
+pub mod state; // the states of the calling sequence: which call is allowed when
 
-mod condition; // what changes in an instance's life
+pub mod input_derivatives; // the path of the inputs during a communication step
 
-pub mod rates; // the path of the inputs during a step
+mod fmu_state; // everything about an instance that changes
 
-mod serialise; // a condition as bytes
+mod serialise; // an FMU state as bytes
 
-pub mod log; // what is told to the host
+pub mod log; // messages to the host
 
-pub mod guid; // a GUID that follows from content
+pub mod guid; // a GUID computed from the content
 
 pub mod xml; // the model description, written from the table
 
@@ -31,15 +35,17 @@ pub mod documentation; // the page for people, written from the table
 
 pub mod package; // what an archive carries besides the library
 
-pub mod location; // where a host says that the resources are
+pub mod location; // the directory of the unpacked resources
 
-pub mod instance; // one instance, safe
+pub mod instance; // one instance: its life from instantiation to termination
 
-mod saved; // its saved states
+mod get_set; // its variables, read and set
 
-mod derivatives; // its derivatives by time and by inputs
+mod saved_states; // its saved FMU states
 
-pub mod guard; // a panic stops here
+mod derivatives; // its derivatives with respect to time and inputs
+
+pub mod guard; // no panic crosses the C boundary
 
 mod registry; // live instances by handle
 

@@ -1,27 +1,27 @@
-//! What an archive carries besides the library, and how the library finds it again.
+//! What an archive carries besides the library, and how the library reads it at instantiation.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::given::Given;
 use super::guid::guid;
+use super::host_values::HostValues;
 use super::variables::Table;
 use super::{documentation, xml};
 use crate::error::Error;
 use crate::manipulator::SceneFile;
 
-/// The scene that is packed when none is given, and that the library knows without resources.
+/// The scene of the default FMU, which is also built into the library for hosts that pass no resources.
 pub const DEFAULT_SCENE: &str = include_str!("../../fmu/default.toml");
 
-/// Centreline points of the default FMU.
+/// Number of centreline points of the default FMU.
 pub const DEFAULT_SHAPE_POINTS: usize = 21;
 
-const SCENE: &str = "scene.toml";
-const STAMP: &str = "package.toml";
+const SCENE_FILE: &str = "scene.toml";
+const STAMP_FILE: &str = "package.toml";
 
-/// A design with its table, start values and GUID.
+/// A packed design: its scene, table of variables, start values and GUID.
 ///
 /// ```
 /// use mcm::fmi::Package;
@@ -36,10 +36,10 @@ pub struct Package {
     guid: String,
     scene: String,
     table: Table,
-    start: Given,
+    start: HostValues,
 }
 
-/// What stands beside the scene in the archive.
+/// The second resource file. It fixes the number of centreline points, and shows whether the scene was altered.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stamp {
@@ -48,34 +48,35 @@ struct Stamp {
 }
 
 impl Package {
-    /// The package of a scene (its text; `what` names it in messages) with so many centreline points.
+    /// The package of a scene with this number of centreline points. `scene` is the text of a scene file, and `what` names it
+    /// in messages.
     ///
     /// # Errors
-    /// What [`SceneFile::parse`] and [`Table::new`] refuse.
+    /// Those of [`SceneFile::parse`], [`HostValues::start`] and [`Table::new`].
     pub fn new(scene: &str, what: &str, shape_points: usize) -> Result<Self, Error> {
         let file = SceneFile::parse(scene, what)?;
-        let start = Given::start(&file)?;
+        let start = HostValues::start(&file)?;
         let scene = file.to_toml()?;
         let table = Table::new(&start, shape_points)?;
         let unnamed = xml::model_description(&table, &start, "", None)?;
         Ok(Self { guid: guid([unnamed.as_str(), scene.as_str()]), scene, table, start })
     }
 
-    /// The package that the library knows without resources.
+    /// The package of the default design, which is built into the library.
     ///
     /// # Errors
-    /// None, unless `fmu/default.toml` is no scene.
+    /// Those of [`Package::new`], if `fmu/default.toml` is not a valid scene.
     pub fn built_in() -> Result<Self, Error> {
         Self::new(DEFAULT_SCENE, "default scene", DEFAULT_SHAPE_POINTS)
     }
 
-    /// The package in an archive's unpacked resource directory; `None` if there is nothing of ours in it.
+    /// The package in the unpacked resource directory of an archive; `None` if the directory holds neither of its files.
     ///
     /// # Errors
-    /// [`Error::Syntax`] for a file that is missing, unreadable or altered.
+    /// [`Error::Syntax`] for a file that is missing, unreadable or altered; those of [`Package::new`].
     pub fn read(directory: &Path) -> Result<Option<Self>, Error> {
         let path = |name: &str| directory.join(name);
-        if !path(SCENE).exists() && !path(STAMP).exists() {
+        if !path(SCENE_FILE).exists() && !path(STAMP_FILE).exists() {
             return Ok(None);
         }
         let text = |path: PathBuf| {
@@ -84,11 +85,11 @@ impl Package {
                 reason: error.to_string(),
             })
         };
-        let stamp_path = path(STAMP).display().to_string();
-        let stamp: Stamp = toml::from_str(&text(path(STAMP))?)
+        let stamp_path = path(STAMP_FILE).display().to_string();
+        let stamp: Stamp = toml::from_str(&text(path(STAMP_FILE))?)
             .map_err(|error| Error::Syntax { what: stamp_path.clone(), reason: error.message().into() })?;
-        let scene = path(SCENE).display().to_string();
-        let package = Self::new(&text(path(SCENE))?, &scene, stamp.shape_points)?;
+        let scene = path(SCENE_FILE).display().to_string();
+        let package = Self::new(&text(path(SCENE_FILE))?, &scene, stamp.shape_points)?;
         if package.guid == stamp.guid {
             Ok(Some(package))
         } else {
@@ -102,7 +103,7 @@ impl Package {
         }
     }
 
-    /// The GUID, in braces: another one for every other design, interface or version.
+    /// The GUID, in braces. It differs for every other design, interface or version.
     #[must_use]
     pub fn guid(&self) -> &str {
         &self.guid
@@ -116,11 +117,11 @@ impl Package {
 
     /// The start values.
     #[must_use]
-    pub fn start(&self) -> &Given {
+    pub fn start(&self) -> &HostValues {
         &self.start
     }
 
-    /// The text of `modelDescription.xml`; `generated` is the date and time in UTC, if it is to be told.
+    /// The text of `modelDescription.xml`; `generated` is the date and time of generation in UTC, if it shall be stated.
     ///
     /// # Errors
     /// [`Error::Syntax`] if the text cannot be written.
@@ -134,14 +135,14 @@ impl Package {
         documentation::page(&self.table, &self.start)
     }
 
-    /// The files of `resources/`: name and text.
+    /// The files in `resources/`: their names and texts.
     ///
     /// # Errors
     /// [`Error::Syntax`] if a text cannot be written.
     pub fn resources(&self) -> Result<[(&'static str, String); 2], Error> {
         let stamp = Stamp { guid: self.guid.clone(), shape_points: self.table.counts().shape_points };
         let stamp = toml::to_string(&stamp)
-            .map_err(|error| Error::Syntax { what: STAMP.into(), reason: error.to_string() })?;
-        Ok([(SCENE, self.scene.clone()), (STAMP, stamp)])
+            .map_err(|error| Error::Syntax { what: STAMP_FILE.into(), reason: error.to_string() })?;
+        Ok([(SCENE_FILE, self.scene.clone()), (STAMP_FILE, stamp)])
     }
 }

@@ -1,6 +1,7 @@
-//! Live instances by handle.
+//! The live instances, by handle.
 //!
-//! Handles are numbers, not addresses: an unknown or freed handle is an error and never a fault.
+//! A handle is a number and not an address, so that a call with an unknown or freed handle ends with an error and not with
+//! a memory fault.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,29 +15,28 @@ type Live = BTreeMap<usize, Arc<Mutex<Instance>>>;
 
 static LIVE: Mutex<Live> = Mutex::new(BTreeMap::new());
 
-/// Instances and saved states share it, so that no handle is ever taken for another.
+/// Instances and saved FMU states are numbered together, so that none can be taken for another.
 static NEXT_HANDLE: AtomicUsize = AtomicUsize::new(1);
 
 fn live<T>(work: impl FnOnce(&mut Live) -> T) -> T {
     work(&mut LIVE.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// A handle that was never given before; never 0.
+/// A handle that was never used before; never 0.
 pub(super) fn new_handle() -> usize {
     NEXT_HANDLE.fetch_add(1, Ordering::Relaxed)
 }
 
-/// Takes an instance in and gives its handle.
+/// Registers an instance and returns its handle.
 pub(super) fn enter(instance: Instance) -> usize {
     let handle = new_handle();
     live(|live| live.insert(handle, Arc::new(Mutex::new(instance))));
     handle
 }
 
-/// Drops the instance behind a handle; an unknown one does nothing.
+/// Drops the instance with this handle; an unknown handle does nothing.
 pub(super) fn leave(handle: usize) {
-    // A panic while dropping is of no use to anybody: the instance is gone either way.
-    let _ = guarded(|| drop(live(|live| remove(live, handle))));
+    drop(live(|live| remove(live, handle)));
 }
 
 fn remove(live: &mut Live, handle: usize) -> Option<Arc<Mutex<Instance>>> {
@@ -47,7 +47,9 @@ fn remove(live: &mut Live, handle: usize) -> Option<Arc<Mutex<Instance>>> {
     instance
 }
 
-/// Does `work` on the instance behind a handle if its state allows `call`; a panic breaks that instance only.
+/// Does `work` on the instance with this handle, if its state allows `call`; `name` is that of the C function.
+///
+/// A panic breaks this instance only.
 pub(super) fn on(
     handle: usize,
     name: &str,
@@ -60,7 +62,7 @@ pub(super) fn on(
     let mut instance = match instance.try_lock() {
         Ok(instance) => instance,
         Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-        // The host calls from its logger, or from two threads at once: waiting could be for ever.
+        // The host calls from within its logger, or from two threads at once: to wait could mean a deadlock.
         Err(TryLockError::WouldBlock) => return Ending::Error,
     };
     let done = guarded(|| if instance.allows(call, name) { work(&mut instance) } else { Ending::Error });

@@ -1,69 +1,73 @@
-//! A condition as bytes, for another run or another process.
+//! An FMU state as bytes, for another run or another process.
 //!
-//! The bytes are: a mark, the number of the format, the length of what follows, its CRC-32 (all numbers little-endian),
-//! and a `postcard` record that begins with the version and the GUID. Whatever can be had from the package is left out:
-//! inputs and parameters go by the table, and the device is made anew and takes up its [`Snapshot`].
+//! The bytes are a mark, the number of the format, the length of what follows, its CRC-32 (all numbers little-endian), and
+//! a `postcard` record that begins with the version and the GUID. What follows from the package is left out: inputs and
+//! parameters are listed in the order of the table, and the manipulator is built anew and restored from its [`Snapshot`].
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::Condition;
+use super::fmu_state::FmuState;
+use super::input_derivatives::InputDerivatives;
 use super::package::Package;
-use super::rates::Rates;
 use super::state::State;
-use super::variable::{Role, Value, Variable};
+use super::value::Value;
+use super::variable::{Causality, Variable};
 use crate::error::Error;
 use crate::manipulator::{Manipulator, Snapshot};
 
 const MARK: [u8; 8] = *b"mcmstate";
 
-/// To be raised with every change of [`Record`] or of what it holds.
+/// Number of the format; must be raised with every change of [`Record`] or of the types in it.
 const FORMAT: u32 = 7;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 const HEADER: usize = MARK.len() + 4 + 8 + 4;
 
+/// What the bytes hold of an FMU state.
 #[derive(Debug, Serialize, Deserialize)]
 struct Record {
     state: State,
-    /// Inputs and parameters in the order of the table.
-    values: Vec<Value>,
-    rates: Rates,
-    device: Option<Snapshot>,
+    /// Values of inputs and parameters in the order of the table.
+    host_values: Vec<Value>,
+    input_derivatives: InputDerivatives,
+    manipulator: Option<Snapshot>,
     solved: bool,
-    ahead: bool,
+    solved_ahead: bool,
     near_fold: bool,
     snaps: u32,
     time: f64,
-    stop: Option<f64>,
+    stop_time: Option<f64>,
 }
 
 fn refused(reason: impl Into<String>) -> Error {
     Error::Syntax { what: "serialised FMU state".into(), reason: reason.into() }
 }
 
-/// The variables that the host gives.
+/// The inputs and parameters.
 fn settable(package: &Package) -> impl Iterator<Item = &Variable> {
-    let settable = |variable: &&Variable| matches!(variable.role, Role::Input | Role::Fixed | Role::Tunable);
+    let settable =
+        |variable: &&Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
     package.table().variables().iter().filter(settable)
 }
 
-/// The bytes of a condition.
+/// The bytes of an FMU state.
 ///
 /// # Errors
 /// [`Error::Syntax`] if it cannot be written.
-pub(super) fn to_bytes(condition: &Condition, package: &Package) -> Result<Vec<u8>, Error> {
+pub(super) fn to_bytes(fmu_state: &FmuState, package: &Package) -> Result<Vec<u8>, Error> {
+    let value = |variable: &Variable| variable.host_value(&fmu_state.host_values);
     let record = Record {
-        state: condition.state,
-        values: settable(package).filter_map(|variable| variable.given(&condition.given)).collect(),
-        rates: condition.rates.clone(),
-        device: condition.device.as_ref().map(Manipulator::snapshot),
-        solved: condition.solved,
-        ahead: condition.ahead,
-        near_fold: condition.near_fold,
-        snaps: condition.snaps,
-        time: condition.time,
-        stop: condition.stop,
+        state: fmu_state.state,
+        host_values: settable(package).filter_map(value).collect(),
+        input_derivatives: fmu_state.input_derivatives.clone(),
+        manipulator: fmu_state.manipulator.as_ref().map(Manipulator::snapshot),
+        solved: fmu_state.solved,
+        solved_ahead: fmu_state.solved_ahead,
+        near_fold: fmu_state.near_fold,
+        snaps: fmu_state.snaps,
+        time: fmu_state.time,
+        stop_time: fmu_state.stop_time,
     };
     let body = postcard::to_stdvec(&(VERSION, package.guid(), record)).map_err(|e| refused(e.to_string()))?;
     let mut bytes = Vec::with_capacity(HEADER + body.len());
@@ -75,11 +79,12 @@ pub(super) fn to_bytes(condition: &Condition, package: &Package) -> Result<Vec<u
     Ok(bytes)
 }
 
-/// The condition that these bytes hold.
+/// The FMU state that these bytes hold.
 ///
 /// # Errors
-/// [`Error::Syntax`] for bytes that are no state, truncated, altered, of another version or of another design.
-pub(super) fn from_bytes(bytes: &[u8], package: &Package) -> Result<Condition, Error> {
+/// [`Error::Syntax`] for bytes that are no FMU state, or one that was truncated, altered, or written by another version or
+/// for another design.
+pub(super) fn from_bytes(bytes: &[u8], package: &Package) -> Result<FmuState, Error> {
     let body = checked_body(bytes)?;
     let unreadable = |error: postcard::Error| refused(error.to_string());
     let ((version, guid), rest) = postcard::take_from_bytes::<(&str, &str)>(body).map_err(unreadable)?;
@@ -93,7 +98,7 @@ pub(super) fn from_bytes(bytes: &[u8], package: &Package) -> Result<Condition, E
     restored(record, package)
 }
 
-/// What follows the header.
+/// The bytes after the header, if they are those that the header announces.
 fn checked_body(bytes: &[u8]) -> Result<&[u8], Error> {
     let (header, body) = bytes.split_at_checked(HEADER).ok_or_else(|| refused("it is too short"))?;
     let number = |from: usize, length: usize| {
@@ -115,28 +120,44 @@ fn checked_body(bytes: &[u8]) -> Result<&[u8], Error> {
     Ok(body)
 }
 
-fn restored(record: Record, package: &Package) -> Result<Condition, Error> {
-    let mut condition = Condition::new(package.start());
+/// The FMU state of a record, after a check of everything that a forged record with a valid checksum could break.
+fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
+    let mut fmu_state = FmuState::new(package.start());
     let rows: Vec<&Variable> = settable(package).collect();
-    let known =
-        |(row, value): (&&Variable, &Value)| row.holds(*value) && row.set(&mut condition.given, *value);
-    let whole = rows.len() == record.values.len() && rows.iter().zip(&record.values).all(known);
-    let inputs = |(reference, rate): (u32, f64)| {
-        rate.is_finite() && package.table().find(reference).is_some_and(|row| row.role == Role::Input)
+    let complete = rows.len() == record.host_values.len();
+    let all_set = rows
+        .iter()
+        .zip(&record.host_values)
+        .all(|(row, value)| row.set(&mut fmu_state.host_values, *value).is_ok());
+    let of_input = |(reference, derivative): (u32, f64)| {
+        let variable = package.table().find(reference);
+        derivative.is_finite() && variable.is_some_and(|row| row.causality == Causality::Input)
     };
-    let sound = whole
-        && record.rates.present().all(inputs)
+    let sound = complete
+        && all_set
+        && record.input_derivatives.nonzero().all(of_input)
         && record.time.is_finite()
         && record.state != State::Broken
-        && (record.device.is_some() || !record.solved);
+        && (record.manipulator.is_some() || !record.solved);
     if !sound {
         return Err(refused("its values do not fit the variables"));
     }
-    if let Some(snapshot) = &record.device {
-        let mut device = condition.given.manipulator(package.table().counts().shape_points)?;
-        device.restore(snapshot)?;
-        condition.device = Some(device);
+    if let Some(snapshot) = &record.manipulator {
+        let mut manipulator = fmu_state.host_values.manipulator(package.table().counts().shape_points)?;
+        manipulator.restore(snapshot)?;
+        fmu_state.manipulator = Some(manipulator);
     }
-    let Record { state, rates, solved, ahead, near_fold, snaps, time, stop, .. } = record;
-    Ok(Condition { state, rates, solved, ahead, near_fold, snaps, time, stop, ..condition })
+    let Record { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, stop_time, .. } =
+        record;
+    Ok(FmuState {
+        state,
+        input_derivatives,
+        solved,
+        solved_ahead,
+        near_fold,
+        snaps,
+        time,
+        stop_time,
+        ..fmu_state
+    })
 }

@@ -1,39 +1,39 @@
-//! Which call is allowed when.
+//! The states of the calling sequence, and which call is allowed in which state (FMI 2.0.4, section 4.2.4).
 
 use serde::{Deserialize, Serialize};
 
-use super::variable::Role;
+use super::variable::{Causality, Variability};
 
-/// How a call ended.
+/// How a call ended: the `fmi2Status` that it returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// Done; what is worth knowing beside it stands in the log, in `solver.status` and in `stability.snaps`. The standard's
-    /// `fmi2Warning` is never answered: `OMSimulator` and `PyFMI` take every status but `fmi2OK` for a failure.
+    /// The call succeeded. What else the user should know is in the log, in `solver.status` and in `stability.snaps`. The
+    /// standard's `fmi2Warning` is never returned: `OMSimulator` and `PyFMI` take every status but `fmi2OK` for a failure.
     Ok,
-    /// Not answered; nothing has changed.
+    /// The call was not answered, and nothing has changed.
     Discard,
-    /// Refused or failed; the log says why.
+    /// The call was refused or failed; the log says why.
     Error,
 }
 
-/// Where an instance stands in its life.
+/// A state of the calling sequence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum State {
-    /// Made, or reset.
+    /// After instantiation or a reset.
     Instantiated,
-    /// Between entering and leaving initialisation.
+    /// In initialisation mode.
     Initialization,
-    /// At a communication point.
+    /// At a communication point, ready for the next step.
     Stepping,
-    /// An equilibrium was not found: the last good one, if there is any, can be read.
+    /// No equilibrium was found. If one was found before, its outputs can still be read.
     Failed,
-    /// Terminated.
+    /// After termination.
     Terminated,
-    /// A panic was caught.
+    /// After a panic inside the library: only a reset or freeing the instance is allowed.
     Broken,
 }
 
-/// The calls of the interface that depend on the state.
+/// The calls of the interface that are allowed in some states only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(missing_docs, reason = "each is the function of the standard with that name")]
 pub enum Call {
@@ -54,7 +54,7 @@ pub enum Call {
     GetRealOutputDerivatives,
     DoStep,
     GetStatus,
-    /// What only an unfinished step allows: steps are finished when they return.
+    /// Never allowed: a step is finished when `fmi2DoStep` returns, so that there is none to cancel.
     CancelStep,
 }
 
@@ -62,7 +62,7 @@ use State::{Broken, Failed, Initialization, Instantiated, Stepping, Terminated};
 
 const UNBROKEN: &[State] = &[Instantiated, Initialization, Stepping, Failed, Terminated];
 
-/// The table: the states in which each call is answered.
+/// The states in which each call is allowed.
 pub const ALLOWED: &[(Call, &[State])] = &[
     (Call::SetDebugLogging, UNBROKEN),
     (Call::SetupExperiment, &[Instantiated]),
@@ -85,19 +85,19 @@ pub const ALLOWED: &[(Call, &[State])] = &[
 ];
 
 impl State {
-    /// Whether `call` is answered in this state.
+    /// Whether `call` is allowed in this state.
     #[must_use]
     pub fn allows(self, call: Call) -> bool {
         ALLOWED.iter().any(|(allowed, states)| *allowed == call && states.contains(&self))
     }
 
-    /// Whether a variable in `role` may be set in this state.
+    /// Whether variables of this causality and variability may be set in this state.
     #[must_use]
-    pub fn may_set(self, role: Role) -> bool {
-        match role {
-            Role::Input | Role::Tunable => self.allows(Call::Set),
-            Role::Fixed => matches!(self, Instantiated | Initialization),
-            Role::Constant | Role::Output => false,
+    pub fn may_set(self, causality: Causality, variability: Variability) -> bool {
+        match (causality, variability) {
+            (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => self.allows(Call::Set),
+            (Causality::Parameter, _) => matches!(self, Instantiated | Initialization),
+            (Causality::Output | Causality::Local, _) => false,
         }
     }
 }

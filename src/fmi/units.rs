@@ -1,26 +1,26 @@
 //! Units, and the quantities that are measured in them.
 
-/// A unit in terms of the SI base units, and how people like to read it.
+/// A unit, expressed in SI base units, with a unit for display.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
     /// Name of the unit.
     pub name: &'static str,
-    /// Exponents of the SI base units, by their names in the standard.
+    /// Exponents of the SI base units, with their attribute names in the model description.
     pub base: &'static [(&'static str, i32)],
-    /// A unit for people, and how many of it make one of this unit.
+    /// The unit for display, and how many of it make one of this unit.
     pub display: Option<(&'static str, f64)>,
 }
 
-/// A kind of number: becomes a declared type of the model description.
+/// A physical quantity; it becomes a declared type of the model description.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
     /// Name of the type.
     pub name: &'static str,
-    /// Its unit; the table [`UNITS`] has it.
+    /// Name of its unit in [`UNITS`].
     pub unit: &'static str,
-    /// What it is.
+    /// Description for people.
     pub description: &'static str,
-    /// Size of a usual value, in the unit.
+    /// Magnitude of a typical value, in the unit.
     pub nominal: Option<f64>,
 }
 
@@ -50,39 +50,39 @@ const fn quantity(
     Quantity { name, unit, description, nominal }
 }
 
-/// Position in the world frame.
+/// Position in the world frame, m.
 pub const POSITION: Quantity = quantity("Position", "m", Some(0.01), "Position in the world frame");
-/// Length.
+/// Length, m.
 pub const LENGTH: Quantity = quantity("Length", "m", Some(0.001), "Length");
-/// Angle.
+/// Angle, rad.
 pub const ANGLE: Quantity = quantity("Angle", "rad", Some(1.0), "Angle");
-/// Component of a unit quaternion.
+/// Component of a unit quaternion, 1.
 pub const QUATERNION: Quantity =
     quantity("Quaternion", "1", None, "Component of a unit quaternion w, x, y, z, body to world");
-/// Component of a unit vector.
+/// Component of a unit vector, 1.
 pub const DIRECTION: Quantity = quantity("Direction", "1", None, "Component of a unit vector, world frame");
-/// Dimensionless number.
+/// Dimensionless number, 1.
 pub const RATIO: Quantity = quantity("Ratio", "1", None, "Dimensionless number");
-/// Shore A hardness.
+/// Shore A hardness, 1.
 pub const HARDNESS: Quantity = quantity("ShoreA", "1", Some(10.0), "Shore A hardness");
-/// Magnetic flux density.
+/// Magnetic flux density, T.
 pub const FIELD: Quantity = quantity("FluxDensity", "T", Some(0.01), "Magnetic flux density, world frame");
-/// Remanence.
+/// Remanence, T.
 pub const REMANENCE: Quantity = quantity("Remanence", "T", Some(1.0), "Remanent flux density along the axis");
-/// Gradient of the flux density.
+/// Gradient of the magnetic flux density, T/m.
 pub const GRADIENT: Quantity =
     quantity("FieldGradient", "T/m", Some(1.0), "Gradient of the magnetic flux density, world frame");
-/// Force.
+/// Force, N.
 pub const FORCE: Quantity = quantity("Force", "N", Some(0.01), "Force, world frame");
-/// Moment.
+/// Moment or torque, N.m.
 pub const MOMENT: Quantity = quantity("Moment", "N.m", Some(0.001), "Moment or torque, world frame");
-/// Acceleration.
+/// Acceleration, m/s2.
 pub const ACCELERATION: Quantity = quantity("Acceleration", "m/s2", Some(10.0), "Acceleration, world frame");
-/// Elastic modulus.
+/// Young's modulus, Pa.
 pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", Some(1e6), "Young's modulus");
-/// Density.
+/// Density, kg/m3.
 pub const DENSITY: Quantity = quantity("Density", "kg/m3", Some(1000.0), "Mass per volume");
-/// Processor time.
+/// Processor time, s.
 pub const TIME: Quantity = quantity("ProcessorTime", "s", Some(1.0), "Processor time");
 
 /// All quantities, in the order of the model description.

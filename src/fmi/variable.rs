@@ -1,134 +1,92 @@
-//! One row of the variable table: what a variable is, and how it is read and set.
+//! One row of the table of variables: what the variable is, and how it is read and set.
 
-use serde::{Deserialize, Serialize};
-
-use super::given::Given;
-use super::slope::Slope;
-use super::units::Quantity;
+use super::dependency::{Dependency, DependencyKind, Known};
+use super::derivative_role::DerivativeRole;
+use super::host_values::HostValues;
+use super::value::{DataType, Value};
+use crate::error::Error;
 use crate::manipulator::Outputs;
 
-/// The count of jumps to another branch.
-pub(super) const SNAPS: &str = "stability.snaps";
-
-/// A typed value. An enumeration's value is an integer.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Value {
-    /// Floating point.
-    Real(f64),
-    /// Integer or enumeration.
-    Integer(i32),
-    /// Truth value.
-    Boolean(bool),
-}
-
-/// Type of a variable, as declared.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
-    /// Real of a quantity.
-    Real(Quantity),
-    /// Integer.
-    Integer,
-    /// Boolean.
-    Boolean,
-    /// One of the items of an enumeration type.
-    Enumeration(&'static Enumeration),
-}
-
-/// An enumeration type.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Enumeration {
-    /// Name of the type.
-    pub name: &'static str,
-    /// What it is.
-    pub description: &'static str,
-    /// Items.
-    pub items: &'static [Item],
-}
-
-/// An item of an enumeration type.
-#[derive(Debug, PartialEq, Eq)]
-pub struct Item {
-    /// Name of the item.
-    pub name: &'static str,
-    /// Its number.
-    pub value: i32,
-    /// What it means.
-    pub description: &'static str,
-}
-
-/// Causality and variability together.
+/// The standard's causality.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Role {
-    /// Continuous input.
+pub enum Causality {
+    /// Set by the host, before the start and between communication steps.
     Input,
-    /// Parameter, set before the end of initialisation.
-    Fixed,
-    /// Parameter, set before the start and between steps.
-    Tunable,
-    /// What cannot change: a fact of the packed design.
-    Constant,
-    /// Output.
+    /// Set by the host; when, its variability says.
+    Parameter,
+    /// Computed from inputs and parameters.
     Output,
+    /// Neither set by the host nor computed: a fact about the packed design.
+    Local,
 }
 
-/// Position in an array: which body, which axis, both from 0.
+/// The standard's variability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variability {
+    /// Never changes.
+    Constant,
+    /// Does not change after initialisation.
+    Fixed,
+    /// Changes only between communication steps, when the host sets it.
+    Tunable,
+    /// Changes at communication points only, and has no derivatives.
+    Discrete,
+    /// Changes continuously with the inputs, or is such an input.
+    Continuous,
+}
+
+/// When an output has a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Availability {
+    /// Always: it describes the search for an equilibrium, also one that found none.
+    Always,
+    /// Once an equilibrium was found.
+    Solved,
+    /// Once an equilibrium was found; it takes a computation of its own, which is done only when the host reads it.
+    OnRequest,
+}
+
+/// Which element of an array a variable is; both indices start at 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct At {
-    /// Which ring, core, cylinder or shape point.
+pub struct Index {
+    /// Number of the ring, core, cylinder or centreline point that the variable belongs to.
     pub item: usize,
-    /// Which component.
-    pub axis: usize,
+    /// Number of the component of its vector, quaternion or gradient.
+    pub component: usize,
 }
 
 /// How a variable is read and set.
 #[derive(Debug, Clone, Copy)]
 pub enum Access {
-    /// A number that the host gives.
+    /// A Real input or parameter.
     Real {
         /// Reads it.
-        get: fn(&Given, At) -> f64,
+        get: fn(&HostValues, Index) -> f64,
         /// Sets it.
-        set: fn(&mut Given, At, f64),
+        set: fn(&mut HostValues, Index, f64),
     },
-    /// A truth value that the host gives.
+    /// A Boolean parameter.
     Boolean {
         /// Reads it.
-        get: fn(&Given) -> bool,
+        get: fn(&HostValues) -> bool,
         /// Sets it.
-        set: fn(&mut Given, bool),
+        set: fn(&mut HostValues, bool),
     },
-    /// An item that the host chooses.
-    Choice {
-        /// Reads it.
-        get: fn(&Given) -> i32,
-        /// Sets it; false for a number that is no item.
-        set: fn(&mut Given, i32) -> bool,
+    /// An Enumeration parameter.
+    Enumeration {
+        /// Reads the number of the item.
+        get: fn(&HostValues) -> i32,
+        /// Sets it; a number that is no item has no effect.
+        set: fn(&mut HostValues, i32),
     },
-    /// A number that a solve answers.
-    RealAnswer(fn(&Outputs, At) -> f64),
-    /// An integer that a solve answers.
-    IntegerAnswer(fn(&Outputs) -> i32),
-    /// A truth value that a solve answers.
-    BooleanAnswer(fn(&Outputs) -> bool),
-    /// What cannot change.
-    Fact(Value),
-}
-
-/// Upon which inputs and parameters an output depends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reach {
-    /// Through the equilibrium upon everything but the load on a clamped ring.
-    Equilibrium,
-    /// The same and the load on a clamped ring: what the clamp bears.
-    Clamp,
-    /// Upon the base pose, as the first point of the centreline does.
-    BasePoint,
-    /// Upon the base pose, as the centre of a clamped ring does.
-    ClampedCentre,
-    /// Upon the base orientation, as the axis of a clamped ring does.
-    ClampedAxis,
-    /// Upon lengths of the design only.
-    Lengths,
+    /// A Real output.
+    RealOutput(fn(&Outputs, Index) -> f64),
+    /// An Integer or Enumeration output.
+    IntegerOutput(fn(&Outputs) -> i32),
+    /// A Boolean output.
+    BooleanOutput(fn(&Outputs) -> bool),
+    /// A constant.
+    Constant(Value),
 }
 
 /// A row of the table.
@@ -136,101 +94,112 @@ pub enum Reach {
 pub struct Variable {
     /// Structured name.
     pub name: String,
-    /// What it is.
+    /// Description for people.
     pub description: String,
-    /// Type.
-    pub kind: Kind,
-    /// Causality and variability.
-    pub role: Role,
-    /// Smallest value, if there is one.
+    /// Data type.
+    pub data_type: DataType,
+    /// Causality.
+    pub causality: Causality,
+    /// Variability.
+    pub variability: Variability,
+    /// Smallest value, if there is one, in the variable's unit.
     pub min: Option<f64>,
-    /// Largest value, if there is one.
+    /// Largest value, if there is one, in the variable's unit.
     pub max: Option<f64>,
-    /// Position in its array.
-    pub at: At,
+    /// Which element of its array the variable is.
+    pub index: Index,
     /// How it is read and set.
     pub access: Access,
-    /// Upon what an output depends; without meaning for others.
-    pub reach: Reach,
+    /// What an input or parameter acts on; without meaning for other variables.
+    pub known: Known,
+    /// How an output depends on inputs and parameters; without meaning for other variables.
+    pub dependency: Dependency,
     /// How it takes part in derivatives.
-    pub slope: Slope,
+    pub derivative_role: DerivativeRole,
+    /// When an output has a value; without meaning for other variables.
+    pub availability: Availability,
 }
 
 impl Variable {
-    /// The value that the host gave, or the fact; `None` for an answer of a solve.
+    /// Causality and variability in words, for people.
     #[must_use]
-    pub fn given(&self, given: &Given) -> Option<Value> {
+    pub fn causality_in_words(&self) -> &'static str {
+        match (self.causality, self.variability) {
+            (Causality::Input, _) => "input",
+            (Causality::Parameter, Variability::Tunable) => "tunable parameter",
+            (Causality::Parameter, _) => "fixed parameter",
+            (Causality::Output, _) => "output",
+            (Causality::Local, _) => "constant",
+        }
+    }
+
+    /// The value of an input, parameter or constant; `None` for an output.
+    #[must_use]
+    pub fn host_value(&self, values: &HostValues) -> Option<Value> {
         match self.access {
-            Access::Real { get, .. } => Some(Value::Real(get(given, self.at))),
-            Access::Boolean { get, .. } => Some(Value::Boolean(get(given))),
-            Access::Choice { get, .. } => Some(Value::Integer(get(given))),
-            Access::Fact(value) => Some(value),
-            Access::RealAnswer(_) | Access::IntegerAnswer(_) | Access::BooleanAnswer(_) => None,
+            Access::Real { get, .. } => Some(Value::Real(get(values, self.index))),
+            Access::Boolean { get, .. } => Some(Value::Boolean(get(values))),
+            Access::Enumeration { get, .. } => Some(Value::Integer(get(values))),
+            Access::Constant(value) => Some(value),
+            Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => None,
         }
     }
 
-    /// The answer of the last solve; `None` for what the host gives.
+    /// The value of an output; `None` for other variables.
     #[must_use]
-    pub fn answer(&self, outputs: &Outputs) -> Option<Value> {
+    pub fn output(&self, outputs: &Outputs) -> Option<Value> {
         match self.access {
-            Access::RealAnswer(get) => Some(Value::Real(get(outputs, self.at))),
-            Access::IntegerAnswer(get) => Some(Value::Integer(get(outputs))),
-            Access::BooleanAnswer(get) => Some(Value::Boolean(get(outputs))),
-            _ => None,
+            Access::RealOutput(get) => Some(Value::Real(get(outputs, self.index))),
+            Access::IntegerOutput(get) => Some(Value::Integer(get(outputs))),
+            Access::BooleanOutput(get) => Some(Value::Boolean(get(outputs))),
+            Access::Real { .. }
+            | Access::Boolean { .. }
+            | Access::Enumeration { .. }
+            | Access::Constant(_) => None,
         }
     }
 
-    /// Whether it tells of the search for an equilibrium, which has a meaning even if none was ever found.
-    #[must_use]
-    pub fn tells_of_search(&self) -> bool {
-        self.name.starts_with("solver.") || self.name == SNAPS
-    }
-
-    /// Sets what the host gives; false for a value that the variable cannot take.
-    pub fn set(&self, given: &mut Given, value: Value) -> bool {
-        match (self.access, value) {
-            (Access::Real { set, .. }, Value::Real(value)) if value.is_finite() => set(given, self.at, value),
-            (Access::Boolean { set, .. }, Value::Boolean(value)) => set(given, value),
-            (Access::Choice { set, .. }, Value::Integer(value)) => return set(given, value),
-            _ => return false,
-        }
-        true
-    }
-
-    /// Whether values of the same type as `value` belong to it.
-    #[must_use]
-    pub fn holds(&self, value: Value) -> bool {
-        matches!(
-            (self.kind, value),
-            (Kind::Real(_), Value::Real(_))
-                | (Kind::Integer | Kind::Enumeration(_), Value::Integer(_))
-                | (Kind::Boolean, Value::Boolean(_))
-        )
-    }
-}
-
-impl Reach {
-    /// How an output at `at` with this reach depends on the input or parameter `known`.
+    /// Checks that the variable can take this value: that it is of its type, and a finite number or one of its items.
     ///
-    /// The standard's words: `constant` (a constant factor) or `dependent` (no particular structure).
-    #[must_use]
-    pub fn upon(self, known: &Variable, at: At, clamped_ring: bool) -> Option<&'static str> {
-        let name = known.name.as_str();
-        let dependent = |holds: bool| holds.then_some("dependent");
-        let same_axis =
-            || (name.starts_with("base.position[") && known.at.axis == at.axis).then_some("constant");
-        match self {
-            Self::Equilibrium => dependent(!(clamped_ring && name.starts_with("ring[1].load_force"))),
-            Self::Clamp => dependent(true),
-            Self::BasePoint => same_axis(),
-            Self::ClampedCentre => same_axis()
-                .or(dependent(name.starts_with("base.orientation[") || name == "design.ring.length")),
-            Self::ClampedAxis => dependent(name.starts_with("base.orientation[")),
-            Self::Lengths => dependent(
-                name.starts_with("design.")
-                    && !name.starts_with("design.backbone")
-                    && name.ends_with(".length"),
-            ),
+    /// Bounds are not checked here but where the value is used, since some hold only for a combination of parameters.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for a number that is not finite; [`Error::Unsupported`] for a value of another type and for a
+    /// number that is no item.
+    pub fn check(&self, value: Value) -> Result<(), Error> {
+        let name = &self.name;
+        match (self.data_type, value) {
+            (DataType::Real(_), Value::Real(number)) if !number.is_finite() => {
+                Err(Error::range(name, number, "finite"))
+            }
+            (DataType::Enumeration(enumeration), Value::Integer(number)) if !enumeration.has_item(number) => {
+                Err(Error::Unsupported(format!("{name} has no item {number}")))
+            }
+            (DataType::Real(_), Value::Real(_))
+            | (DataType::Integer | DataType::Enumeration(_), Value::Integer(_))
+            | (DataType::Boolean, Value::Boolean(_)) => Ok(()),
+            _ => Err(Error::Unsupported(format!("{name} is of another type than the value {value:?}"))),
         }
+    }
+
+    /// Sets an input or parameter.
+    ///
+    /// # Errors
+    /// Those of [`Variable::check`]; [`Error::Unsupported`] for an output or constant. Nothing is set then.
+    pub fn set(&self, values: &mut HostValues, value: Value) -> Result<(), Error> {
+        self.check(value)?;
+        match (self.access, value) {
+            (Access::Real { set, .. }, Value::Real(value)) => set(values, self.index, value),
+            (Access::Boolean { set, .. }, Value::Boolean(value)) => set(values, value),
+            (Access::Enumeration { set, .. }, Value::Integer(value)) => set(values, value),
+            _ => return Err(Error::Unsupported(format!("{} cannot be set", self.name))),
+        }
+        Ok(())
+    }
+
+    /// How an output depends on an input or parameter; `None` if it does not.
+    #[must_use]
+    pub fn depends_on(&self, known: &Self) -> Option<DependencyKind> {
+        self.dependency.on(known.known, self.index.component == known.index.component)
     }
 }

@@ -5,17 +5,18 @@ use std::io;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
 
-use super::given::Given;
+use super::dependency::DependencyKind;
+use super::host_values::HostValues;
 use super::log::Category;
-use super::slope::Slope;
 use super::units::{QUANTITIES, UNITS};
-use super::variable::{Enumeration, Kind, Role, Value, Variable};
+use super::value::{DataType, Enumeration, Value};
+use super::variable::{Causality, Variability, Variable};
 use super::variables::Table;
 use crate::error::Error;
 
 /// Name of the model.
 pub const MODEL_NAME: &str = "MagneticContinuumManipulator";
-/// Name of the shared library in the archive, without suffix.
+/// Name of the shared library in the archive, without its suffix.
 pub const MODEL_IDENTIFIER: &str = "mcm";
 
 const DESCRIPTION: &str = "Shape, tip angle and forces of a magnetic continuum manipulator from the pose of the \
@@ -23,23 +24,23 @@ const DESCRIPTION: &str = "Shape, tip angle and forces of a magnetic continuum m
 const COPYRIGHT: &str = "Copyright (c) 2026 the mcm authors";
 const TOOL: &str = concat!("mcm ", env!("CARGO_PKG_VERSION"));
 
-/// The tolerance is what the default strain modes and ring rules keep to, relative to the length: solves themselves
-/// converge far tighter, whatever tolerance the host sets.
+/// The tolerance is the accuracy of the default discretisation (strain modes and pair quadrature), relative to the length
+/// of the manipulator. The solver itself converges far more tightly, whatever tolerance the host sets.
 const DEFAULT_EXPERIMENT: Attributes =
     &[("startTime", "0"), ("stopTime", "10"), ("tolerance", "1e-5"), ("stepSize", "0.01")];
 
 type Xml = Writer<Vec<u8>>;
 type Attributes<'a> = &'a [(&'a str, &'a str)];
 
-/// The model description of a table with these start values.
+/// The text of the model description for a table with these start values.
 ///
-/// `generated` is the date and time in UTC (`2026-01-31T12:00:00Z`), if it is to be told.
+/// `generated` is the date and time of generation in UTC (`2026-01-31T12:00:00Z`), if it shall be stated.
 ///
 /// # Errors
 /// [`Error::Syntax`] if the text cannot be written.
 pub fn model_description(
     table: &Table,
-    start: &Given,
+    start: &HostValues,
     guid: &str,
     generated: Option<&str>,
 ) -> Result<String, Error> {
@@ -50,7 +51,13 @@ pub fn model_description(
     Ok(text + "\n")
 }
 
-fn write(xml: &mut Xml, table: &Table, start: &Given, guid: &str, generated: Option<&str>) -> io::Result<()> {
+fn write(
+    xml: &mut Xml,
+    table: &Table,
+    start: &HostValues,
+    guid: &str,
+    generated: Option<&str>,
+) -> io::Result<()> {
     xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let mut attributes = vec![
         ("fmiVersion", "2.0"),
@@ -138,7 +145,7 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
     }
     let mut enumerations: Vec<&Enumeration> = Vec::new();
     for variable in table.variables() {
-        if let Kind::Enumeration(enumeration) = variable.kind
+        if let DataType::Enumeration(enumeration) = variable.data_type
             && !enumerations.contains(&enumeration)
         {
             enumerations.push(enumeration);
@@ -160,51 +167,62 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
     Ok(())
 }
 
-/// Causality, variability and initial of a role.
-fn causality(variable: &Variable) -> (&'static str, &'static str, Option<&'static str>) {
-    match (variable.role, variable.kind) {
-        (Role::Input, Kind::Real(_)) => ("input", "continuous", None),
-        (Role::Input, _) => ("input", "discrete", None),
-        (Role::Fixed, _) => ("parameter", "fixed", Some("exact")),
-        (Role::Tunable, _) => ("parameter", "tunable", Some("exact")),
-        (Role::Constant, _) => ("local", "constant", Some("exact")),
-        (Role::Output, Kind::Real(_)) if variable.slope != Slope::None => {
-            ("output", "continuous", Some("calculated"))
-        }
-        // A number about the solve, too, has no derivatives.
-        (Role::Output, _) => ("output", "discrete", Some("calculated")),
+fn causality(variable: &Variable) -> &'static str {
+    match variable.causality {
+        Causality::Input => "input",
+        Causality::Parameter => "parameter",
+        Causality::Output => "output",
+        Causality::Local => "local",
     }
 }
 
-fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &Given) -> io::Result<()> {
+fn variability(variable: &Variable) -> &'static str {
+    match variable.variability {
+        Variability::Constant => "constant",
+        Variability::Fixed => "fixed",
+        Variability::Tunable => "tunable",
+        Variability::Discrete => "discrete",
+        Variability::Continuous => "continuous",
+    }
+}
+
+/// How the value is determined before initialisation; the standard forbids the attribute for inputs.
+fn initial(variable: &Variable) -> Option<&'static str> {
+    match variable.causality {
+        Causality::Input => None,
+        Causality::Parameter | Causality::Local => Some("exact"),
+        Causality::Output => Some("calculated"),
+    }
+}
+
+fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &HostValues) -> io::Result<()> {
     let reference = reference.to_string();
-    let (causality, variability, initial) = causality(variable);
     let mut attributes = vec![
         ("name", variable.name.as_str()),
         ("valueReference", reference.as_str()),
         ("description", variable.description.as_str()),
-        ("causality", causality),
-        ("variability", variability),
+        ("causality", causality(variable)),
+        ("variability", variability(variable)),
     ];
-    attributes.extend(initial.map(|initial| ("initial", initial)));
+    attributes.extend(initial(variable).map(|initial| ("initial", initial)));
     within(xml, "ScalarVariable", &attributes, |xml| {
-        let integral = matches!(variable.kind, Kind::Integer | Kind::Enumeration(_));
+        let integral = matches!(variable.data_type, DataType::Integer | DataType::Enumeration(_));
         let bound = |bound: f64| if integral { format!("{bound:.0}") } else { number(bound) };
         let (min, max) = (variable.min.map(bound), variable.max.map(bound));
-        let start = variable.given(start).map(|value| match value {
+        let start = variable.host_value(start).map(|value| match value {
             Value::Real(value) => number(value),
             Value::Integer(value) => value.to_string(),
             Value::Boolean(value) => value.to_string(),
         });
-        let (element, mut attributes) = match &variable.kind {
-            Kind::Real(quantity) => {
+        let (element, mut attributes) = match &variable.data_type {
+            DataType::Real(quantity) => {
                 let mut attributes = vec![("declaredType", quantity.name), ("unit", quantity.unit)];
                 attributes.extend(display_unit(quantity.unit).map(|unit| ("displayUnit", unit)));
                 ("Real", attributes)
             }
-            Kind::Integer => ("Integer", vec![]),
-            Kind::Boolean => ("Boolean", vec![]),
-            Kind::Enumeration(enumeration) => ("Enumeration", vec![("declaredType", enumeration.name)]),
+            DataType::Integer => ("Integer", vec![]),
+            DataType::Boolean => ("Boolean", vec![]),
+            DataType::Enumeration(enumeration) => ("Enumeration", vec![("declaredType", enumeration.name)]),
         };
         let optional = [("min", min), ("max", max), ("start", start)];
         attributes.extend(optional.iter().filter_map(|(name, value)| Some((*name, value.as_deref()?))));
@@ -213,28 +231,24 @@ fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &Given) -
 }
 
 fn structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
-    within(xml, "Outputs", &[], |xml| unknowns(xml, table, &[Role::Input]))?;
-    within(xml, "InitialUnknowns", &[], |xml| {
-        unknowns(xml, table, &[Role::Input, Role::Fixed, Role::Tunable])
-    })
+    within(xml, "Outputs", &[], |xml| unknowns(xml, table, &[Causality::Input]))?;
+    within(xml, "InitialUnknowns", &[], |xml| unknowns(xml, table, &[Causality::Input, Causality::Parameter]))
 }
 
-/// All outputs, each with those of the variables in the roles `known` upon which it depends.
-fn unknowns(xml: &mut Xml, table: &Table, known: &[Role]) -> io::Result<()> {
+/// All outputs, each with those variables of the causalities `known` on which it depends.
+fn unknowns(xml: &mut Xml, table: &Table, known: &[Causality]) -> io::Result<()> {
     let rows = || (1..).zip(table.variables());
-    for (index, output) in rows().filter(|(_, variable)| variable.role == Role::Output) {
-        let dependencies = rows().filter(|(_, variable)| known.contains(&variable.role)).filter_map(
-            |(index, variable): (usize, _)| {
-                let clamped = table.counts().clamped_ring;
-                Some((index.to_string(), output.reach.upon(variable, output.at, clamped)?))
-            },
+    for (index, output) in rows().filter(|(_, variable)| variable.causality == Causality::Output) {
+        let dependencies = rows().filter(|(_, variable)| known.contains(&variable.causality)).filter_map(
+            |(index, variable): (usize, _)| Some((index.to_string(), output.depends_on(variable)?)),
         );
         let (indices, kinds): (Vec<_>, Vec<_>) = dependencies.unzip();
         let (index, indices) = (index.to_string(), indices.join(" "));
         let mut attributes = vec![("index", index.as_str()), ("dependencies", indices.as_str())];
-        // Left out, every kind is `dependent`.
-        let said = kinds.iter().any(|&kind| kind != "dependent").then(|| kinds.join(" "));
-        attributes.extend(said.as_deref().map(|kinds| ("dependenciesKind", kinds)));
+        // Where the attribute is missing, every kind is `dependent`.
+        let special = kinds.iter().any(|kind| *kind != DependencyKind::Dependent);
+        let names = special.then(|| kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(" "));
+        attributes.extend(names.as_deref().map(|names| ("dependenciesKind", names)));
         empty(xml, "Unknown", &attributes)?;
     }
     Ok(())

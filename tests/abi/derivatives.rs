@@ -1,7 +1,6 @@
 //! Derivatives through the C interface, against differences.
 
-use mcm::fmi::slope::Slope;
-use mcm::fmi::variable::{Role, Variable};
+use mcm::fmi::variable::{Causality, Variable};
 
 use super::*;
 use crate::tolerance::ABI_DIFFERENCE;
@@ -56,12 +55,9 @@ const SIZES: [(&str, f64); 9] = [
 fn every_output_by_every_input_is_what_differences_say() {
     let component = instantiate(301);
     initialise(component);
-    let (unknowns, outputs): (Vec<_>, Vec<_>) = references(|variable| {
-        matches!(variable.slope, Slope::Output(_) | Slope::TipQuaternion | Slope::Still)
-    })
-    .into_iter()
-    .unzip();
-    let knowns = references(|variable| variable.role == Role::Input);
+    let (unknowns, outputs): (Vec<_>, Vec<_>) =
+        references(|variable| variable.derivative_role.is_unknown()).into_iter().unzip();
+    let knowns = references(|variable| variable.causality == Causality::Input);
     assert!(unknowns.len() > 150 && knowns.len() == 59, "{} {}", unknowns.len(), knowns.len());
     // Bent out of the plane, so that no derivative vanishes for symmetry.
     for (name, value) in [("field.uniform[1]", 0.002), ("tip.load_force[3]", 0.002), ("gravity[2]", 3.0)] {
@@ -95,7 +91,7 @@ fn every_output_by_every_input_is_what_differences_say() {
     let mut worst = 0.0_f64;
     for (row, output) in outputs.iter().enumerate() {
         // Relative to the largest effect of any input, of its usual size, on this kind of output.
-        let kind = |other: &Variable| other.slope == output.slope;
+        let kind = |other: &Variable| other.derivative_role == output.derivative_role;
         let rows = || outputs.iter().enumerate().filter(|(_, other)| kind(other)).map(|(row, _)| row);
         let largest =
             rows().flat_map(|row| exact.iter().map(move |column| column[row].abs())).fold(0.0, f64::max);

@@ -2,6 +2,7 @@
 
 use mcm::fmi::Instance;
 use mcm::fmi::state::Ending;
+use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
 
 use super::instance::{get, initialised, reference, set};
@@ -68,11 +69,7 @@ fn orientations_follow_their_path_and_stay_normalised() {
     assert_eq!(instance.do_step(0.0, 1.0), Ending::Ok, "{}", last(&told));
     assert_close("orientation", &read(&mut instance), &[-half, 0.0, 0.0, half], ROUNDING);
     // The last part was a fraction of the way: the solve went along, some steps for each part.
-    let iterations =
-        instance.get(&[reference(&table, "solver.iterations")], "Integer", |value| match value {
-            mcm::fmi::variable::Value::Integer(value) => Some(value),
-            _ => None,
-        });
+    let iterations = instance.get(&[reference(&table, "solver.iterations")], "Integer", Value::integer);
     assert!(iterations.unwrap()[0] > 47, "3/2 pi in parts of 0.1 rad");
     // Through the zero quaternion there is no way.
     for (name, from) in names.iter().zip(read(&mut instance)) {

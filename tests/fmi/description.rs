@@ -1,6 +1,7 @@
 //! The model description, as far as no validator looks.
 
 use mcm::fmi::Package;
+use mcm::fmi::variable::Causality;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
@@ -106,6 +107,46 @@ fn a_load_on_a_clamped_ring_reaches_the_clamp_only() {
     assert!(depends("shape.position[1,2]", "base.position[2]"));
     assert!(!depends("shape.position[1,2]", "base.position[1]"));
     assert!(!depends("shape.arc_length[2]", "magnet.strength"));
+}
+
+/// Names of the inputs and parameters on which a variable depends, with the kind of each dependency.
+fn dependencies(scene: &str, output: &str) -> Vec<(String, &'static str)> {
+    let package = Package::new(scene, "test scene", 3).unwrap();
+    let table = package.table();
+    let output = table.find(table.reference(output).unwrap()).unwrap();
+    let knowns = table
+        .variables()
+        .iter()
+        .filter(|variable| matches!(variable.causality, Causality::Input | Causality::Parameter));
+    knowns.filter_map(|known| Some((known.name.clone(), output.depends_on(known)?.name()))).collect()
+}
+
+#[test]
+fn an_output_that_the_equilibrium_does_not_move_depends_on_what_it_is_made_of() {
+    let chain = "[design]\nsegments = 2";
+    let free = "[design]\nsegments = 2\nbase_magnet = false";
+    let rod = "[design]\nkind = \"cylinder\"\nlength_mm = 10.0\nradius_mm = 1.0\nshore_a = 33.0";
+    let orientation = [1, 2, 3, 4].map(|number| format!("base.orientation[{number}]"));
+    let orientation = orientation.each_ref().map(|name| (name.as_str(), "dependent"));
+    let lengths = [("design.helix.length", "dependent"), ("design.ring.length", "dependent")];
+    let position = [("base.position[2]", "constant")];
+    let centre = [&position[..], &orientation, &lengths[1..]].concat();
+    for (scene, output, expected) in [
+        (chain, "shape.position[1,2]", &position[..]),
+        (chain, "shape.arc_length[2]", &lengths),
+        (rod, "shape.arc_length[2]", &[("design.cylinder.length", "dependent")]),
+        (chain, "ring[1].position[2]", &centre),
+        (chain, "ring[1].axis[2]", &orientation),
+    ] {
+        let found = dependencies(scene, output);
+        let found: Vec<_> = found.iter().map(|(name, kind)| (name.as_str(), *kind)).collect();
+        assert_eq!(found, expected, "{output}");
+    }
+    let all = dependencies(chain, "base.reaction_force[1]").len();
+    assert_eq!(dependencies(chain, "tip.angle").len(), all - 3, "all but the force on the clamped ring");
+    assert_eq!(dependencies(chain, "ring[2].position[1]").len(), all - 3);
+    let all = dependencies(free, "base.reaction_force[1]").len();
+    assert_eq!(dependencies(free, "ring[1].position[1]").len(), all, "no ring is clamped");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use mcm::fmi::Instance;
 use mcm::fmi::state::{Ending, State};
-use mcm::fmi::variable::Value;
+use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
 
 use super::instance::{get, initialised, reference, set};
@@ -17,13 +17,11 @@ const SHUT: &str =
     "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
 
 fn whole(instance: &mut Instance, table: &Table, name: &str) -> i32 {
-    let integer = |value| if let Value::Integer(value) = value { Some(value) } else { None };
-    instance.get(&[reference(table, name)], "Integer", integer).unwrap()[0]
+    instance.get(&[reference(table, name)], "Integer", Value::integer).unwrap()[0]
 }
 
 fn truth(instance: &mut Instance, table: &Table, name: &str) -> bool {
-    let boolean = |value| if let Value::Boolean(value) = value { Some(value) } else { None };
-    instance.get(&[reference(table, name)], "Boolean", boolean).unwrap()[0]
+    instance.get(&[reference(table, name)], "Boolean", Value::boolean).unwrap()[0]
 }
 
 #[test]
@@ -86,8 +84,7 @@ fn a_first_pose_without_a_solution_says_so_and_promises_nothing() {
     assert_eq!(whole(&mut instance, table, "stability.snaps"), 0);
     assert!((0.0..1.0).contains(&get(&mut instance, table, "solver.progress")));
     for name in ["tip.angle", "force.magnetic[2]", "stability.margin", "ring[1].position[3]"] {
-        let real = |value| if let Value::Real(value) = value { Some(value) } else { None };
-        assert_eq!(instance.get(&[reference(table, name)], "Real", real), Err(Ending::Error));
+        assert_eq!(instance.get(&[reference(table, name)], "Real", Value::real), Err(Ending::Error));
         assert!(last(&told).contains("no equilibrium was found yet"), "{}", last(&told));
     }
     instance.reset();

@@ -1,8 +1,9 @@
 //! The life of an instance.
 
+use allocation_counter::measure;
 use mcm::fmi::Instance;
 use mcm::fmi::state::{Ending, State};
-use mcm::fmi::variable::Value;
+use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
 
 use super::{BENT, instance, last};
@@ -12,12 +13,8 @@ pub(super) fn reference(table: &Table, name: &str) -> u32 {
     table.reference(name).unwrap_or_else(|| panic!("{name}"))
 }
 
-fn real(value: Value) -> Option<f64> {
-    if let Value::Real(value) = value { Some(value) } else { None }
-}
-
 pub(super) fn get(instance: &mut Instance, table: &Table, name: &str) -> f64 {
-    instance.get(&[reference(table, name)], "Real", real).unwrap()[0]
+    instance.get(&[reference(table, name)], "Real", Value::real).unwrap()[0]
 }
 
 pub(super) fn set(instance: &mut Instance, table: &Table, name: &str, value: f64) -> Ending {
@@ -93,12 +90,61 @@ fn wrong_references_and_types_are_refused_whole() {
         "nothing of a refused call is kept"
     );
     assert_eq!(instance.set(&[strength], [Value::Integer(1)].into_iter()), Ending::Error);
-    assert_eq!(instance.get(&[reference(&table, "solver.status")], "Real", real), Err(Ending::Error));
+    assert_eq!(instance.get(&[reference(&table, "solver.status")], "Real", Value::real), Err(Ending::Error));
     assert!(last(&told).contains("solver.status is no Real"), "{}", last(&told));
     let status = set(&mut instance, &table, "tip.angle", 1.0);
     assert_eq!(status, Ending::Error, "{}", last(&told));
     let status = set(&mut instance, &table, "design.helix.length", 0.005);
     assert_eq!(status, Ending::Error, "{}", last(&told));
+}
+
+#[test]
+fn a_bad_value_in_the_middle_of_a_call_changes_nothing() {
+    let (mut instance, package, told) = instance(BENT);
+    let table = package.table();
+    instance.enter_initialization();
+    let state = |instance: &mut Instance| {
+        assert_eq!(instance.save(1), Ending::Ok);
+        instance.serialised(1).unwrap()
+    };
+    let before = state(&mut instance);
+    let of = |name: &str| reference(table, name);
+    let (strength, length, stop) =
+        (of("magnet.strength"), of("design.helix.length"), of("model.bending_stop"));
+    let (level, angle) = (of("model.interaction"), of("tip.angle"));
+    let good = [Value::Real(0.5), Value::Real(0.0045), Value::Boolean(true)];
+    let bad = [
+        (strength, Value::Real(f64::NAN), "magnet.strength = NaN"),
+        (strength, Value::Boolean(true), "another type"),
+        (level, Value::Integer(99), "model.interaction has no item 99"),
+        (angle, Value::Real(0.1), "tip.angle (output) cannot be set"),
+        (u32::MAX, Value::Real(0.1), "no variable"),
+    ];
+    for (reference, value, reason) in bad {
+        let references = [strength, length, reference, stop];
+        let values = [good[0], good[1], value, good[2]];
+        assert_eq!(instance.set(&references, values.into_iter()), Ending::Error);
+        assert!(last(&told).contains(reason), "{}", last(&told));
+        assert_eq!(state(&mut instance), before, "{reason}");
+    }
+    for (order, rate) in [(0, 1.0), (1, f64::INFINITY)] {
+        let (orders, rates) = ([1, order, 1], [0.1, rate, 0.1]);
+        assert_eq!(instance.set_input_derivatives(&[strength; 3], &orders, &rates), Ending::Error);
+        assert_eq!(state(&mut instance), before, "{}", last(&told));
+    }
+    assert_eq!(instance.set(&[strength, length, stop], good.into_iter()), Ending::Ok);
+    assert_ne!(state(&mut instance), before);
+}
+
+#[test]
+fn setting_a_variable_copies_nothing_else() {
+    let (mut instance, table, _) = initialised(BENT);
+    let (strength, ring) = (reference(&table, "magnet.strength"), reference(&table, "ring[1].load_force[1]"));
+    for value in [0.5, 0.25] {
+        let values = [Value::Real(value); 2].into_iter();
+        let set = measure(|| assert_eq!(instance.set(&[strength, ring], values), Ending::Ok));
+        assert_eq!(set.count_total, 0, "allocations");
+    }
 }
 
 #[test]
@@ -202,7 +248,11 @@ fn a_step_that_ends_nowhere_is_refused() {
     let (mut instance, _, told) = initialised(BENT);
     for (time, step) in [(1e308, 1e308), (0.0, f64::INFINITY), (f64::NAN, 0.1), (0.0, -0.1)] {
         assert_eq!(instance.do_step(time, step), Ending::Error);
-        assert!(last(&told).ends_with("is none"), "{}", last(&told));
+        assert!(
+            last(&told).contains("both must be finite, and the step size not negative"),
+            "{}",
+            last(&told)
+        );
     }
     assert_eq!(instance.time().to_bits(), 0);
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);

@@ -16,7 +16,7 @@ fn log(events: bool) -> (Log, Arc<Mutex<Vec<String>>>) {
 
 fn heard(log: &Log, told: &Mutex<Vec<String>>) -> [bool; 3] {
     told.lock().unwrap().clear();
-    log.relieve();
+    log.forget_repetitions();
     log.event("e");
     log.notice("w");
     log.error("x");
@@ -54,7 +54,7 @@ fn a_message_that_repeats_itself_falls_silent() {
     log.error("another");
     log.error("the same");
     assert_eq!(told.lock().unwrap().len(), 12, "another message in between");
-    log.relieve();
+    log.forget_repetitions();
     log.error("the same");
     assert_eq!(told.lock().unwrap().len(), 13, "after a success");
 }

@@ -1,7 +1,8 @@
 //! The table of allowed calls, against the table of the standard (section 4.2.4).
 
 use mcm::fmi::state::{ALLOWED, Call, State};
-use mcm::fmi::variable::Role;
+use mcm::fmi::variable::Causality::{Input, Local, Output, Parameter};
+use mcm::fmi::variable::Variability::{Constant, Continuous, Discrete, Fixed, Tunable};
 
 const STATES: [State; 6] = [
     State::Instantiated,
@@ -34,7 +35,11 @@ fn reset_is_allowed_always_and_steps_only_at_communication_points() {
         assert_eq!(state.allows(Call::DoStep), state == State::Stepping, "{state:?}");
         assert_eq!(state.allows(Call::SetupExperiment), state == State::Instantiated, "{state:?}");
         assert!(!state.allows(Call::CancelStep), "no step is ever pending: {state:?}");
-        assert_eq!(state.allows(Call::SetRealInputDerivatives), state.may_set(Role::Input), "{state:?}");
+        assert_eq!(
+            state.allows(Call::SetRealInputDerivatives),
+            state.may_set(Input, Continuous),
+            "{state:?}"
+        );
         assert_eq!(state.allows(Call::SerializeFmuState), state.allows(Call::SetFmuState), "{state:?}");
     }
 }
@@ -50,9 +55,11 @@ fn nothing_is_read_before_initialisation() {
 fn parameters_are_fixed_after_initialisation_and_outputs_are_never_set() {
     for state in STATES {
         let before = matches!(state, State::Instantiated | State::Initialization);
-        assert_eq!(state.may_set(Role::Fixed), before, "{state:?}");
-        assert_eq!(state.may_set(Role::Input), before || state == State::Stepping, "{state:?}");
-        assert_eq!(state.may_set(Role::Tunable), state.may_set(Role::Input), "{state:?}");
-        assert!(!state.may_set(Role::Output) && !state.may_set(Role::Constant), "{state:?}");
+        assert_eq!(state.may_set(Parameter, Fixed), before, "{state:?}");
+        assert_eq!(state.may_set(Input, Continuous), before || state == State::Stepping, "{state:?}");
+        assert_eq!(state.may_set(Parameter, Tunable), state.may_set(Input, Continuous), "{state:?}");
+        for (causality, variability) in [(Output, Continuous), (Output, Discrete), (Local, Constant)] {
+            assert!(!state.may_set(causality, variability), "{state:?}");
+        }
     }
 }

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 
 use mcm::fmi::Package;
+use mcm::fmi::derivative_role::DerivativeRole;
 use mcm::fmi::units::{QUANTITIES, UNITS};
-use mcm::fmi::variable::{Access, Kind, Role, Value};
+use mcm::fmi::value::{DataType, Value};
+use mcm::fmi::variable::{Access, Availability, Causality, Variability, Variable};
 
 const SCENES: [&str; 4] = [
     "",
@@ -83,7 +85,7 @@ fn the_names_that_users_rely_on_are_there() {
     }
     let start = |name: &str| {
         let variable = package.table().find(package.table().reference(name).unwrap()).unwrap();
-        variable.given(package.start()).unwrap()
+        variable.host_value(package.start()).unwrap()
     };
     let magnet = [1, 2, 3, 4].map(|k| start(&format!("magnet.orientation[{k}]")));
     assert_eq!(magnet, [0.0, 1.0, 0.0, 0.0].map(Value::Real));
@@ -97,22 +99,23 @@ fn what_is_set_is_read_back_and_touches_nothing_else() {
     for package in packages() {
         let table = package.table();
         let settable = || {
-            (table.variables().iter()).filter(|v| matches!(v.role, Role::Input | Role::Fixed | Role::Tunable))
+            (table.variables().iter())
+                .filter(|v| matches!(v.causality, Causality::Input | Causality::Parameter))
         };
         for (row, variable) in settable().enumerate() {
-            let mut given = package.start().clone();
+            let mut values = package.start().clone();
             let value = match variable.access {
                 Access::Real { .. } => Value::Real(0.125 + row as f64),
-                Access::Boolean { get, .. } => Value::Boolean(!get(&given)),
-                Access::Choice { .. } => Value::Integer(1),
+                Access::Boolean { get, .. } => Value::Boolean(!get(&values)),
+                Access::Enumeration { .. } => Value::Integer(1),
                 _ => panic!("{} has no place", variable.name),
             };
-            assert!(variable.set(&mut given, value), "{}", variable.name);
-            assert_eq!(variable.given(&given), Some(value), "{}", variable.name);
+            assert_eq!(variable.set(&mut values, value), Ok(()), "{}", variable.name);
+            assert_eq!(variable.host_value(&values), Some(value), "{}", variable.name);
             for other in settable().filter(|other| other.name != variable.name) {
                 assert_eq!(
-                    other.given(&given),
-                    other.given(package.start()),
+                    other.host_value(&values),
+                    other.host_value(package.start()),
                     "{} by {}",
                     other.name,
                     variable.name
@@ -123,10 +126,41 @@ fn what_is_set_is_read_back_and_touches_nothing_else() {
 }
 
 #[test]
+fn tags_of_a_variable_fit_together() {
+    let count = |holds: &dyn Fn(&Variable) -> bool| {
+        packages().map(|package| package.table().variables().iter().filter(|row| holds(row)).count()).sum()
+    };
+    for package in packages() {
+        for row in package.table().variables() {
+            let (name, role) = (&row.name, row.derivative_role);
+            let fits = match (row.causality, row.variability) {
+                (Causality::Input, Variability::Continuous) => role.is_known(),
+                (Causality::Output, Variability::Continuous) => role.is_unknown(),
+                (Causality::Output, Variability::Discrete) | (Causality::Parameter, Variability::Fixed) => {
+                    role == DerivativeRole::None
+                }
+                (Causality::Parameter, Variability::Tunable) => !role.is_unknown(),
+                (Causality::Local, Variability::Constant) => matches!(row.access, Access::Constant(_)),
+                _ => false,
+            };
+            assert!(fits, "{name}: {:?} {:?} {role:?}", row.causality, row.variability);
+            let continuous = row.variability == Variability::Continuous;
+            assert!(!continuous || matches!(row.data_type, DataType::Real(_)), "{name}");
+            let by_host = row.host_value(package.start()).is_some();
+            assert_eq!(by_host, row.causality != Causality::Output, "{name}");
+        }
+    }
+    // The search for an equilibrium is described by six outputs; one output is measured when it is read.
+    let always: usize = count(&|row| row.availability == Availability::Always);
+    let on_request: usize = count(&|row| row.availability == Availability::OnRequest);
+    assert_eq!((always, on_request), (6 * SCENES.len(), SCENES.len()));
+}
+
+#[test]
 fn start_values_lie_within_their_bounds() {
     for package in packages() {
         for variable in package.table().variables() {
-            let Some(Value::Real(start)) = variable.given(package.start()) else { continue };
+            let Some(Value::Real(start)) = variable.host_value(package.start()) else { continue };
             let within =
                 variable.min.is_none_or(|min| start >= min) && variable.max.is_none_or(|max| start <= max);
             assert!(start.is_finite() && within, "{} = {start}", variable.name);
@@ -137,22 +171,22 @@ fn start_values_lie_within_their_bounds() {
 #[test]
 fn values_that_are_none_are_refused() {
     let package = Package::built_in().unwrap();
-    let mut given = package.start().clone();
+    let mut values = package.start().clone();
     for variable in package.table().variables() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(!variable.set(&mut given, Value::Real(value)), "{}", variable.name);
+            assert!(variable.set(&mut values, Value::Real(value)).is_err(), "{}", variable.name);
         }
-        if let Access::Choice { .. } = variable.access {
-            assert!(!variable.set(&mut given, Value::Integer(99)), "{}", variable.name);
+        if let Access::Enumeration { .. } = variable.access {
+            assert!(variable.set(&mut values, Value::Integer(99)).is_err(), "{}", variable.name);
         }
     }
-    assert_eq!(&given, package.start());
+    assert_eq!(&values, package.start());
 }
 
 #[test]
 fn every_real_has_a_known_quantity_and_unit() {
     for variable in Package::built_in().unwrap().table().variables() {
-        if let Kind::Real(quantity) = variable.kind {
+        if let DataType::Real(quantity) = variable.data_type {
             assert!(QUANTITIES.contains(&quantity), "{}", variable.name);
             assert!(UNITS.iter().any(|unit| unit.name == quantity.unit), "{}", variable.name);
         }

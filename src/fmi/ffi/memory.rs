@@ -1,127 +1,123 @@
-//! Arrays and texts of a C caller, read and written with null, alignment and length checked.
+//! Memory of the host: its arrays and strings as slices and texts, checked as far as that is possible.
 
-use std::borrow::Cow;
-use std::ffi::{CStr, c_void};
+use std::ffi::{CStr, c_char};
+use std::str::Utf8Error;
 use std::{ptr, slice};
 
-use super::super::bindings::{fmi2FMUstate, fmi2String, fmi2ValueReference};
-use super::super::instance::Instance;
-use super::super::registry;
 use super::super::state::Ending;
-use super::super::variable::Value;
 
-pub(super) const NO_ARRAY: &str = "an array is null or not aligned";
-
-pub(super) fn pointer(handle: usize) -> *mut c_void {
-    ptr::without_provenance_mut(handle)
+/// Why an argument cannot be used; follows the name of the argument in a message.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Flaw {
+    #[error("is null")]
+    Null,
+    #[error("is not aligned for its type, or its length is larger than the address space")]
+    NoArray,
+    #[error("is not valid UTF-8: {0}")]
+    NotUtf8(#[from] Utf8Error),
+    #[error("cannot be used: string {0} {1}")]
+    Entry(usize, Box<Flaw>),
 }
 
-/// The array of a C caller; a length of zero may come with null.
-///
-/// # Safety
-/// A pointer that is not null must be valid for `length` reads until the function that took it returns.
-pub(super) unsafe fn array<'a, T>(start: *const T, length: usize) -> Option<&'a [T]> {
+/// Whether an array can lie there. Without entries there is nothing to check: the standard allows null then.
+fn check<T>(start: *const T, length: usize) -> Result<(), Flaw> {
     if length == 0 {
-        return Some(&[]);
+        Ok(())
+    } else if start.is_null() {
+        Err(Flaw::Null)
+    } else if !start.is_aligned() || length > isize::MAX.unsigned_abs() / size_of::<T>() {
+        Err(Flaw::NoArray)
+    } else {
+        Ok(())
     }
-    let usable =
-        !start.is_null() && start.is_aligned() && length <= isize::MAX.unsigned_abs() / size_of::<T>();
+}
+
+/// The array of a host.
+///
+/// # Safety
+/// A pointer that is not null must be valid for `length` reads until the C function returns.
+pub(super) unsafe fn input<'a, T>(start: *const T, length: usize) -> Result<&'a [T], Flaw> {
+    check(start, length)?;
+    if length == 0 {
+        return Ok(&[]);
+    }
     // SAFETY: by the contract of this function; null, alignment and size were checked.
-    usable.then(|| unsafe { slice::from_raw_parts(start, length) })
+    Ok(unsafe { slice::from_raw_parts(start, length) })
 }
 
-/// The text of a C caller, or `None` for null.
+/// The structure of a host, copied, since it is the host's again after the call; `None` for null.
 ///
 /// # Safety
-/// A pointer that is not null must point to a zero-terminated string that lives until the caller returns.
-pub(super) unsafe fn text<'a>(start: fmi2String) -> Option<Cow<'a, str>> {
+/// A pointer that is not null must be valid for one read.
+pub(super) unsafe fn copied<T: Copy>(start: *const T) -> Option<T> {
     // SAFETY: by the contract of this function.
-    (!start.is_null()).then(|| unsafe { CStr::from_ptr(start) }.to_string_lossy())
+    unsafe { input(start, 1) }.ok()?.first().copied()
 }
 
-/// Writes `values` to the array of a C caller.
+/// The string of a host.
 ///
 /// # Safety
-/// A pointer that is not null must be valid for as many writes as there are `values`.
-pub(super) unsafe fn write<T>(instance: &Instance, values: &[T], target: *mut T) -> Ending {
-    if values.is_empty() {
-        return Ending::Ok;
+/// A pointer that is not null must point to a zero-terminated string that lives until the C function returns.
+pub(super) unsafe fn text<'a>(start: *const c_char) -> Result<&'a str, Flaw> {
+    if start.is_null() {
+        return Err(Flaw::Null);
     }
-    if target.is_null() || !target.is_aligned() {
-        return instance.refuse(NO_ARRAY);
-    }
-    // SAFETY: by the contract of this function; ours and the host's memory do not overlap.
-    unsafe { ptr::copy_nonoverlapping(values.as_ptr(), target, values.len()) };
-    Ending::Ok
+    // SAFETY: by the contract of this function; null was excluded.
+    Ok(unsafe { CStr::from_ptr(start) }.to_str()?)
 }
 
-/// Writes the values of an answer.
+/// The strings of a host.
 ///
 /// # Safety
-/// As [`write`].
-pub(super) unsafe fn answer<T>(
-    instance: &Instance,
-    values: Result<Vec<T>, Ending>,
-    target: *mut T,
-) -> Ending {
-    match values {
-        // SAFETY: by the contract of this function.
-        Ok(values) => unsafe { write(instance, &values, target) },
-        Err(ending) => ending,
-    }
-}
-
-/// # Safety
-/// As [`array`] for `references` and [`write`] for `target`.
-pub(super) unsafe fn get<T>(
-    instance: &mut Instance,
-    references: Option<&[fmi2ValueReference]>,
-    kind: &str,
-    read: fn(Value) -> Option<T>,
-    target: *mut T,
-) -> Ending {
-    let Some(references) = references else { return instance.refuse(NO_ARRAY) };
-    match instance.get(references, kind, read) {
-        // SAFETY: by the contract of this function.
-        Ok(values) => unsafe { write(instance, &values, target) },
-        Err(ending) => ending,
-    }
-}
-
-/// Puts a state of the instance behind the host's pointer: a new one, or another one in the place of a known one.
-///
-/// # Safety
-/// A pointer that is not null must be valid for one read and one write.
-pub(super) unsafe fn keep(
-    instance: &mut Instance,
-    state: *mut fmi2FMUstate,
-    fill: impl FnOnce(&mut Instance, usize) -> Ending,
-) -> Ending {
+/// That of [`input`] for the array, and that of [`text`] for each entry.
+pub(super) unsafe fn texts<'a>(start: *const *const c_char, length: usize) -> Result<Vec<&'a str>, Flaw> {
     // SAFETY: by the contract of this function.
-    let Some([known]) = (unsafe { array(state, 1) }) else {
-        return instance.refuse("the pointer to the FMU state is null");
+    let strings = unsafe { input(start, length) }?;
+    let read = |(number, &string): (usize, &*const c_char)| {
+        // SAFETY: by the contract of this function.
+        unsafe { text(string) }.map_err(|flaw| Flaw::Entry(number, Box::new(flaw)))
     };
-    let handle = if known.is_null() { registry::new_handle() } else { known.addr() };
-    if !known.is_null() && !instance.has_saved(handle) {
-        return instance.refuse("this FMU state is not, or no longer, one of this instance");
-    }
-    match fill(instance, handle) {
-        // SAFETY: by the contract of this function.
-        Ending::Ok => unsafe { write(instance, &[pointer(handle)], state) },
-        refused => refused,
-    }
+    (1..).zip(strings).map(read).collect()
 }
 
-pub(super) fn set<T: Copy>(
-    instance: &mut Instance,
-    references: Option<&[fmi2ValueReference]>,
-    values: Option<&[T]>,
-    value: fn(T) -> Value,
-) -> Ending {
-    match (references, values) {
-        (Some(references), Some(values)) => {
-            instance.set(references, values.iter().map(|&given| value(given)))
+/// The array of a host to which values are written.
+///
+/// It is a pointer and not a slice, because the handle of an FMU state is input and output at once, and because nothing
+/// forbids a host to let other arrays overlap. Inputs must not be used after the output is written.
+pub(super) struct Output<T> {
+    start: *mut T,
+    length: usize,
+}
+
+/// The array to which a host wants values to be written.
+///
+/// # Safety
+/// A pointer that is not null must be valid for `length` writes until the C function returns, and so long the [`Output`] may
+/// be used.
+pub(super) unsafe fn output<T>(start: *mut T, length: usize) -> Result<Output<T>, Flaw> {
+    check(start, length)?;
+    Ok(Output { start, length })
+}
+
+impl<T: Copy> Output<T> {
+    /// Writes the values with which a call succeeded, no more than there is room for; after a failure writes nothing.
+    pub(super) fn write(self, values: Result<Vec<T>, Ending>) -> Ending {
+        match values {
+            Ok(values) => {
+                let length = values.len().min(self.length);
+                if length > 0 {
+                    // SAFETY: `output` has checked null, alignment and size, and its caller stands for the rest; the vector
+                    // is our own, so that the two do not overlap.
+                    unsafe { ptr::copy_nonoverlapping(values.as_ptr(), self.start, length) };
+                }
+                Ending::Ok
+            }
+            Err(ending) => ending,
         }
-        _ => instance.refuse(NO_ARRAY),
+    }
+
+    /// Writes one value if a call has succeeded.
+    pub(super) fn write_one(self, value: T, ending: Ending) -> Ending {
+        self.write(if ending == Ending::Ok { Ok(vec![value]) } else { Err(ending) })
     }
 }

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use mcm::fmi::Package;
-use mcm::fmi::variable::{Kind, Role, Value};
+use mcm::fmi::value::{DataType, Value};
+use mcm::fmi::variable::Causality;
 
 /// Scenes of every kind: rings and none, stop, backbone, every level of interaction, few segments and many.
 /// The first are quick to build and to solve, the next still short.
@@ -24,7 +25,7 @@ const SCENES: [&str; 7] = [
 pub(crate) const QUICK: usize = 2;
 pub(crate) const SHORT: usize = 6;
 
-/// A packed design with its unpacked resources; of its variables the references by type and role.
+/// A packed design with its unpacked resources; of its variables the references by type and causality.
 pub(crate) struct Design {
     pub(crate) guid: CString,
     pub(crate) location: CString,
@@ -53,26 +54,29 @@ impl Design {
             fs::write(folder.join(name), text).unwrap();
         }
         let variables = package.table().variables();
-        let of = |real: bool, roles: &[Role]| {
+        let of = |real: bool, causalities: &[Causality]| {
             let fits = |row: &usize| {
-                roles.contains(&variables[*row].role) && matches!(variables[*row].kind, Kind::Real(_)) == real
+                causalities.contains(&variables[*row].causality)
+                    && matches!(variables[*row].data_type, DataType::Real(_)) == real
             };
             (0..variables.len()).filter(fits).map(|row| u32::try_from(row).unwrap()).collect::<Vec<_>>()
         };
-        let start = |row: usize| match variables[row].given(package.start()) {
+        let start = |row: usize| match variables[row].host_value(package.start()) {
             Some(Value::Real(value)) => value,
             _ => 0.0,
         };
-        let others = of(false, &[Role::Input, Role::Fixed, Role::Tunable, Role::Constant, Role::Output]);
-        let is_boolean = |&reference: &u32| matches!(variables[reference as usize].kind, Kind::Boolean);
+        let others =
+            of(false, &[Causality::Input, Causality::Parameter, Causality::Local, Causality::Output]);
+        let is_boolean =
+            |&reference: &u32| matches!(variables[reference as usize].data_type, DataType::Boolean);
         let (booleans, integers) = others.into_iter().partition(is_boolean);
         Self {
             guid: CString::new(package.guid()).unwrap(),
             location: CString::new(format!("file://{}", folder.display())).unwrap(),
             starts: (0..variables.len()).map(start).collect(),
-            inputs: of(true, &[Role::Input]),
-            parameters: of(true, &[Role::Fixed, Role::Tunable]),
-            outputs: of(true, &[Role::Output]),
+            inputs: of(true, &[Causality::Input]),
+            parameters: of(true, &[Causality::Parameter]),
+            outputs: of(true, &[Causality::Output]),
             integers,
             booleans,
         }

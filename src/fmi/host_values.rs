@@ -1,4 +1,4 @@
-//! What the host gives: inputs and parameters as they were set, and what they mean together.
+//! Host values: the inputs and parameters as the host has set them.
 
 use crate::design::{Backbone, Design, Specification};
 use crate::equilibrium::Settings;
@@ -8,68 +8,71 @@ use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::{Inputs, Manipulator, Scene, SceneFile};
 use crate::methods::Method;
 
-/// Position and quaternion as they were set: one component at a time, so not always a rotation.
+/// A pose as the host sets it, one component at a time: until all are set, its quaternion need not have unit norm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement {
-    /// Origin, m.
+pub struct UncheckedPose {
+    /// Origin, m, world frame.
     pub position: [f64; 3],
-    /// Quaternion w, x, y, z.
+    /// Quaternion w, x, y, z, body to world.
     pub orientation: [f64; 4],
 }
 
-/// Every input and parameter, in SI units.
+/// The value of every input and parameter, in SI units.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Given {
-    /// The external magnet.
-    pub magnet: Placement,
-    /// Factor on its field.
+pub struct HostValues {
+    /// Pose of the external magnet.
+    pub magnet: UncheckedPose,
+    /// Factor on the external magnet's field; 0 switches it off.
     pub magnet_strength: f64,
-    /// Uniform background field.
+    /// Uniform background field, T, world frame.
     pub uniform_field: [f64; 3],
-    /// Linear background field.
+    /// Gradient of the linear background field, T/m: dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz.
     pub field_gradient: [f64; 5],
-    /// The clamp.
-    pub base: Placement,
-    /// Load on the tip.
+    /// Pose of the clamped base.
+    pub base: UncheckedPose,
+    /// Force on the tip, N, world frame.
     pub tip_force: [f64; 3],
-    /// Load on the tip.
+    /// Moment on the tip, N.m, world frame.
     pub tip_moment: [f64; 3],
-    /// Loads on the rings.
+    /// Force at the centre of each ring magnet, N, world frame.
     pub ring_forces: Vec<[f64; 3]>,
-    /// Gravity.
+    /// Acceleration of gravity, m/s2, world frame.
     pub gravity: [f64; 3],
-    /// The design; a segmented one's backbone is kept in `backbone`.
+    /// The design. The backbone of a segmented design is kept in `backbone` instead, so that it can be switched off and
+    /// on without losing its values.
     pub specification: Specification,
-    /// The backbone that a segmented design has if `backbone_present`.
+    /// The backbone that a segmented design has if `backbone_present` is true.
     pub backbone: Backbone,
-    /// Whether there is a backbone.
+    /// Whether the design has a backbone.
     pub backbone_present: bool,
     /// The cylinders of the external magnet.
     pub magnets: Vec<AxialMagnet>,
-    /// Model and solver.
+    /// Settings of model and solver.
     pub settings: Settings,
 }
 
-/// The magnet of a scene that has none: the paper's pair where `[magnet]` puts it, switched off.
+/// The magnet of a scene that states none: the usual assembly at its usual place, switched off.
 const SWITCHED_OFF: &str = "[magnet]\nstrength = 0.0";
 
-/// Norm below which a quaternion on a path is no orientation.
+/// Norm below which a quaternion on the path of a moving pose no longer determines an orientation.
 const SHORTEST_QUATERNION: f64 = 1e-3;
 
-impl Given {
+impl HostValues {
     /// The start values that a scene states.
     ///
-    /// A scene without an external magnet gets the usual one with strength 0, so that it can be switched on.
+    /// A scene without an external magnet gets the usual one with strength 0, so that a host can switch it on.
     ///
     /// # Errors
-    /// What [`Scene`] refuses; [`Error::Unsupported`] for another method than the potential one, which alone has
-    /// derivatives and a state to save.
+    /// Those of [`SceneFile::scene`]; [`Error::Unsupported`] for a method other than the potential method, which alone
+    /// has derivatives and a state that can be saved.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
-        let (method, own) = (scene.solver.method, Method::Potential);
-        if method != own {
-            let (given, own) = (method.name(), own.name());
-            return Err(Error::Unsupported(format!("an FMU solves by method \"{own}\", not \"{given}\"")));
+        let (method, supported) = (scene.solver.method, Method::Potential);
+        if method != supported {
+            let (method, supported) = (method.name(), supported.name());
+            return Err(Error::Unsupported(format!(
+                "an FMU solves by method \"{supported}\", not \"{method}\""
+            )));
         }
         let (magnets, magnet) = if let Some(magnets) = &scene.magnets {
             (magnets.clone(), scene.inputs.magnet)
@@ -100,10 +103,10 @@ impl Given {
         })
     }
 
-    /// The inputs as the manipulator takes them.
+    /// The inputs, and gravity, as the manipulator takes them.
     ///
     /// # Errors
-    /// [`Error::Range`] naming the quaternion that is not of unit norm.
+    /// [`Error::Range`] naming the quaternion that does not have unit norm.
     pub fn inputs(&self) -> Result<Inputs, Error> {
         Ok(Inputs {
             magnet: self.magnet.pose("magnet.orientation")?,
@@ -118,10 +121,10 @@ impl Given {
         })
     }
 
-    /// The checked design.
+    /// The design that the parameters describe, checked.
     ///
     /// # Errors
-    /// [`Error::Range`] naming the first quantity out of range.
+    /// [`Error::Range`] naming the first quantity that is out of range.
     pub fn design(&self) -> Result<Design, Error> {
         let mut specification = self.specification.clone();
         if let Specification::Segmented(segmented) = &mut specification {
@@ -130,24 +133,24 @@ impl Given {
         Design::new(specification)
     }
 
-    /// The manipulator that the parameters describe, unsolved.
+    /// The manipulator that the parameters describe, not yet solved.
     ///
     /// # Errors
-    /// As [`Given::design`], [`Assembly::new`] and [`Manipulator::new`].
+    /// Those of [`HostValues::design`], [`Assembly::new`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let magnet = Assembly::new(self.magnets.clone())?;
         Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)
     }
 }
 
-impl From<Pose> for Placement {
+impl From<Pose> for UncheckedPose {
     fn from(pose: Pose) -> Self {
         Self { position: pose.position.into(), orientation: pose.quaternion() }
     }
 }
 
-impl Placement {
-    /// Scales the quaternion to unit norm, unless it is too short to tell a direction.
+impl UncheckedPose {
+    /// Scales the quaternion to unit norm, unless it is too short to determine an orientation.
     pub(super) fn normalise(&mut self) {
         let norm = self.orientation.iter().map(|component| component * component).sum::<f64>().sqrt();
         if norm > SHORTEST_QUATERNION {

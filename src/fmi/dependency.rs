@@ -1,0 +1,79 @@
+//! Which inputs and parameters each output depends on: `dependencies` and `dependenciesKind` of the model structure.
+//!
+//! Both sides carry a tag: an input or parameter says what it acts on ([`Known`]), an output by what path it is reached
+//! ([`Dependency`]). The words are the standard's (FMI 2.0.4, section 2.2.8): an *unknown* depends on *knowns*.
+
+/// What an input or parameter acts on, as far as some output distinguishes it from the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Known {
+    /// The position of the base.
+    BasePosition,
+    /// The orientation of the base.
+    BaseOrientation,
+    /// The force on a ring magnet that is clamped. The clamp bears it directly; no other part of the manipulator does.
+    ClampedRingForce,
+    /// The length of the ring magnets.
+    RingLength,
+    /// The length of another body of the chain.
+    BodyLength,
+    /// Anything else that acts on the equilibrium.
+    Other,
+}
+
+/// How an output depends on inputs and parameters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dependency {
+    /// Through the equilibrium: on everything but the force on a clamped ring.
+    Equilibrium,
+    /// As a reaction of the clamp: on everything.
+    ClampReaction,
+    /// As the first point of the centreline, which is the position of the base.
+    BasePoint,
+    /// As the centre of a clamped ring: on the pose of the base and the length of the ring.
+    ClampedCentre,
+    /// As the axis of a clamped ring: on the orientation of the base.
+    ClampedAxis,
+    /// As an arc length: on the lengths of the bodies.
+    Lengths,
+}
+
+/// The standard's kind of a dependency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DependencyKind {
+    /// A dependency without particular structure.
+    Dependent,
+    /// The output is a constant factor times the known variable, plus other terms.
+    Constant,
+}
+
+impl DependencyKind {
+    /// The name in `dependenciesKind`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dependent => "dependent",
+            Self::Constant => "constant",
+        }
+    }
+}
+
+impl Dependency {
+    /// The kind of this dependency on a known variable; `None` if the output does not depend on it.
+    ///
+    /// `same_component` says whether both are the same component of their vectors.
+    #[must_use]
+    pub fn on(self, known: Known, same_component: bool) -> Option<DependencyKind> {
+        let depends = match (self, known) {
+            (Self::BasePoint | Self::ClampedCentre, Known::BasePosition) => {
+                return same_component.then_some(DependencyKind::Constant);
+            }
+            (Self::Equilibrium, known) => known != Known::ClampedRingForce,
+            (Self::ClampReaction, _) => true,
+            (Self::BasePoint, _) => false,
+            (Self::ClampedCentre, known) => matches!(known, Known::BaseOrientation | Known::RingLength),
+            (Self::ClampedAxis, known) => known == Known::BaseOrientation,
+            (Self::Lengths, known) => matches!(known, Known::RingLength | Known::BodyLength),
+        };
+        depends.then_some(DependencyKind::Dependent)
+    }
+}

@@ -1,0 +1,56 @@
+//! The work of `fmi2Instantiate`.
+
+use std::sync::Arc;
+
+use super::super::bindings::{fmi2CallbackFunctions, fmi2Type};
+use super::super::guard::guarded;
+use super::super::instance::{Instance, identify};
+use super::super::location;
+use super::super::log::{Category, Log};
+use super::super::registry;
+use super::super::state::Ending;
+use super::logger::Logger;
+use super::memory::Flaw;
+
+/// What the host passes to `fmi2Instantiate`.
+pub(super) struct Arguments<'a> {
+    pub(super) instance_name: Result<&'a str, Flaw>,
+    pub(super) fmu_type: fmi2Type,
+    pub(super) guid: Result<&'a str, Flaw>,
+    pub(super) resource_location: Result<&'a str, Flaw>,
+    pub(super) callbacks: Option<fmi2CallbackFunctions>,
+    pub(super) logging_on: bool,
+}
+
+/// Makes an instance and returns its handle. If that fails, the host's logger is told why.
+pub(super) fn instantiate(arguments: Arguments) -> Option<usize> {
+    let logger = Logger::new(arguments.callbacks, arguments.instance_name.as_ref().unwrap_or(&""));
+    let log = logger.clone();
+    // This guard is inside that of the C function, because after a panic here there is a logger to be told.
+    match guarded(|| make(arguments, log)).and_then(|made| made) {
+        Ok(handle) => Some(handle),
+        Err(reason) => {
+            logger.tell(Ending::Error, Category::Error, &format!("not instantiated: {reason}"));
+            None
+        }
+    }
+}
+
+fn make(arguments: Arguments, logger: Logger) -> Result<usize, String> {
+    let name = arguments.instance_name.map_err(|flaw| format!("the instance name {flaw}"))?;
+    if name.is_empty() {
+        return Err("the instance name is empty".to_owned());
+    }
+    if arguments.fmu_type != fmi2Type::fmi2CoSimulation {
+        return Err("this FMU is for co-simulation only".to_owned());
+    }
+    let guid = arguments.guid.map_err(|flaw| format!("the GUID {flaw}"))?;
+    let location = match arguments.resource_location {
+        Err(Flaw::Null) => Ok(""), // some hosts pass null when an archive has no resources
+        location => location.map_err(|flaw| format!("the resource location {flaw}")),
+    }?;
+    let paths = location::paths(location).map_err(|error| error.to_string())?;
+    let package = identify(guid, &paths).map_err(|error| error.to_string())?;
+    let sink = Box::new(move |ending, category, message: &str| logger.tell(ending, category, message));
+    Ok(registry::enter(Instance::new(Arc::new(package), Log::new(sink, arguments.logging_on))))
+}

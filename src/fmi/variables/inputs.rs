@@ -1,0 +1,72 @@
+//! Inputs.
+
+use super::super::dependency::Known;
+use super::super::derivative_role::DerivativeRole;
+use super::super::units::{FIELD, FORCE, GRADIENT, MOMENT, POSITION, QUATERNION, RATIO};
+use super::rows::{Draft, Rows};
+use super::{Counts, access};
+use crate::manipulator::Input;
+
+impl Rows {
+    pub(super) fn inputs(&mut self, counts: &Counts) {
+        let position = access!(|values, index| values.magnet.position[index.component]);
+        let draft =
+            Draft::input("magnet.position", POSITION, "Centre of the external magnet assembly", position);
+        self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::MagnetPosition)));
+
+        let orientation = access!(|values, index| values.magnet.orientation[index.component]);
+        let description = "Orientation of the external magnet assembly, whose dipole axis is its z: unit quaternion w, x, y, z";
+        let draft = Draft::input("magnet.orientation", QUATERNION, description, orientation);
+        self.array(4, &draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation)));
+
+        let strength = access!(|values| values.magnet_strength);
+        let description = "Factor on the external magnet's field; 0 switches it off";
+        let draft = Draft::input("magnet.strength", RATIO, description, strength);
+        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::MagnetStrength)));
+
+        let uniform = access!(|values, index| values.uniform_field[index.component]);
+        let draft = Draft::input("field.uniform", FIELD, "Uniform background field", uniform);
+        self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::UniformField)));
+
+        let gradient = access!(|values, index| values.field_gradient[index.component]);
+        let description = "dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz of a linear field about the world origin";
+        let draft = Draft::input("field.gradient", GRADIENT, description, gradient);
+        self.array(5, &draft.derivative_role(DerivativeRole::Input(Input::FieldGradient)));
+
+        self.base();
+        self.loads(counts);
+    }
+
+    fn base(&mut self) {
+        let position = access!(|values, index| values.base.position[index.component]);
+        let draft = Draft::input("base.position", POSITION, "Position of the clamped base", position);
+        let draft = draft.derivative_role(DerivativeRole::Input(Input::BasePosition));
+        self.array(3, &draft.known(Known::BasePosition));
+
+        let orientation = access!(|values, index| values.base.orientation[index.component]);
+        let description = "Orientation of the clamped base: unit quaternion w, x, y, z";
+        let draft = Draft::input("base.orientation", QUATERNION, description, orientation);
+        let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::BaseRotation));
+        self.array(4, &draft.known(Known::BaseOrientation));
+    }
+
+    fn loads(&mut self, counts: &Counts) {
+        let force = access!(|values, index| values.tip_force[index.component]);
+        let draft = Draft::input("tip.load_force", FORCE, "Force on the tip", force);
+        self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::TipForce)));
+
+        let moment = access!(|values, index| values.tip_moment[index.component]);
+        let draft = Draft::input("tip.load_moment", MOMENT, "Moment on the tip", moment);
+        self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::TipMoment)));
+
+        for ring in 0..counts.rings {
+            let clamped = counts.clamped_ring && ring == 0;
+            let name = format!("ring[{}].load_force", ring + 1);
+            let force = access!(|values, index| values.ring_forces[index.item][index.component]);
+            let draft = Draft::input(name, FORCE, "Force at the ring's centre", force);
+            let draft = draft.derivative_role(DerivativeRole::Input(Input::RingForce(ring)));
+            let known = if clamped { Known::ClampedRingForce } else { Known::Other };
+            self.array_of(ring, 3, &draft.known(known));
+        }
+    }
+}

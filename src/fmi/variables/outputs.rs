@@ -1,0 +1,215 @@
+//! Outputs.
+
+use super::super::dependency::Dependency;
+use super::super::derivative_role::DerivativeRole;
+use super::super::units::{
+    ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
+};
+use super::super::value::DataType;
+use super::super::variable::{Access, Availability, Index};
+use super::Counts;
+use super::parameters::INTERACTION;
+use super::rows::{Draft, Rows};
+use crate::manipulator::{Outcome, Output, Outputs, Status};
+
+/// The number of a status. `solver.status` is an Integer and no Enumeration because some hosts hide enumerations.
+fn status_number(status: Status) -> i32 {
+    match status {
+        Status::Solved => 0,
+        Status::NearFold => 1,
+        Status::Snapped => 2,
+        Status::NotSolved => 3,
+    }
+}
+
+/// The number of an outcome, for `solver.outcome`.
+fn outcome_number(outcome: Outcome) -> i32 {
+    match outcome {
+        Outcome::Solved => 0,
+        Outcome::Neutral => 1,
+        Outcome::BranchEnds => 2,
+        Outcome::Contact(_) => 3,
+        Outcome::OutOfBudget => 4,
+    }
+}
+
+fn count(number: u32) -> i32 {
+    i32::try_from(number).unwrap_or(i32::MAX)
+}
+
+fn real(
+    name: impl Into<String>,
+    quantity: Quantity,
+    description: &str,
+    get: fn(&Outputs, Index) -> f64,
+) -> Draft {
+    Draft::output(name, quantity, description, Access::RealOutput(get))
+}
+
+fn integer(name: &str, description: &str, get: fn(&Outputs) -> i32) -> Draft {
+    Draft::output(name, DataType::Integer, description, Access::IntegerOutput(get))
+}
+
+fn boolean(name: &str, description: &str, get: fn(&Outputs) -> bool) -> Draft {
+    Draft::output(name, DataType::Boolean, description, Access::BooleanOutput(get))
+}
+
+impl Rows {
+    pub(super) fn outputs(&mut self, counts: &Counts) {
+        self.tip();
+        self.forces();
+        self.centreline(counts);
+        self.bodies(counts);
+        self.stability();
+        self.solver();
+        self.model_outputs();
+    }
+
+    fn tip(&mut self) {
+        let angle =
+            real("tip.angle", ANGLE, "Angle between the tip's and the base's axis", |o, _| o.tip_angle);
+        let angle = angle.min(0.0).max(core::f64::consts::PI);
+        self.scalar(angle.continuous(DerivativeRole::Output(Output::TipAngle)));
+        let position =
+            real("tip.position", POSITION, "Position of the tip", |o, index| o.tip.position[index.component]);
+        self.array(3, &position.continuous(DerivativeRole::Output(Output::TipPosition)));
+        let orientation = real(
+            "tip.orientation",
+            QUATERNION,
+            "Orientation of the tip: unit quaternion w, x, y, z with w >= 0",
+            |o, index| o.tip.quaternion()[index.component],
+        );
+        self.array(4, &orientation.continuous(DerivativeRole::TipQuaternion));
+    }
+
+    fn forces(&mut self) {
+        let mut vector = |draft: Draft, output: Output| {
+            self.array(3, &draft.continuous(DerivativeRole::Output(output)));
+        };
+        let description = "Total external magnetic force on the manipulator";
+        let draft = real("force.magnetic", FORCE, description, |o, index| o.magnetic_force[index.component]);
+        vector(draft, Output::MagneticForce);
+
+        let description = "Total external magnetic torque about the base position";
+        let draft =
+            real("torque.magnetic", MOMENT, description, |o, index| o.magnetic_torque[index.component]);
+        vector(draft, Output::MagneticTorque);
+
+        let description = "Force that the clamp exerts on the manipulator";
+        let draft = real("base.reaction_force", FORCE, description, |o, index| {
+            o.base_reaction_force[index.component]
+        });
+        vector(draft.dependency(Dependency::ClampReaction), Output::BaseReactionForce);
+
+        let description = "Moment that the clamp exerts about the base position";
+        let draft = real("base.reaction_moment", MOMENT, description, |o, index| {
+            o.base_reaction_moment[index.component]
+        });
+        vector(draft.dependency(Dependency::ClampReaction), Output::BaseReactionMoment);
+
+        let description = "Force on the external magnet";
+        let draft = real("magnet.reaction_force", FORCE, description, |o, index| {
+            o.magnet_reaction_force[index.component]
+        });
+        vector(draft, Output::MagnetReactionForce);
+
+        let description = "Torque on the external magnet about its centre";
+        let draft = real("magnet.reaction_torque", MOMENT, description, |o, index| {
+            o.magnet_reaction_torque[index.component]
+        });
+        vector(draft, Output::MagnetReactionTorque);
+
+        let description = "External field at the tip";
+        let draft = real("field.tip", FIELD, description, |o, index| o.tip_field[index.component]);
+        vector(draft, Output::TipField);
+    }
+
+    fn centreline(&mut self, counts: &Counts) {
+        for point in 0..counts.shape_points {
+            let dependency = if point == 0 { Dependency::BasePoint } else { Dependency::Equilibrium };
+            for component in 0..3 {
+                // Point and component are two indices of one array.
+                let name = format!("shape.position[{},{}]", point + 1, component + 1);
+                let description = "Point of the centreline, from base to tip";
+                let position =
+                    real(name, POSITION, description, |o, index| o.shape[index.item][index.component]);
+                let position = position.continuous(DerivativeRole::Output(Output::ShapePoint(point)));
+                self.component_of(point, component, position.dependency(dependency));
+            }
+        }
+        for point in 0..counts.shape_points {
+            let name = format!("shape.arc_length[{}]", point + 1);
+            let description = "Unstrained arc length of a centreline point from the base";
+            let length = real(name, LENGTH, description, |o, index| o.shape_arc_length[index.item]).min(0.0);
+            let length = length.continuous(DerivativeRole::Unaffected);
+            self.scalar_of(point, length.dependency(Dependency::Lengths));
+        }
+    }
+
+    fn bodies(&mut self, counts: &Counts) {
+        for ring in 0..counts.rings {
+            let (centre, axis) = if ring == 0 && counts.clamped_ring {
+                (Dependency::ClampedCentre, Dependency::ClampedAxis)
+            } else {
+                (Dependency::Equilibrium, Dependency::Equilibrium)
+            };
+            let name = format!("ring[{}].position", ring + 1);
+            let position = real(name, POSITION, "Centre of the ring magnet", |o, index| {
+                o.rings[index.item].position[index.component]
+            });
+            let position = position.continuous(DerivativeRole::Output(Output::RingPosition(ring)));
+            self.array_of(ring, 3, &position.dependency(centre));
+            let name = format!("ring[{}].axis", ring + 1);
+            let direction = real(name, DIRECTION, "Axis d3 of the ring magnet", |o, index| {
+                o.rings[index.item].axis()[index.component]
+            });
+            let direction = direction.continuous(DerivativeRole::Output(Output::RingAxis(ring)));
+            self.array_of(ring, 3, &direction.dependency(axis));
+        }
+        for core in 0..counts.cores {
+            let name = format!("core[{}].angle", core + 1);
+            let description = "Bending of the core; windings touch at design.helix.boundary_angle";
+            let angle = real(name, ANGLE, description, |o, index| o.core_angles[index.item]).min(0.0);
+            self.scalar_of(core, angle.continuous(DerivativeRole::Output(Output::CoreAngle(core))));
+        }
+    }
+
+    fn stability(&mut self) {
+        let description = "Whether the equilibrium is known to be stable";
+        self.scalar(boolean("stability.stable", description, |o| o.stable == Some(true)));
+        let description = "Whether one direction is free, as about the axis of an antiparallel field: neither stable nor unstable";
+        self.scalar(boolean("stability.neutral", description, |o| o.outcome == Outcome::Neutral));
+        let description =
+            "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold";
+        let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
+        self.scalar(margin.availability(Availability::OnRequest));
+        let snaps =
+            integer("stability.snaps", "Jumps to another branch since initialisation", |o| count(o.snaps));
+        self.scalar(snaps.min(0.0).availability(Availability::Always));
+    }
+
+    fn solver(&mut self) {
+        let mut always = |draft: Draft| self.scalar(draft.availability(Availability::Always));
+        let description = "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved (the other outputs are the last good ones)";
+        always(integer("solver.status", description, |o| status_number(o.status)).min(0.0).max(3.0));
+        let description =
+            "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget";
+        always(integer("solver.outcome", description, |o| outcome_number(o.outcome)).min(0.0).max(4.0));
+        let description = "Newton iterations of the last solve";
+        always(integer("solver.iterations", description, |o| count(o.iterations)).min(0.0));
+        let description =
+            "How far along the last change of inputs an equilibrium was found: 1 where it is solved";
+        always(real("solver.progress", RATIO, description, |o, _| o.progress).min(0.0).max(1.0));
+        let description = "Residual of the last solve relative to the elastic forces";
+        // The residual is infinite when a solve could not begin; FMI has no infinity.
+        always(real("solver.residual", RATIO, description, |o, _| o.residual.min(f64::MAX)).min(0.0));
+    }
+
+    fn model_outputs(&mut self) {
+        let description = "Level of local interaction that was used";
+        let level = Access::IntegerOutput(|o| o.interaction as i32);
+        self.scalar(Draft::output("model.level", DataType::Enumeration(&INTERACTION), description, level));
+        let description = "Estimated distance of the tip from the converged answer of the model";
+        self.scalar(real("model.error_estimate", LENGTH, description, |o, _| o.error_estimate).min(0.0));
+    }
+}

@@ -1,0 +1,157 @@
+//! Rows while the table is being written: scalars and arrays from drafts.
+
+use super::super::dependency::{Dependency, Known};
+use super::super::derivative_role::DerivativeRole;
+use super::super::units::Quantity;
+use super::super::value::{DataType, Value};
+use super::super::variable::{Access, Availability, Causality, Index, Variability, Variable};
+
+/// A row before it is known which element of which array it becomes.
+///
+/// Its tags start with what holds for most variables; the methods named after tags change them.
+#[derive(Debug, Clone)]
+pub(super) struct Draft(Variable);
+
+impl Draft {
+    fn new(
+        name: impl Into<String>,
+        data_type: DataType,
+        description: impl Into<String>,
+        access: Access,
+    ) -> Self {
+        Self(Variable {
+            name: name.into(),
+            description: description.into(),
+            data_type,
+            causality: Causality::Local,
+            variability: Variability::Constant,
+            min: None,
+            max: None,
+            index: Index::default(),
+            access,
+            known: Known::Other,
+            dependency: Dependency::Equilibrium,
+            derivative_role: DerivativeRole::None,
+            availability: Availability::Solved,
+        })
+    }
+
+    fn with(mut self, change: impl FnOnce(&mut Variable)) -> Self {
+        change(&mut self.0);
+        self
+    }
+
+    fn tagged(self, causality: Causality, variability: Variability) -> Self {
+        self.with(|row| (row.causality, row.variability) = (causality, variability))
+    }
+
+    /// A continuous input.
+    pub(super) fn input(
+        name: impl Into<String>,
+        quantity: Quantity,
+        description: &str,
+        access: Access,
+    ) -> Self {
+        let row = Self::new(name, quantity.into(), description, access);
+        row.tagged(Causality::Input, Variability::Continuous)
+    }
+
+    /// A fixed parameter.
+    pub(super) fn parameter(
+        name: impl Into<String>,
+        data_type: impl Into<DataType>,
+        description: &str,
+        access: Access,
+    ) -> Self {
+        let row = Self::new(name, data_type.into(), description, access);
+        row.tagged(Causality::Parameter, Variability::Fixed)
+    }
+
+    /// A discrete output.
+    pub(super) fn output(
+        name: impl Into<String>,
+        data_type: impl Into<DataType>,
+        description: &str,
+        access: Access,
+    ) -> Self {
+        let row = Self::new(name, data_type.into(), description, access);
+        row.tagged(Causality::Output, Variability::Discrete)
+    }
+
+    /// A constant.
+    pub(super) fn constant(name: &str, description: &str, value: Value) -> Self {
+        let data_type =
+            if matches!(value, Value::Boolean(_)) { DataType::Boolean } else { DataType::Integer };
+        Self::new(name, data_type, description, Access::Constant(value))
+    }
+
+    /// A parameter that may also be set between communication steps.
+    pub(super) fn tunable(self) -> Self {
+        self.with(|row| row.variability = Variability::Tunable)
+    }
+
+    /// An output that has derivatives.
+    pub(super) fn continuous(self, role: DerivativeRole) -> Self {
+        self.with(|row| row.variability = Variability::Continuous).derivative_role(role)
+    }
+
+    pub(super) fn derivative_role(self, role: DerivativeRole) -> Self {
+        self.with(|row| row.derivative_role = role)
+    }
+
+    pub(super) fn known(self, known: Known) -> Self {
+        self.with(|row| row.known = known)
+    }
+
+    pub(super) fn dependency(self, dependency: Dependency) -> Self {
+        self.with(|row| row.dependency = dependency)
+    }
+
+    pub(super) fn availability(self, availability: Availability) -> Self {
+        self.with(|row| row.availability = availability)
+    }
+
+    pub(super) fn min(self, min: f64) -> Self {
+        self.with(|row| row.min = Some(min))
+    }
+
+    pub(super) fn max(self, max: f64) -> Self {
+        self.with(|row| row.max = Some(max))
+    }
+}
+
+/// The rows written so far.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) variables: Vec<Variable>,
+}
+
+impl Rows {
+    /// A scalar.
+    pub(super) fn scalar(&mut self, draft: Draft) {
+        self.scalar_of(0, draft);
+    }
+
+    /// A scalar that belongs to body or point `item`.
+    pub(super) fn scalar_of(&mut self, item: usize, draft: Draft) {
+        self.component_of(item, 0, draft);
+    }
+
+    /// The variables `name[1]` to `name[length]`.
+    pub(super) fn array(&mut self, length: usize, draft: &Draft) {
+        self.array_of(0, length, draft);
+    }
+
+    /// The variables `name[1]` to `name[length]` that belong to body `item`.
+    pub(super) fn array_of(&mut self, item: usize, length: usize, draft: &Draft) {
+        for component in 0..length {
+            let name = format!("{}[{}]", draft.0.name, component + 1);
+            self.component_of(item, component, draft.clone().with(|row| row.name = name));
+        }
+    }
+
+    /// One component of what belongs to body or point `item`, under the draft's own name.
+    pub(super) fn component_of(&mut self, item: usize, component: usize, draft: Draft) {
+        self.variables.push(Variable { index: Index { item, component }, ..draft.0 });
+    }
+}
