@@ -2,12 +2,12 @@
 
 use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
-use crate::rod::{Element, Piece, Resolution, Sight};
+use crate::rod::{Element, Piece, Resolution, SourceGeometry};
 
 use super::ring_body::{RingBody, tabulate};
 use super::settings::Settings;
+use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
 use super::terms::Frame;
-use super::views::{SPAN_SHARE, Views};
 
 /// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
@@ -44,7 +44,7 @@ pub(crate) struct Chain {
     /// Outer radius of each element, m: that of its discs and windings.
     pub(crate) radii: Vec<f64>,
     /// Where rings act on elements.
-    pub(super) views: Views,
+    pub(super) span_quadratures: SpanQuadratures,
 }
 
 impl Chain {
@@ -57,7 +57,7 @@ impl Chain {
         let spans = settings.interaction.acts_on_spans();
         let resolution = Resolution {
             degree: settings.degree + if spans { EXTRA_DEGREES } else { 0 },
-            nearest: design.rings().next().filter(|_| spans).map(|ring| Sight {
+            nearest: design.rings().next().filter(|_| spans).map(|ring| SourceGeometry {
                 distance: 0.0,
                 beyond: false,
                 bonded: true,
@@ -96,11 +96,11 @@ impl Chain {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
-        let views = Views::new(&elements, &chains, &rings, settings);
+        let span_quadratures = SpanQuadratures::new(&elements, &chains, &rings, settings);
         let widest =
             |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
         let radii = chains.iter().map(widest).collect();
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, views })
+        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, span_quadratures })
     }
 
     /// What the nodes carry, and which: rings, and the tip on the last one.
@@ -126,7 +126,7 @@ impl Chain {
     }
 
     /// Norm of a change that turns one element's end by a radian: the unit of steps and residuals.
-    pub(crate) fn unit(&self) -> f64 {
+    pub(crate) fn radian_norm(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
 }

@@ -7,7 +7,7 @@
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 use crate::numerics::cholesky;
-use crate::rod::{Configuration, START, Tangent};
+use crate::rod::{Configuration, ElementDerivatives, START};
 
 use super::terms::blocks;
 
@@ -62,7 +62,7 @@ impl Condensation {
     }
 
     /// Linearised kinematics; `false` where the end does not determine the first amplitudes.
-    pub(super) fn linearise(&mut self, configuration: &Configuration, tangent: &Tangent) -> bool {
+    pub(super) fn linearise(&mut self, configuration: &Configuration, tangent: &ElementDerivatives) -> bool {
         let Some(turn) = configuration.end_theta.left_jacobian_inverse() else { return false };
         let column = |i: usize| tangent.end_position[i];
         let stretch = Matrix3::from_columns(&[column(3), column(4), column(5)]);
@@ -83,7 +83,7 @@ impl Condensation {
     }
 
     /// Condenses `hessian + shift metric`; `false` if the inner block is not positive definite.
-    pub(super) fn condense(&mut self, tangent: &Tangent, metric: &[f64], shift: f64) -> bool {
+    pub(super) fn condense(&mut self, tangent: &ElementDerivatives, metric: &[f64], shift: f64) -> bool {
         self.transform(tangent, metric, shift);
         let (inner, size) = (self.inner, NODES + self.inner);
         for i in 0..inner {
@@ -158,7 +158,7 @@ impl Condensation {
     }
 
     /// The Hessian by (start, end, inner amplitudes): substitutes the first amplitudes.
-    fn transform(&mut self, tangent: &Tangent, metric: &[f64], shift: f64) {
+    fn transform(&mut self, tangent: &ElementDerivatives, metric: &[f64], shift: f64) {
         let (inner, size) = (self.inner, NODES + self.inner);
         let rows = tangent.size;
         let first = START..START + END;

@@ -88,7 +88,7 @@ impl Equilibrium {
         let [low, high] = walk.range;
         let span = check("span of the path", high - low, |v| v > 0.0, "> 0")?;
         check("first value of the walk", walk.from, |v| low <= v && v <= high, "within its range")?;
-        let unit = self.chain.unit();
+        let unit = self.chain.radian_norm();
         let scale = DVector::from_iterator(self.freedoms(), self.metric().iter().map(|k| unit / k.sqrt()));
         let start = DVector::from_column_slice(self.unknowns()).component_div(&scale);
         let mut family = Scaled { model: self.clone(), inputs, low, span, unit, scale };

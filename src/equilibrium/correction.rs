@@ -4,8 +4,8 @@ use super::chain::Chain;
 use super::deadline::Deadline;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
+use super::pair_quadrature::PairQuadrature;
 use super::potential::{Potential, THOROUGH};
-use super::rules::PairRules;
 use super::settings::Settings;
 use super::terms::Terms;
 use super::workspace::Workspace;
@@ -82,7 +82,7 @@ impl<'a> Scene<'a> {
     pub(super) fn potential(
         &self,
         inputs: &'a Inputs,
-        rules: &'a PairRules,
+        rules: &'a PairQuadrature,
         work: &'a mut Workspace,
     ) -> Potential<'a> {
         let Self { chain, settings, magnet } = *self;
@@ -156,7 +156,7 @@ pub(super) enum End {
 pub(super) struct Walk<'a> {
     pub(super) scene: Scene<'a>,
     pub(super) work: &'a mut Workspace,
-    pub(super) rules: &'a mut PairRules,
+    pub(super) rules: &'a mut PairQuadrature,
     pub(super) scratch: &'a mut Scratch,
     pub(super) report: Report,
     pub(super) deadline: &'a Deadline,
@@ -177,7 +177,7 @@ impl Walk<'_> {
     /// once on the way.
     pub(super) fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64], reach: f64) -> Option<End> {
         let Scene { chain, settings, .. } = self.scene;
-        let unit = chain.unit();
+        let unit = chain.radian_norm();
         self.choose_rules(inputs, unknowns);
         for _ in 0..RULE_CHOICES {
             if self.work.factorisation.is_none()
@@ -252,7 +252,7 @@ impl Walk<'_> {
                 *z *= stretch;
             }
         }
-        let length = norm(metric, step) / self.scene.chain.unit();
+        let length = norm(metric, step) / self.scene.chain.radian_norm();
         self.scratch.steps = steps;
         length
     }
@@ -266,7 +266,7 @@ impl Walk<'_> {
         for done in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             let Some(energy) = potential.chord_slope(unknowns) else { return false };
-            let residual = dual_norm(potential.metric(), potential.gradient()) / chain.unit();
+            let residual = dual_norm(potential.metric(), potential.gradient()) / chain.radian_norm();
             (self.report.residual, self.report.energy) = (residual, energy);
             let holds = until == 0.0 || self.holds(unknowns);
             if residual <= settings.tolerance {
@@ -305,13 +305,16 @@ impl Walk<'_> {
 
     /// An upper bound of the margin at the shape `unknowns`, which the last correction has found.
     pub(super) fn judge(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64], search: Search) {
-        let mut margin =
-            if self.work.factorisation.is_some() { self.look(inputs, softest, search) } else { f64::NAN };
+        let mut margin = if self.work.factorisation.is_some() {
+            self.estimate_margin(inputs, softest, search)
+        } else {
+            f64::NAN
+        };
         if margin.is_nan() || margin < DOUBTFUL {
             // The Hessian is that of a shape one step earlier, which may be held by what it was off.
             let mut potential = self.potential(inputs);
             let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
-            margin = if regular { self.look(inputs, softest, search) } else { 0.0 };
+            margin = if regular { self.estimate_margin(inputs, softest, search) } else { 0.0 };
         }
         if let Some(factorisation) = &mut self.work.factorisation {
             factorisation.set_judged(true);
@@ -327,7 +330,7 @@ impl Walk<'_> {
     }
 
     /// An upper bound of the margin at the shape that was factorised last; not a number where none is found.
-    fn look(&mut self, inputs: &Inputs, softest: &mut [f64], search: Search) -> f64 {
+    fn estimate_margin(&mut self, inputs: &Inputs, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.scene.chain.metric;
         // A little of every direction, or a mode that the last one is orthogonal to would go unseen.
         spread(metric, softest, EVERY_DIRECTION);

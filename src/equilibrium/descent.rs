@@ -46,7 +46,7 @@ impl Walk<'_> {
 
     /// Downhill to the next stable shape, until Newton's method takes over at the residual `tolerance` (in the chain's unit).
     pub(super) fn descend(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> End {
-        let unit = self.scene.chain.unit();
+        let unit = self.scene.chain.radian_norm();
         let mut reached = unknowns.to_vec();
         let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
         let conservative = self.potential(inputs).terms.have_potential();
@@ -97,13 +97,13 @@ impl Walk<'_> {
     /// steeply, leads back when the inputs do.
     fn has_left(&mut self, before: &Inputs, inputs: &Inputs, last: &[f64], reached: &[f64]) -> bool {
         let distance = self.apart(reached, last);
-        if distance <= NEARLY * self.scene.chain.unit() {
+        if distance <= NEARLY * self.scene.chain.radian_norm() {
             return false;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
         // Where the branch is soft, little force is left halfway.
-        let tolerance = (SOFT * distance / self.scene.chain.unit()).clamp(ROUNDING, PASSING);
+        let tolerance = (SOFT * distance / self.scene.chain.radian_norm()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
         let left = self.apart(&back, last) > RETURNED * distance
             && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
@@ -126,7 +126,7 @@ impl Walk<'_> {
         if self.apart(&settled, last) > reach {
             return false;
         }
-        let unit = self.scene.chain.unit();
+        let unit = self.scene.chain.radian_norm();
         let mut potential = self.potential(inputs);
         let energies = potential.slope(&settled).zip(potential.slope(reached));
         energies.is_some_and(|(settled, reached)| settled - reached <= SAME_ENERGY * unit * unit)
@@ -139,7 +139,7 @@ impl Walk<'_> {
     }
 
     fn region(&self, tolerance: f64) -> Region {
-        let unit = self.scene.chain.unit();
+        let unit = self.scene.chain.radian_norm();
         Region {
             radius: FIRST_RADIUS * unit,
             largest: unit,

@@ -11,7 +11,7 @@ use super::condensation::{Condensation, turn_nodes};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::numerics::cholesky;
-use crate::rod::Tangent;
+use crate::rod::ElementDerivatives;
 
 /// How rings and spans are coupled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub(super) struct Hessian<'a> {
     /// By the displacements of the nodes, row by row.
     pub(super) nodes: &'a [f64],
     /// Of each element.
-    pub(super) elements: &'a [Tangent],
+    pub(super) elements: &'a [ElementDerivatives],
     /// Of each element and the rings' nodes; empty where rings do not act on spans.
     pub(super) mixed: &'a [Vec<f64>],
     pub(super) spans: SpanCoupling,
@@ -266,7 +266,7 @@ impl Factorisation {
                 (now.0 - before.0).norm_squared() + ((now.1 - before.1) * arm).norm_squared()
             })
             .sum();
-        let unit = chain.unit();
+        let unit = chain.radian_norm();
         turned.sqrt() / unit + loaded.sqrt() / (unit * unit) <= reach
     }
 }

@@ -94,11 +94,11 @@ impl Branch {
             let bends = self.unknowns.iter().zip(last).zip(oldest);
             let bends = bends.map(|((now, then), old)| curved * ((now - then) - quickened * (then - old)));
             let squares = bends.clone().zip(&scene.chain.metric).map(|(bend, k)| k * bend * bend);
-            if squares.sum::<f64>().sqrt() > scene.settings.tolerance * scene.chain.unit() {
+            if squares.sum::<f64>().sqrt() > scene.settings.tolerance * scene.chain.radian_norm() {
                 shape.iter_mut().zip(bends).for_each(|(x, bend)| *x += bend);
             }
         }
-        let length = norm(&scene.chain.metric, shape) / scene.chain.unit();
+        let length = norm(&scene.chain.metric, shape) / scene.chain.radian_norm();
         shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
         Some(length).filter(|length| *length <= PREDICTED)
     }

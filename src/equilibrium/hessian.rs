@@ -19,8 +19,8 @@ impl Potential<'_> {
         let mut out = nodes.tr_mul(&(DMatrixView::from_slice(&self.work.node_hessian, rows, rows) * &nodes));
         for (k, moved) in motion.elements.iter().enumerate() {
             let size = moved.nrows();
-            out +=
-                moved.tr_mul(&(DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size) * moved));
+            out += moved
+                .tr_mul(&(DMatrixView::from_slice(&self.work.derivatives[k].hessian, size, size) * moved));
             if self.terms.spans.act() {
                 let cross = DMatrixView::from_slice(&self.work.cross[k], size, rows);
                 let mixed = moved.tr_mul(&(cross * &nodes));

@@ -163,7 +163,7 @@ impl Potential<'_> {
         let turn: Matrix6<f64> = blocks(&axes, &zero, &zero, &axes);
         let cross = &mut self.work.cross[k];
         cross.fill(0.0);
-        let tangent = &mut self.work.tangents[k];
+        let tangent = &mut self.work.derivatives[k];
         let size = tangent.size;
         let mixed = &mut self.work.mixed[k];
         mixed.sort_unstable_by_key(|mixed| mixed.station);

@@ -31,7 +31,7 @@ impl Objective for Potential<'_> {
         let hessian = Hessian {
             chain: self.chain,
             nodes: &self.work.node_hessian,
-            elements: &self.work.tangents,
+            elements: &self.work.derivatives,
             mixed: &self.work.cross,
             spans: match (self.terms.spans.act(), self.terms.spans.are_mutual()) {
                 (false, _) => SpanCoupling::None,

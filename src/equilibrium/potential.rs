@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::chain::Chain;
 use super::condensation::Condensation;
 use super::inputs::Inputs;
-use super::rules::PairRules;
+use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
 use super::terms::Terms;
 use super::workspace::Workspace;
@@ -30,7 +30,7 @@ pub(super) struct Potential<'a> {
     pub(super) settings: &'a Settings,
     pub(super) inputs: &'a Inputs,
     pub(super) terms: Terms<'a>,
-    pub(super) rules: &'a PairRules,
+    pub(super) rules: &'a PairQuadrature,
     pub(super) work: &'a mut Workspace,
 }
 
@@ -91,7 +91,7 @@ impl Potential<'_> {
             force += load.force;
             moment += load.moment();
             let axes = self.work.nodes[k].rotation;
-            let tangent = &mut self.work.tangents[k];
+            let tangent = &mut self.work.derivatives[k];
             tangent.assemble(
                 element,
                 &self.work.configurations[k],
@@ -105,7 +105,7 @@ impl Potential<'_> {
             moment = axes * Vector3::new(g[3], g[4], g[5]);
             self.work.gradient[self.chain.first[k]..self.chain.first[k + 1]].copy_from_slice(&g[6..]);
             if let Some(condensations) = &mut condensations {
-                if !condensations[k].linearise(&self.work.configurations[k], &self.work.tangents[k]) {
+                if !condensations[k].linearise(&self.work.configurations[k], &self.work.derivatives[k]) {
                     return false;
                 }
                 if self.terms.spans.act() {

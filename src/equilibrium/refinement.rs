@@ -7,10 +7,10 @@
 //! of the finer model suffice, without a Hessian of it.
 
 use super::inputs::Inputs;
+use super::model_transfer::{NEAR, TipDeviation};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::solver::Equilibrium;
-use super::transfer::{Gap, NEAR};
 use crate::design::Design;
 use crate::error::Error;
 use crate::magnetics::Assembly;
@@ -106,14 +106,14 @@ impl Refinement {
     ///
     /// Neither branch is touched. `None` before the first solve, where `coarse` cannot be factorised, and where the step
     /// is too long to tell.
-    pub fn error_of(&mut self, coarse: &mut Equilibrium) -> Option<Gap> {
+    pub fn error_of(&mut self, coarse: &mut Equilibrium) -> Option<TipDeviation> {
         let inputs = coarse.branch.inputs.take()?;
         let error = self.error_at(coarse, &inputs);
         coarse.branch.inputs = Some(inputs);
         error
     }
 
-    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<Gap> {
+    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<TipDeviation> {
         let Self { model, projection, shape, step, coarse: own } = self;
         let unknowns = std::mem::take(&mut coarse.branch.unknowns);
         let mut potential = coarse.potential_as_ruled(inputs);
@@ -144,17 +144,17 @@ impl Refinement {
         step.fill(0.0);
         projection.raise(own, step);
         let length = norm(&model.chain.metric, step);
-        if length.is_nan() || length > NEAR * model.chain.unit() {
+        if length.is_nan() || length > NEAR * model.chain.radian_norm() {
             return None;
         }
         add(step, shape);
         model.work.place(&model.chain, &inputs.base, shape);
-        let seen = Gap::between(&model.tip(), &coarse.tip());
+        let seen = TipDeviation::between(&model.tip(), &coarse.tip());
         // Between two accuracies the quadratures may well stay the same: what the finer ones may be off is added.
         let quadratures = model.has_quadratures(inputs);
         let unseen = LEAST + if quadratures { QUADRATURE * coarse.settings.pair_accuracy } else { 0.0 };
-        let unseen = Gap { distance: unseen * model.chain.length(), angle: unseen };
-        Some(seen.plus(unseen)).filter(Gap::is_finite)
+        let unseen = TipDeviation { distance: unseen * model.chain.length(), angle: unseen };
+        Some(seen.plus(unseen)).filter(TipDeviation::is_finite)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::columns::Columns;
+use super::input_derivatives::InputDerivatives;
 use super::jacobian::{Counts, Input};
 use crate::error::Error;
 
@@ -12,10 +12,10 @@ pub(super) struct Response {
     pub(super) counts: Counts,
     /// Whether the external magnet, which may be switched off, could be switched on.
     pub(super) with_magnet: bool,
-    /// How the inputs change when the world moves about the base: see [`carried`].
+    /// How the inputs change when the world moves about the base: see [`super::input_derivatives::base_transport`].
     pub(super) by_base: DMatrix<f64>,
     /// Mixed derivatives.
-    pub(super) columns: Columns,
+    pub(super) columns: InputDerivatives,
     /// Rates of the unknowns.
     pub(super) unknowns: DMatrix<f64>,
     pub(super) motion: Motion,
@@ -36,7 +36,7 @@ pub(super) fn inside() -> Error {
 }
 
 /// Fills the base's columns, seen from the base: what surrounds the chain moves the other way.
-pub(super) fn carry(rates: &mut DMatrix<f64>, by_base: &DMatrix<f64>) {
+pub(super) fn transport_base(rates: &mut DMatrix<f64>, by_base: &DMatrix<f64>) {
     let columns = -&*rates * by_base;
     rates.columns_mut(Input::BasePosition.columns().start, 6).copy_from(&columns);
 }

@@ -6,12 +6,12 @@
 
 use nalgebra::{DMatrix, DMatrixView};
 
-use super::columns::{carried, turned};
+use super::input_derivatives::{base_transport, turned};
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input, Jacobian};
+use super::output_derivatives::OutputDerivatives;
 use super::potential::Potential;
-use super::response::{Motion, Response, carry, inside};
-use super::rows::Rows;
+use super::response::{Motion, Response, inside, transport_base};
 use super::settings::Interaction;
 use super::solver::Equilibrium;
 use crate::error::Error;
@@ -40,7 +40,7 @@ impl Equilibrium {
         let inputs = self.branch.inputs.clone().ok_or_else(nothing)?;
         let mut copy = self.apart();
         let response = copy.response(&inputs)?;
-        let mut rows = Rows::new(&inputs, &response.counts);
+        let mut rows = OutputDerivatives::new(&inputs, &response.counts);
         copy.add_tip(&mut rows, &response);
         copy.add_wrenches(&mut rows, &response);
         copy.add_tip_field(&mut rows, &response)?;
@@ -76,9 +76,9 @@ impl Equilibrium {
             columns = potential.columns(&counts);
         }
         let mut columns = columns.ok_or_else(inside)?;
-        let by_base = carried(inputs, &counts);
-        carry(&mut columns.gradient, &by_base);
-        carry(&mut columns.clamp, &by_base);
+        let by_base = base_transport(inputs, &counts);
+        transport_base(&mut columns.gradient, &by_base);
+        transport_base(&mut columns.clamp, &by_base);
         let mut unknowns = -&columns.gradient;
         for column in unknowns.as_mut_slice().chunks_exact_mut(shape.len()) {
             potential.solve(column);
@@ -154,7 +154,7 @@ impl Potential<'_> {
             let axes = self.work.nodes[k].rotation;
             let end = self.end_motion(k);
             let size = end.nrows();
-            let hessian = DMatrixView::from_slice(&self.work.tangents[k].hessian, size, size);
+            let hessian = DMatrixView::from_slice(&self.work.derivatives[k].hessian, size, size);
             let cross = DMatrixView::from_slice(&self.work.cross[k], size, 6 * last);
             let local = hessian.columns(0, START).tr_mul(&motion.elements[k])
                 + cross.rows(0, START) * &others

@@ -9,8 +9,8 @@ use super::correction::{Report, Scene, Scratch, Walk, measure};
 use super::deadline::Deadline;
 use super::follow::Branch;
 use super::inputs::Inputs;
+use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
-use super::rules::PairRules;
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::terms::Terms;
@@ -48,7 +48,7 @@ pub struct Equilibrium {
     pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: Branch,
     pub(super) work: Workspace,
-    pub(super) rules: PairRules,
+    pub(super) rules: PairQuadrature,
     scratch: Scratch,
 }
 
@@ -82,7 +82,7 @@ impl Equilibrium {
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let chain = Chain::new(design, &settings)?;
         let shape = arc_lengths.map(|s| point_at(&chain, s));
-        let (work, rules) = (Workspace::new(&chain, &settings), PairRules::new(&chain, &settings));
+        let (work, rules) = (Workspace::new(&chain, &settings), PairQuadrature::new(&chain, &settings));
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),

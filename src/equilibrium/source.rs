@@ -8,7 +8,7 @@ use super::chain::Chain;
 use super::ring_body::RingBody;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable};
-use crate::rod::{Charges, Load, Matter, Order, Sample, Sheet, Station};
+use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station, StationQuadrature};
 
 /// The magnet in a source.
 #[derive(Debug, Clone, Copy)]
@@ -174,20 +174,20 @@ impl<'a> Source<'a> {
     /// The same for material of a section at `pose`, where `points` carry it in equal parts.
     pub(crate) fn on_material(
         &self,
-        matter: &Matter,
+        material: &SectionMaterial,
         points: &[Vector2<f64>],
         pose: &Pose,
         order: Order,
     ) -> Option<Load> {
-        if matter.magnetisation == 0.0 {
+        if material.magnetisation == 0.0 {
             return Some(Load::zero());
         }
-        let share = matter.magnetisation * matter.moments.volume / points.len() as f64;
+        let share = material.magnetisation * material.moments.volume / points.len() as f64;
         self.on_section(points.iter().map(|point| (*point, share)), &self.locate(pose), order)
     }
 
     /// The same, for a sample of the material.
-    pub(crate) fn on_sample(&self, sample: &Sample, pose: &Pose, order: Order) -> Option<Load> {
+    pub(crate) fn on_sample(&self, sample: &StationQuadrature, pose: &Pose, order: Order) -> Option<Load> {
         let dipoles = sample.points.iter().map(|point| (point.position, sample.magnetisation * point.volume));
         self.on_section(dipoles, &self.locate(pose), order)
     }
@@ -201,7 +201,7 @@ impl<'a> Source<'a> {
     ) -> Option<Load> {
         let turn = &section.rotation;
         let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| turn.column(i).into_owned());
-        let mut sheet = Sheet::new(order == Order::Hessian);
+        let mut sheet = SectionDipoles::new(order == Order::Hessian);
         for (position, moment) in dipoles {
             let point = section.position + d1 * position.x + d2 * position.y;
             let near = self.near(&point, &axis, order)?;

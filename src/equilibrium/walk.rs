@@ -233,7 +233,7 @@ impl Walk<'_> {
         between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
         let distance = norm(metric, &between);
         // So near, the last factorisation would have held for both.
-        if distance <= self.reach * self.scene.chain.unit() {
+        if distance <= self.reach * self.scene.chain.radian_norm() {
             self.scratch.between = between;
             return true;
         }

@@ -8,7 +8,7 @@ use super::pair_loads::PairLoads;
 use super::settings::Settings;
 use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
-use crate::rod::{Configuration, Load, START, Tangent};
+use crate::rod::{Configuration, ElementDerivatives, Load, START};
 
 /// Everything that an evaluation overwrites; kept between solves so that none allocates.
 #[derive(Debug, Clone)]
@@ -23,7 +23,7 @@ pub(super) struct Workspace {
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
-    pub(super) tangents: Vec<Tangent>,
+    pub(super) derivatives: Vec<ElementDerivatives>,
     /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
     /// a node.
     pub(super) mixed: Vec<Vec<Mixed>>,
@@ -50,7 +50,7 @@ impl Workspace {
             pair_loads: PairLoads::new(chain),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
-            tangents: chain.elements.iter().map(Tangent::new).collect(),
+            derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),
             mixed: vec![Vec::new(); count],
             cross: chain.elements.iter().map(|e| vec![0.0; (START + e.freedoms()) * columns]).collect(),
             gradient: vec![0.0; chain.freedoms()],

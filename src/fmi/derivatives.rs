@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::derivative_role::{direction, output_derivative};
+use super::directional_derivatives::{direction, output_derivative};
 use super::fmu_state::FmuState;
 use super::instance::Instance;
 use super::state::Ending;

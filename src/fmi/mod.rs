@@ -44,6 +44,7 @@ mod get_set; // its variables, read and set
 mod saved_states; // its saved FMU states
 
 mod derivatives; // its derivatives with respect to time and inputs
+mod directional_derivatives; // between variables and the Jacobian
 
 pub mod guard; // no panic crosses the C boundary
 

@@ -82,7 +82,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// same way each call tries once to find a shape; the way back goes on from the last one.
     ///
     /// # Errors
-    /// Those of the inputs and of [`Manipulator::solve`].
+    /// Those of the inputs and of [`Solve::solve`].
     pub fn to(&mut self, target: f64) -> Result<&Outputs, Error> {
         let Some(mut here) = self.here else {
             if self.manipulator.solve(&(self.inputs)(target)?)?.status != Status::NotSolved {
@@ -142,11 +142,11 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(trial)
     }
 
-    /// Bisects between `here`, on the branch, and `next`, where `fallen` no longer is; goes to the shape beyond and
+    /// Bisects between `here`, on the branch, and `next`, where `beyond` no longer is; goes to the shape beyond and
     /// returns its value, or that of the last shape on the branch if none was found.
-    fn pass_fold(&mut self, here: f64, next: f64, fallen: &dyn Solve) -> Result<f64, Error> {
+    fn pass_fold(&mut self, here: f64, next: f64, beyond: &dyn Solve) -> Result<f64, Error> {
         let (mut on, mut off) = (here, next);
-        let mut after = found(off, fallen);
+        let mut after = found(off, beyond);
         while (off - on).abs() > FOLD_WIDTH * self.span {
             let middle = 0.5 * (on + off);
             let trial = self.trial(middle)?;

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ladder::{self, Ladder};
+use super::hierarchy::{self, Hierarchy};
 use super::outputs::Resolution;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Gap, Settings};
+use crate::equilibrium::{Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::methods::Method;
@@ -32,7 +32,7 @@ use crate::methods::Method;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    ladder: Ladder,
+    hierarchy: Hierarchy,
     outputs: Outputs,
     /// Whether the outputs are those of a shape that was found.
     has_shape: bool,
@@ -41,7 +41,7 @@ pub struct Manipulator {
 /// What a manipulator remembers of its past, in numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    models: ladder::Snapshot,
+    models: hierarchy::Snapshot,
     outputs: Outputs,
     has_shape: bool,
 }
@@ -59,9 +59,9 @@ impl Manipulator {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let ladder = Ladder::new(design, magnet, settings, shape_points)?;
-        let outputs = Outputs::straight(ladder.present(), resolution(&ladder));
-        Ok(Self { ladder, outputs, has_shape: false })
+        let hierarchy = Hierarchy::new(design, magnet, settings, shape_points)?;
+        let outputs = Outputs::straight(hierarchy.present(), resolution(&hierarchy));
+        Ok(Self { hierarchy, outputs, has_shape: false })
     }
 
     /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
@@ -72,12 +72,12 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.ladder.solve(inputs)?;
+        let report = self.hierarchy.solve(inputs)?;
         if report.solved() {
             self.has_shape = true;
-            self.outputs.read(self.ladder.present(), inputs, resolution(&self.ladder));
+            self.outputs.read(self.hierarchy.present(), inputs, resolution(&self.hierarchy));
         }
-        self.outputs.record(&report, self.ladder.fold_margin());
+        self.outputs.record(&report, self.hierarchy.fold_margin());
         Ok(&self.outputs)
     }
 
@@ -128,7 +128,7 @@ impl Manipulator {
     /// What it remembers: from it another manipulator of the same design goes on bit for bit.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        let (models, outputs) = (self.ladder.snapshot(), self.outputs.clone());
+        let (models, outputs) = (self.hierarchy.snapshot(), self.outputs.clone());
         Snapshot { models, outputs, has_shape: self.has_shape }
     }
 
@@ -144,7 +144,7 @@ impl Manipulator {
         if lengths(&snapshot.outputs) != lengths(&self.outputs) {
             return Err(Error::Unsupported("the snapshot is not of this design".into()));
         }
-        self.ladder.restore(&snapshot.models)?;
+        self.hierarchy.restore(&snapshot.models)?;
         (self.outputs, self.has_shape) = (snapshot.outputs.clone(), snapshot.has_shape);
         Ok(())
     }
@@ -152,7 +152,7 @@ impl Manipulator {
     /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
     /// it into the outputs. The next solve is the same with and without.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.ladder.present().margin() {
+        if let Some(margin) = self.hierarchy.present().margin() {
             self.outputs.stability_margin = margin;
         }
         &self.outputs
@@ -183,7 +183,7 @@ impl Manipulator {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
-        self.ladder.present().jacobian()
+        self.hierarchy.present().jacobian()
     }
 
     /// How far the tip may be, and be turned, from the converged answer of the model, m and rad; from the next solve on.
@@ -194,25 +194,25 @@ impl Manipulator {
         let settings =
             Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
         settings.checked()?;
-        self.ladder.set_tolerance(Gap { distance: position, angle });
+        self.hierarchy.set_tolerance(TipDeviation { distance: position, angle });
         Ok(())
     }
 
     /// Forgets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        self.ladder.reset();
-        self.outputs = Outputs::straight(self.ladder.present(), resolution(&self.ladder));
+        self.hierarchy.reset();
+        self.outputs = Outputs::straight(self.hierarchy.present(), resolution(&self.hierarchy));
         self.has_shape = false;
     }
 }
 
 /// How much model answers.
-fn resolution(ladder: &Ladder) -> Resolution {
-    let settings = ladder.present().settings();
+fn resolution(hierarchy: &Hierarchy) -> Resolution {
+    let settings = hierarchy.present().settings();
     Resolution {
         interaction: settings.interaction,
         degree: settings.degree,
         method: Method::Potential,
-        error_estimate: ladder.error_estimate(),
+        error_estimate: hierarchy.error_estimate(),
     }
 }

@@ -3,8 +3,8 @@
 mod branch;
 mod compared;
 mod device;
-mod judgement;
-mod ladder;
+mod error_estimate;
+mod hierarchy;
 mod models;
 mod outputs;
 mod prediction;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Gap, Inputs, Interaction, Refinement, Settings};
+use crate::equilibrium::{Equilibrium, Inputs, Interaction, Refinement, Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -134,10 +134,10 @@ impl Models {
     ///
     /// # Errors
     /// As [`Models::make`].
-    pub(super) fn error(&mut self, number: usize) -> Result<Option<Gap>, Error> {
+    pub(super) fn error(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
         let richest = self.richest();
         self.make(number.max(richest) + 1)?;
-        let mut apart = Gap::NONE;
+        let mut apart = TipDeviation::NONE;
         if number < richest {
             let (cheaper, judge) = self.whole.split_at_mut(richest);
             let Some(gap) = judge[0].gap(&cheaper[number]) else { return Ok(None) };

@@ -139,7 +139,7 @@ impl Balance<'_, '_> {
                     None if behind == 1 => bent[element].pose.advanced(along - arc.length),
                     None => start.advanced(along),
                 };
-                let load = self.around.external(&station.matter, &pose, order)?;
+                let load = self.around.external(&station.material, &pose, order)?;
                 bodies.push(Body {
                     carriers: element + behind,
                     part,

@@ -14,8 +14,8 @@ use super::surroundings::Surroundings;
 use super::trace::{Totals, Trace};
 use crate::design::Design;
 use crate::equilibrium::{
-    self, Contact, Inputs, Interaction, Outcome, PairRules, Placed, Report, Solution, TermWrenches, Terms,
-    arc_lengths,
+    self, Contact, Inputs, Interaction, Outcome, PairQuadrature, Placed, Report, Solution, TermWrenches,
+    Terms, arc_lengths,
 };
 use crate::error::Error;
 use crate::geometry::Pose;
@@ -52,7 +52,7 @@ pub struct Comparison {
     settings: Settings,
     magnet: Option<Assembly>,
     arc_lengths: Arc<Vec<f64>>,
-    rules: PairRules,
+    rules: PairQuadrature,
     state: State,
 }
 
@@ -98,7 +98,7 @@ impl Comparison {
         let line = Line::new(design, &model)?;
         let state = State::straight(&line, &settings)?;
         Ok(Self {
-            rules: PairRules::new(&line.chain, &model),
+            rules: PairQuadrature::new(&line.chain, &model),
             magnet: magnet.cloned(),
             arc_lengths: Arc::new(arc_lengths.collect()),
             line: Arc::new(line),

@@ -42,7 +42,7 @@ impl Line {
                 vec![segment.spans.iter().map(part).collect(); parts]
             })
             .collect();
-        let (length, moment) = (chain.elements[0].length, chain.unit().powi(2));
+        let (length, moment) = (chain.elements[0].length, chain.radian_norm().powi(2));
         Ok(Self { chain, spans, length, moment })
     }
 

@@ -21,7 +21,7 @@ use super::strong_form::{Matrix12, Rates, State};
 use super::surroundings::{Surroundings, column, derivative, gradient};
 use super::trace::Trace;
 use crate::geometry::{Pose, RotationVector};
-use crate::rod::{Matter, Order};
+use crate::rod::{Order, SectionMaterial};
 
 /// Crosses elements in a plane.
 pub(super) struct InPlane<'a, 'b> {
@@ -63,8 +63,8 @@ impl<'a, 'b> InPlane<'a, 'b> {
 
     fn rates(&self, place: &Place, y: &Vector6<f64>, order: Order) -> Option<Linear> {
         let span = &self.around.line.spans[place.element][place.piece];
-        let matter = Matter::section(span, place.s).axisymmetric();
-        let load = self.around.external(&matter, &self.state(y).pose, order)?;
+        let material = SectionMaterial::section(span, place.s).axisymmetric();
+        let load = self.around.external(&material, &self.state(y).pose, order)?;
         let (sine, cosine) = y[2].sin_cos();
         let (d, t) = (SVector::<f64, 2>::new(sine, cosine), SVector::<f64, 2>::new(cosine, -sine));
         let n = SVector::<f64, 2>::new(y[3], y[4]);

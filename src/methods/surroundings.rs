@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use super::line::{Line, Place};
 use crate::equilibrium::{Frame, Inputs, TermWrenches, Terms, blocks};
 use crate::geometry::{Pose, hat};
-use crate::rod::{Load, Matter, Order};
+use crate::rod::{Load, Order, SectionMaterial};
 
 /// Everything that the loads on a shape depend on.
 #[derive(Debug, Clone, Copy)]
@@ -76,12 +76,12 @@ impl Surroundings<'_> {
     /// Load per length at a place with the pose `pose`, in fixed axes.
     pub(super) fn along(&self, place: &Place, pose: &Pose, order: Order) -> Option<Load> {
         let span = &self.line.spans[place.element][place.piece];
-        self.external(&Matter::section(span, place.s), pose, order)
+        self.external(&SectionMaterial::section(span, place.s), pose, order)
     }
 
     /// Load of all that acts from outside on some material.
-    pub(super) fn external(&self, matter: &Matter, pose: &Pose, order: Order) -> Option<Load> {
-        self.on(&Frame::Section(matter), pose, order, &mut TermWrenches::none())
+    pub(super) fn external(&self, material: &SectionMaterial, pose: &Pose, order: Order) -> Option<Load> {
+        self.on(&Frame::Section(material), pose, order, &mut TermWrenches::none())
     }
 
     /// Load of all that acts from outside on a frame, in fixed axes; adds each term's wrench about the base to `wrenches`.

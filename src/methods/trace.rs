@@ -9,7 +9,7 @@ use crate::design::SpanKind;
 use crate::equilibrium::{Frame, TermWrenches};
 use crate::geometry::{Pose, RotationVector, rotation_log};
 use crate::numerics::quadrature::gauss_legendre;
-use crate::rod::{Matter, Order};
+use crate::rod::{Order, SectionMaterial};
 
 /// Gauss points of a link when loads and energies are added up.
 const LINK_POINTS: usize = 3;
@@ -163,8 +163,9 @@ impl Trace {
                 let bent = Vector3::new(k.bending, k.bending, k.torsion).component_mul(&curvature);
                 let sheared = Vector3::new(k.shear, k.shear, k.axial).component_mul(&stretch);
                 let stored = 0.5 * (bent.dot(&curvature) + sheared.dot(&stretch));
-                let (matter, mut wrenches) = (Matter::section(span, place.s), TermWrenches::none());
-                let load = around.on(&Frame::Section(&matter), &pose, Order::Gradient, &mut wrenches)?;
+                let (material, mut wrenches) =
+                    (SectionMaterial::section(span, place.s), TermWrenches::none());
+                let load = around.on(&Frame::Section(&material), &pose, Order::Gradient, &mut wrenches)?;
                 out.energy += weight * (stored + load.energy);
                 out.wrenches.add(&wrenches, weight);
             }

@@ -12,7 +12,7 @@ use super::element::Element;
 use super::fine_points::{Fine, fine_points};
 use super::moments::SectionMoments;
 use super::piece::Piece;
-use super::sight::Sight;
+use super::source_geometry::SourceGeometry;
 use crate::design::{SpanKind, Spiral, SpiralKind};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
@@ -27,7 +27,7 @@ pub struct SectionPoint {
 
 /// The points of one station.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct StationQuadrature {
     /// Number of the station.
     pub station: usize,
     /// Magnetisation, A/m.
@@ -39,7 +39,7 @@ pub struct Sample {
 impl Element {
     /// The points at which the energy of this element, made of `pieces`, in the field of a ring is summed up.
     #[must_use]
-    pub fn samples(&self, pieces: &[Piece<'_>], sight: &Sight) -> Vec<Sample> {
+    pub fn samples(&self, pieces: &[Piece<'_>], sight: &SourceGeometry) -> Vec<StationQuadrature> {
         let mut out = Vec::new();
         let mut start = 0.0;
         for (index, piece) in pieces.iter().enumerate() {
@@ -58,7 +58,7 @@ impl Element {
                 let x = if sight.beyond { -nodes[*station] } else { nodes[*station] };
                 let at = distance + 0.5 * piece.length * (1.0 + x);
                 let points = Section { piece, nodes: &own, fine: &fine, node: i }.points(sight, at);
-                out.push(Sample {
+                out.push(StationQuadrature {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,
                     points,
@@ -103,7 +103,7 @@ struct Section<'a> {
 }
 
 impl Section<'_> {
-    fn points(&self, sight: &Sight, distance: f64) -> Vec<SectionPoint> {
+    fn points(&self, sight: &SourceGeometry, distance: f64) -> Vec<SectionPoint> {
         let span = self.piece.span;
         let harmonics = |radius| sight.harmonics(distance, radius);
         let circle = [span.inner_radius, span.outer_radius];

@@ -6,11 +6,11 @@ use nalgebra::Vector2;
 
 use super::basis::{Ends, Modes, Part};
 use super::fine_points::fine_points;
-use super::matter::Matter;
 use super::moments::SectionMoments;
 use super::piece::Piece;
 use super::row::{COMPONENTS, Row};
-use super::sight::Sight;
+use super::section_material::SectionMaterial;
+use super::source_geometry::SourceGeometry;
 use super::stop::{Contact, Stop};
 use crate::design::{SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
@@ -33,7 +33,7 @@ pub struct Resolution {
     /// Polynomial degree of the strain modes; at least two more Gauss points are taken.
     pub degree: usize,
     /// The nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
-    pub nearest: Option<Sight>,
+    pub nearest: Option<SourceGeometry>,
     /// Whether windings that touch stiffen a core.
     pub bending_stop: bool,
 }
@@ -48,7 +48,7 @@ pub struct Station {
     /// Section stiffness.
     pub stiffness: Stiffness,
     /// The material that this station stands for.
-    pub matter: Matter,
+    pub material: SectionMaterial,
     /// Its centroid and four points, for fields that are linear and quadratic over the section, m.
     pub points: ([Vector2<f64>; 1], [Vector2<f64>; 4]),
     /// Mean square distance of the material from its centroid, m2.
@@ -232,7 +232,7 @@ impl Element {
                 row,
                 weight,
                 stiffness: span.stiffness,
-                matter: Matter::new(span, material, weight),
+                material: SectionMaterial::new(span, material, weight),
                 points: ([material.centroid()], material.points()),
                 spread: material.spread(),
             });

@@ -17,7 +17,7 @@ const AWAY: f64 = 0.14;
 /// Height of the middle, m.
 const MIDDLE: f64 = 0.0277;
 
-/// Processor time that a solve may take, s: here a loaded machine must not matter.
+/// Processor time that a solve may take, s: here a loaded machine must not material.
 const PATIENCE: f64 = 30.0;
 
 /// Positions of the magnet on the axis, beyond the tip and beyond the base, where next to nothing turns the straight shape, mm.

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 
 use mcm::design::{Cylinder, CylinderMaterial, Design, Segmented, Specification, SpiralKind};
-use mcm::equilibrium::{Gap, Interaction, Settings};
+use mcm::equilibrium::{Interaction, Settings, TipDeviation};
 use mcm::geometry::RotationVector;
 use mcm::manipulator::{Inputs, Manipulator, Outputs, Status};
 use nalgebra::Vector3;
@@ -101,7 +101,7 @@ fn is_cheaper(answer: &Outputs) -> bool {
 
 /// The larger part of the tolerances that the tips are apart.
 fn parts(settings: &Settings, a: &Outputs, b: &Outputs) -> f64 {
-    let gap = Gap::between(&a.tip, &b.tip);
+    let gap = TipDeviation::between(&a.tip, &b.tip);
     (gap.distance / settings.tolerance_position).max(gap.angle / settings.tolerance_angle)
 }
 

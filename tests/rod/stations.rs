@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Segmented, Span, Specification, SpiralKind};
-use mcm::rod::{Element, Piece, Resolution, Sight};
+use mcm::rod::{Element, Piece, Resolution, SourceGeometry};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::tolerance::{BRUTE_FORCE, FIRST_MOMENT, LAW, assert_close};
@@ -68,7 +68,7 @@ fn the_stations_stand_for_all_of_the_material() {
             let weight = |s: f64| (s - start).powi(power);
             let got = own().fold((0.0, Vector2::zeros(), Matrix2::zeros()), |sum, station| {
                 let w = weight(station.row.arc_length);
-                let m = &station.matter.moments;
+                let m = &station.material.moments;
                 (sum.0 + m.volume * w, sum.1 + m.first * w, sum.2 + m.second * w)
             });
             let case = (number, power);
@@ -87,7 +87,7 @@ fn four_points_carry_the_moments() {
         let spans = spans(kind);
         let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece { span, length: span.length }).collect();
         for station in &Element::new(0.0, &pieces, &PLAIN).stations {
-            let (moments, points) = (&station.matter.moments, station.matter.moments.points());
+            let (moments, points) = (&station.material.moments, station.material.moments.points());
             let quarter = moments.volume / 4.0;
             let first: Vector2<f64> = points.iter().map(|point| point * quarter).sum();
             let second: Matrix2<f64> = points.iter().map(|point| point * point.transpose() * quarter).sum();
@@ -115,8 +115,9 @@ fn the_samples_for_a_ring_stand_for_all_of_the_material() {
     for accuracy in [1e-3, 3e-4, 1e-4, 6e-5, 4e-5, 3e-5, 2e-5, 1e-5, 1e-6] {
         for bend in [0.08, 0.32] {
             for (distance, beyond) in [(2e-3, false), (5e-3, false), (5e-3, true), (2e-2, true)] {
-                let sight = Sight { distance, beyond, bonded: false, radius: RADIUS, bend, accuracy };
-                let nearest = Some(Sight { distance: 0.0, bonded: true, bend: 0.0, ..sight });
+                let sight =
+                    SourceGeometry { distance, beyond, bonded: false, radius: RADIUS, bend, accuracy };
+                let nearest = Some(SourceGeometry { distance: 0.0, bonded: true, bend: 0.0, ..sight });
                 let element = Element::new(0.0, &pieces, &Resolution { degree: 6, nearest, ..PLAIN });
                 let samples = element.samples(&pieces, &sight);
                 let points = || samples.iter().flat_map(|sample| &sample.points);

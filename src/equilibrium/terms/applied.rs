@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Frame, InputDerivatives, Term};
+use super::{Frame, LoadDerivatives, Term};
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::jacobian::Input;
 use crate::geometry::{Pose, hat};
@@ -51,12 +51,7 @@ impl Term for Applied<'_> {
         Some(load.in_axes(axes))
     }
 
-    fn add_input_derivatives(
-        &self,
-        frame: &Frame<'_>,
-        pose: &Pose,
-        out: &mut InputDerivatives,
-    ) -> Option<()> {
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
         let Some((input, _, arm)) = self.force(frame, pose) else { return Some(()) };
         for (axis, column) in input.columns().enumerate() {
             let force = Vector3::ith(axis, -1.0);

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-use super::input_derivatives::{BACKGROUND_INPUTS, FieldRate, InputDerivatives};
+use super::load_derivatives::{BACKGROUND_INPUTS, FieldRate, LoadDerivatives};
 use super::{Frame, Term};
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::jacobian::Input;
@@ -45,7 +45,7 @@ impl Background {
     fn moment(frame: &Frame<'_>) -> f64 {
         match frame {
             Frame::Ring(_, body) => body.source.moment(),
-            _ => frame.material().map_or(0.0, |matter| matter.magnetisation * matter.moments.volume),
+            _ => frame.material().map_or(0.0, |material| material.magnetisation * material.moments.volume),
         }
     }
 
@@ -54,7 +54,7 @@ impl Background {
         if let Frame::Ring(_, body) = frame {
             return pose.axis() * body.half_length();
         }
-        let centroid = frame.material().map_or(Vector2::zeros(), |matter| matter.moments.centroid());
+        let centroid = frame.material().map_or(Vector2::zeros(), |material| material.moments.centroid());
         pose.rotation * Vector3::new(centroid.x, centroid.y, 0.0)
     }
 }
@@ -85,12 +85,7 @@ impl Term for Background {
         Some(load)
     }
 
-    fn add_input_derivatives(
-        &self,
-        frame: &Frame<'_>,
-        pose: &Pose,
-        out: &mut InputDerivatives,
-    ) -> Option<()> {
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
         let (first, arm) = (Input::UniformField.columns().start, Self::arm(frame, pose));
         let moment = pose.axis() * Self::moment(frame);
         out.add_dipole(first, &moment, &arm, &Self::rates(&(pose.position + arm)));

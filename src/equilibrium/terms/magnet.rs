@@ -2,12 +2,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::input_derivatives::{FieldRate, InputDerivatives};
+use super::load_derivatives::{FieldRate, LoadDerivatives};
 use super::{Frame, Term};
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::jacobian::Input;
-use crate::equilibrium::rules::PairRules;
+use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::source::Source;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::{Assembly, Jet};
@@ -24,11 +24,11 @@ pub(crate) struct Magnet<'a> {
     /// Where it is switched on.
     source: Option<Source<'a>>,
     inputs: &'a Inputs,
-    rules: &'a PairRules,
+    rules: &'a PairQuadrature,
 }
 
 impl<'a> Magnet<'a> {
-    pub(super) fn new(assembly: Option<&'a Assembly>, inputs: &'a Inputs, rules: &'a PairRules) -> Self {
+    pub(super) fn new(assembly: Option<&'a Assembly>, inputs: &'a Inputs, rules: &'a PairQuadrature) -> Self {
         let on = assembly.filter(|_| inputs.magnet_strength != 0.0);
         let source = on.map(|assembly| Source::assembly(assembly, inputs.magnet, inputs.magnet_strength));
         Self { assembly, source, inputs, rules }
@@ -98,9 +98,9 @@ impl Term for Magnet<'_> {
         let Some(source) = &self.source else { return Some(Load::zero()) };
         let load = match frame {
             Frame::Station(station) => {
-                source.on_material(&station.matter, source.points(station), pose, order)
+                source.on_material(&station.material, source.points(station), pose, order)
             }
-            Frame::Section(matter) => source.on_material(matter, &matter.moments.points(), pose, order),
+            Frame::Section(material) => source.on_material(material, &material.moments.points(), pose, order),
             Frame::Ring(number, body) => {
                 let centre = pose.position + pose.axis() * body.half_length();
                 let rule = self.rules.external(*number, self.distance(&centre));
@@ -111,21 +111,16 @@ impl Term for Magnet<'_> {
         Some(load?.in_axes(&source.axes().tr_mul(axes)))
     }
 
-    fn add_input_derivatives(
-        &self,
-        frame: &Frame<'_>,
-        pose: &Pose,
-        out: &mut InputDerivatives,
-    ) -> Option<()> {
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
         if self.assembly.is_none() {
             return Some(());
         }
         let first = Input::MagnetPosition.columns().start;
         match frame {
-            Frame::Station(station) if station.matter.magnetisation != 0.0 => {
+            Frame::Station(station) if station.material.magnetisation != 0.0 => {
                 let points =
                     self.source.as_ref().map_or(&station.points.0[..], |source| source.points(station));
-                let whole = pose.axis() * (station.matter.magnetisation * station.matter.moments.volume);
+                let whole = pose.axis() * (station.material.magnetisation * station.material.moments.volume);
                 let moment = whole / points.len() as f64;
                 for point in points {
                     let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);

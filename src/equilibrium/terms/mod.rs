@@ -6,7 +6,7 @@
 mod applied;
 mod background;
 mod frame;
-mod input_derivatives;
+mod load_derivatives;
 mod magnet;
 mod pair;
 mod ring_pairs;
@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::chain::Chain;
 use super::inputs::Inputs;
-use super::rules::PairRules;
+use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
@@ -26,7 +26,7 @@ use crate::rod::{Load, Order};
 pub(crate) use applied::Applied;
 pub(crate) use background::Background;
 pub(crate) use frame::Frame;
-pub(crate) use input_derivatives::{FIELD_INPUTS, FieldRate, InputDerivatives};
+pub(crate) use load_derivatives::{FIELD_INPUTS, FieldRate, LoadDerivatives};
 pub(crate) use magnet::Magnet;
 pub(crate) use pair::blocks;
 pub(crate) use ring_pairs::{RingPairs, overlap};
@@ -48,8 +48,7 @@ pub(crate) trait Term {
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load>;
 
     /// Adds the derivatives of that load, in the world's axes, by the term's own inputs; `None` where there are none.
-    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut InputDerivatives)
-    -> Option<()>;
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()>;
 }
 
 /// Number of the terms that act on single frames.
@@ -73,7 +72,7 @@ impl<'a> Terms<'a> {
         settings: &Settings,
         magnet: Option<&'a Assembly>,
         inputs: &'a Inputs,
-        rules: &'a PairRules,
+        rules: &'a PairQuadrature,
     ) -> Self {
         Self {
             magnet: Magnet::new(magnet, inputs, rules),
@@ -124,8 +123,8 @@ impl<'a> Terms<'a> {
         frame: &Frame<'_>,
         pose: &Pose,
         inputs: usize,
-    ) -> Option<InputDerivatives> {
-        let mut out = InputDerivatives::none(inputs);
+    ) -> Option<LoadDerivatives> {
+        let mut out = LoadDerivatives::none(inputs);
         for term in self.local() {
             term.add_input_derivatives(frame, pose, &mut out)?;
         }

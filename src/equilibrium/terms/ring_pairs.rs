@@ -2,8 +2,8 @@
 
 use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
+use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::ring_body::RingBody;
-use crate::equilibrium::rules::PairRules;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::Source;
 use crate::geometry::Pose;
@@ -15,11 +15,11 @@ use crate::rod::Order;
 pub(crate) struct RingPairs<'a> {
     chain: &'a Chain,
     interaction: Interaction,
-    rules: &'a PairRules,
+    rules: &'a PairQuadrature,
 }
 
 impl<'a> RingPairs<'a> {
-    pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairRules) -> Self {
+    pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairQuadrature) -> Self {
         Self { chain, interaction, rules }
     }
 

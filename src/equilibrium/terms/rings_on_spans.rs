@@ -4,18 +4,18 @@ use nalgebra::Matrix6;
 
 use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
-use crate::equilibrium::rules::PairRules;
+use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::Source;
 use crate::geometry::Pose;
-use crate::rod::{Order, Sample};
+use crate::rod::{Order, StationQuadrature};
 
 /// All rings with all spans but the discs bonded to their faces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingsOnSpans<'a> {
     chain: &'a Chain,
     interaction: Interaction,
-    rules: &'a PairRules,
+    rules: &'a PairQuadrature,
     /// Whether tables may stand for the rings' fields: in a gradient alone, whose energy nobody compares.
     pub(crate) tabulated: bool,
 }
@@ -30,7 +30,7 @@ pub(crate) struct Mixed {
 }
 
 impl<'a> RingsOnSpans<'a> {
-    pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairRules) -> Self {
+    pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairQuadrature) -> Self {
         Self { chain, interaction, rules, tabulated: false }
     }
 
@@ -50,15 +50,15 @@ impl<'a> RingsOnSpans<'a> {
     }
 
     /// The samples of an element that a ring acts on.
-    pub(crate) fn samples(&self, element: usize, ring: usize) -> &'a [Sample] {
-        self.chain.views.samples(element, ring, self.rules.span(element, ring))
+    pub(crate) fn samples(&self, element: usize, ring: usize) -> &'a [StationQuadrature] {
+        self.chain.span_quadratures.samples(element, ring, self.rules.span(element, ring))
     }
 
     /// The energy of a ring, whose node is at `node`, and a sample of material with its station at `pose`, as loads on both.
     pub(crate) fn load(
         source: &Source<'_>,
         node: &Pose,
-        sample: &Sample,
+        sample: &StationQuadrature,
         pose: &Pose,
         order: Order,
     ) -> Option<PairLoad> {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{Frame, InputDerivatives, Term};
+use super::{Frame, LoadDerivatives, Term};
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::jacobian::Input;
 use crate::geometry::Pose;
@@ -23,9 +23,9 @@ impl Weight {
             let mass = body.ring.mass;
             return Some((mass, pose.axis() * (body.half_length() * mass)));
         }
-        let matter = frame.material()?;
-        let first = matter.moments.first * matter.density;
-        let mass = matter.density * matter.moments.volume + matter.line_mass;
+        let material = frame.material()?;
+        let first = material.moments.first * material.density;
+        let mass = material.density * material.moments.volume + material.line_mass;
         Some((mass, pose.rotation * Vector3::new(first.x, first.y, 0.0)))
     }
 
@@ -50,12 +50,7 @@ impl Term for Weight {
         Some(self.in_world(frame, pose).in_axes(axes))
     }
 
-    fn add_input_derivatives(
-        &self,
-        frame: &Frame<'_>,
-        pose: &Pose,
-        out: &mut InputDerivatives,
-    ) -> Option<()> {
+    fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
         for (axis, column) in Input::Gravity.columns().enumerate() {
             let load = Self(Vector3::ith(axis, 1.0)).in_world(frame, pose);
             out.add(column, &load.force, &load.moment());

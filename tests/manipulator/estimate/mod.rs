@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution, TipDeviation};
 use mcm::manipulator::{Outputs, Scene as Read, Status};
 use mcm::methods::Method;
 use rayon::prelude::*;
@@ -25,7 +25,7 @@ fn bent() -> Read {
 /// The tip's distance over the length from that of the converged answer of the same model.
 fn error(scene: &Read, answer: &Outputs, exact: &mut Equilibrium) -> f64 {
     assert!(exact.solve(&scene.inputs).unwrap().solved());
-    Gap::between(&exact.tip(), &answer.tip).distance
+    TipDeviation::between(&exact.tip(), &answer.tip).distance
 }
 
 fn converged(scene: &Read) -> Equilibrium {

@@ -1,7 +1,7 @@
 //! Random scenes of every level, with the error that is told and the error that is.
 
 use mcm::design::{Design, Segmented, Specification, SpiralKind};
-use mcm::equilibrium::{Equilibrium, Gap, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution, TipDeviation};
 use mcm::geometry::RotationVector;
 use mcm::manipulator::{Inputs, Manipulator, Status};
 use nalgebra::Vector3;
@@ -95,7 +95,7 @@ impl Scene {
         let mut exact = Equilibrium::new(&self.design, Some(&magnet), converged, 2).ok()?;
         let solved = exact.solve(&self.inputs).ok()?.solved();
         let length = self.design.length();
-        let error = Gap::between(&exact.tip(), &answer.tip).distance / length;
+        let error = TipDeviation::between(&exact.tip(), &answer.tip).distance / length;
         (answer.status != Status::NotSolved && solved).then(|| Told {
             number,
             level: self.settings.interaction,

@@ -5,10 +5,10 @@
 
 use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vector3};
 
-use super::columns::turned;
+use super::input_derivatives::turned;
 use super::inputs::Inputs;
 use super::jacobian::{Counts, Input};
-use super::response::{Motion, Response, carry, inside};
+use super::response::{Motion, Response, inside, transport_base};
 use super::solution::Solution;
 use super::solver::{Equilibrium, Place};
 use super::terms::FIELD_INPUTS;
@@ -22,7 +22,7 @@ const CORNER: f64 = 1e-9;
 
 /// What a quantity does when the whole scene moves as one body.
 #[derive(Debug, Clone, Copy)]
-enum Carried {
+enum Transport {
     Not,
     Vector(Vector3<f64>),
     Position(Vector3<f64>),
@@ -30,13 +30,13 @@ enum Carried {
 }
 
 /// The rows, one quantity after the other.
-pub(super) struct Rows<'a> {
+pub(super) struct OutputDerivatives<'a> {
     matrix: DMatrix<f64>,
     next: usize,
     inputs: &'a Inputs,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> OutputDerivatives<'a> {
     pub(super) fn new(inputs: &'a Inputs, counts: &Counts) -> Self {
         Self { matrix: DMatrix::zeros(counts.outputs(), counts.inputs()), next: 0, inputs }
     }
@@ -46,7 +46,7 @@ impl<'a> Rows<'a> {
     }
 
     /// Adds a quantity, whose rates are seen from the base in the base's columns.
-    fn push<R: Dim, S: RawStorage<f64, R, Dyn>>(&mut self, rates: &Matrix<f64, R, Dyn, S>, kind: Carried) {
+    fn push<R: Dim, S: RawStorage<f64, R, Dyn>>(&mut self, rates: &Matrix<f64, R, Dyn, S>, kind: Transport) {
         let mut rows = self.matrix.rows_mut(self.next, rates.nrows());
         rows.iter_mut().zip(rates.iter()).for_each(|(entry, rate)| *entry = *rate);
         self.next += rates.nrows();
@@ -56,10 +56,10 @@ impl<'a> Rows<'a> {
             part += block;
         };
         match kind {
-            Carried::Not => {}
-            Carried::Vector(vector) => add(spin, -hat(&vector)),
-            Carried::Rotation => add(spin, Matrix3::identity()),
-            Carried::Position(point) => {
+            Transport::Not => {}
+            Transport::Vector(vector) => add(spin, -hat(&vector)),
+            Transport::Rotation => add(spin, Matrix3::identity()),
+            Transport::Position(point) => {
                 add(shift, Matrix3::identity());
                 add(spin, -hat(&(point - self.inputs.base.position)));
             }
@@ -67,31 +67,31 @@ impl<'a> Rows<'a> {
     }
 
     fn push_wrench(&mut self, rates: &DMatrix<f64>, wrench: &Wrench) {
-        self.push(&rates.rows(0, 3), Carried::Vector(wrench.force));
-        self.push(&rates.rows(3, 3), Carried::Vector(wrench.torque));
+        self.push(&rates.rows(0, 3), Transport::Vector(wrench.force));
+        self.push(&rates.rows(3, 3), Transport::Vector(wrench.torque));
     }
 }
 
 impl Equilibrium {
     /// Angle, position and rotation of the tip.
-    pub(super) fn add_tip(&self, rows: &mut Rows<'_>, response: &Response) {
+    pub(super) fn add_tip(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let tip = self.tip();
         let rates = self.tip_rates(response);
         let open = bending(&rows.inputs.base.axis(), &tip.axis());
-        rows.push(&(open.transpose() * rates.rows(3, 3)), Carried::Not);
-        rows.push(&rates.rows(0, 3), Carried::Position(tip.position));
-        rows.push(&rates.rows(3, 3), Carried::Rotation);
+        rows.push(&(open.transpose() * rates.rows(3, 3)), Transport::Not);
+        rows.push(&rates.rows(0, 3), Transport::Position(tip.position));
+        rows.push(&rates.rows(3, 3), Transport::Rotation);
     }
 
     /// The wrenches of the field on the chain, of the clamp, and of the chain on the magnet.
-    pub(super) fn add_wrenches(&self, rows: &mut Rows<'_>, response: &Response) {
+    pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let Response { by_base, columns, unknowns, .. } = response;
         let inputs = rows.inputs;
         let mut with_field = by_base.clone();
         with_field.rows_mut(FIELD_INPUTS, by_base.nrows() - FIELD_INPUTS).fill(0.0);
         let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
         let mut on_field = first(&columns.clamp, FIELD_INPUTS);
-        carry(&mut on_field, by_base);
+        transport_base(&mut on_field, by_base);
         rows.push_wrench(&(by_shape - on_field), &self.magnetic_wrench());
         rows.push_wrench(&response.clamp, &self.base_reaction());
 
@@ -104,12 +104,16 @@ impl Equilibrium {
         torque -= moved;
         let mut by_position = torque.columns_mut(0, 3);
         by_position += hat(&reaction.force);
-        carry(&mut on_magnet, by_base);
+        transport_base(&mut on_magnet, by_base);
         rows.push_wrench(&(on_magnet - by_shape), &reaction);
     }
 
     /// The external field at the tip.
-    pub(super) fn add_tip_field(&self, rows: &mut Rows<'_>, response: &Response) -> Result<(), Error> {
+    pub(super) fn add_tip_field(
+        &self,
+        rows: &mut OutputDerivatives<'_>,
+        response: &Response,
+    ) -> Result<(), Error> {
         let (inputs, tip) = (rows.inputs, self.tip().position);
         let here = self.field_at(inputs, &tip).ok_or_else(inside)?;
         let mut terms = self.terms(inputs);
@@ -126,13 +130,13 @@ impl Equilibrium {
                 gradient.set_column(column, &(gradient.column(column) - rate));
             }
         }
-        carry(&mut field, &response.by_base);
-        rows.push(&(field + gradient * self.tip_rates(response).rows(0, 3)), Carried::Vector(here));
+        transport_base(&mut field, &response.by_base);
+        rows.push(&(field + gradient * self.tip_rates(response).rows(0, 3)), Transport::Vector(here));
         Ok(())
     }
 
     /// The centreline.
-    pub(super) fn add_shape(&mut self, rows: &mut Rows<'_>, response: &Response) {
+    pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         for point in self.shape.clone().iter() {
             let (pose, rates) = match &point.place {
                 Place::Rigid(node, distance) => {
@@ -142,24 +146,24 @@ impl Equilibrium {
                 }
                 Place::Elastic(element, row) => self.place(*element, row, &response.motion),
             };
-            rows.push(&rates.rows(0, 3), Carried::Position(pose.position));
+            rows.push(&rates.rows(0, 3), Transport::Position(pose.position));
         }
     }
 
     /// Position, rotation and axis of each ring.
-    pub(super) fn add_rings(&self, rows: &mut Rows<'_>, response: &Response) {
+    pub(super) fn add_rings(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         for (body, pose) in self.chain.rings.iter().zip(self.rings()) {
             let arm = pose.position - self.work.nodes[body.node].position;
             let rates = moved(&response.motion.nodes[body.node], &arm);
             let axis = pose.axis();
-            rows.push(&rates.rows(0, 3), Carried::Position(pose.position));
-            rows.push(&rates.rows(3, 3), Carried::Rotation);
-            rows.push(&(-hat(&axis) * rates.rows(3, 3)), Carried::Vector(axis));
+            rows.push(&rates.rows(0, 3), Transport::Position(pose.position));
+            rows.push(&rates.rows(3, 3), Transport::Rotation);
+            rows.push(&(-hat(&axis) * rates.rows(3, 3)), Transport::Vector(axis));
         }
     }
 
     /// The bending of each core.
-    pub(super) fn add_cores(&mut self, rows: &mut Rows<'_>, response: &Response) {
+    pub(super) fn add_cores(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let chain = self.chain.clone();
         for (start, stop) in &chain.cores {
             let [first, _] = &chain.elements[*start].core_ends;
@@ -167,7 +171,7 @@ impl Equilibrium {
             let (from, from_rates) = self.place(*start, first, &response.motion);
             let (to, to_rates) = self.place(*stop, last, &response.motion);
             let open = bending(&from.axis(), &to.axis());
-            rows.push(&(open.transpose() * (to_rates - from_rates).rows(3, 3)), Carried::Not);
+            rows.push(&(open.transpose() * (to_rates - from_rates).rows(3, 3)), Transport::Not);
         }
     }
 
@@ -182,7 +186,7 @@ impl Equilibrium {
         let amplitudes = self.chain.part(k, &self.branch.unknowns);
         let local = self.work.configurations[k].pose_at(element, row, amplitudes);
         let left = Configuration::rotation_at(element, row, amplitudes).left_jacobian();
-        let tangent = &mut self.work.tangents[k];
+        let tangent = &mut self.work.derivatives[k];
         let size = tangent.size;
         let columns = DMatrixView::from_slice(tangent.motion(element, row, &local.position, &left), size, 6);
         let node = self.work.nodes[k];

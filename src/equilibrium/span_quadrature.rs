@@ -3,7 +3,7 @@
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
 use crate::geometry::Pose;
-use crate::rod::{Element, Piece, Sample, Sight};
+use crate::rod::{Element, Piece, SourceGeometry, StationQuadrature};
 
 /// Bends up to which each of the samples of a view is made, rad; the last serves beyond too.
 const BENDS: [f64; 5] = [0.08, 0.16, 0.32, 0.64, 1.28];
@@ -13,22 +13,22 @@ pub(super) const SPAN_SHARE: f64 = 0.3;
 
 /// The samples of an element for one ring, by bend.
 #[derive(Debug, Clone)]
-struct View {
+struct SpanQuadrature {
     /// An element of this make.
     element: usize,
-    sight: Sight,
-    samples: [Vec<Sample>; BENDS.len()],
+    sight: SourceGeometry,
+    samples: [Vec<StationQuadrature>; BENDS.len()],
 }
 
 /// The samples of all elements for all rings; equal ones are kept once.
 #[derive(Debug, Clone)]
-pub(super) struct Views {
-    views: Vec<View>,
+pub(super) struct SpanQuadratures {
+    views: Vec<SpanQuadrature>,
     /// By element and ring; `None` where the ring does not act.
     places: Vec<Vec<Option<usize>>>,
 }
 
-impl Views {
+impl SpanQuadratures {
     /// Of elements made of `pieces`.
     pub(super) fn new(
         elements: &[Element],
@@ -36,13 +36,14 @@ impl Views {
         rings: &[RingBody],
         settings: &Settings,
     ) -> Self {
-        let mut views: Vec<View> = Vec::new();
+        let mut views: Vec<SpanQuadrature> = Vec::new();
         let mut place = |element: usize, body: &RingBody| {
             let sight = sight(elements, element, body, settings)?;
-            let same = |view: &View| view.sight == sight && pieces[view.element] == pieces[element];
+            let same = |view: &SpanQuadrature| view.sight == sight && pieces[view.element] == pieces[element];
             Some(views.iter().position(same).unwrap_or_else(|| {
-                let at = |bend| elements[element].samples(&pieces[element], &Sight { bend, ..sight });
-                views.push(View { element, sight, samples: BENDS.map(at) });
+                let at =
+                    |bend| elements[element].samples(&pieces[element], &SourceGeometry { bend, ..sight });
+                views.push(SpanQuadrature { element, sight, samples: BENDS.map(at) });
                 views.len() - 1
             }))
         };
@@ -51,7 +52,7 @@ impl Views {
     }
 
     /// The samples of an element for a ring, at a level of [`Self::level`].
-    pub(super) fn samples(&self, element: usize, ring: usize, level: usize) -> &[Sample] {
+    pub(super) fn samples(&self, element: usize, ring: usize, level: usize) -> &[StationQuadrature] {
         self.places[element][ring].map_or(&[], |place| &self.views[place].samples[level])
     }
 
@@ -67,7 +68,7 @@ impl Views {
 }
 
 /// Where a ring is seen from element `k` of the straight chain, if it acts there.
-fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<Sight> {
+fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<SourceGeometry> {
     let beyond = body.node > k;
     let acts = match settings.interaction {
         Interaction::None | Interaction::Rings | Interaction::Auto => false,
@@ -78,7 +79,7 @@ fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -
     let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
     // What stands before an element's start is counted with it: the ring itself, or the one that it faces.
     let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
-    acts.then(|| Sight {
+    acts.then(|| SourceGeometry {
         distance,
         beyond,
         bonded: body.node == k || body.node == k + 1,

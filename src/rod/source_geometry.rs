@@ -15,7 +15,7 @@ const MOST_POINTS: usize = 24;
 
 /// Where a ring is, seen from an element of the straight manipulator.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sight {
+pub struct SourceGeometry {
     /// Distance of the ring's facing side from the element's nearer end, m.
     pub distance: f64,
     /// Whether the ring is past the element's end, not before its start.
@@ -30,7 +30,7 @@ pub struct Sight {
     pub accuracy: f64,
 }
 
-impl Sight {
+impl SourceGeometry {
     /// Natural logarithm of the accuracy needed at a distance from the ring's face (m): the energy falls with its cube.
     fn digits(&self, distance: f64) -> f64 {
         -(self.accuracy * (0.5 * distance / self.radius).max(1.0).powi(3)).ln()

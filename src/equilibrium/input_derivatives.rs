@@ -12,7 +12,7 @@ use crate::rod::START;
 
 /// Mixed derivatives at a fixed base, one column an input; the base's own columns are zero.
 #[derive(Debug, Clone)]
-pub(super) struct Columns {
+pub(super) struct InputDerivatives {
     /// By the unknowns.
     pub(super) gradient: DMatrix<f64>,
     /// By a rigid displacement (m) and rotation (rad, about the base) of the whole chain.
@@ -31,7 +31,7 @@ pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<
 impl Potential<'_> {
     /// The columns at the shape that was linearised last; `None` where a body lies inside or on an edge of
     /// the magnet, be it switched off.
-    pub(super) fn columns(&mut self, counts: &Counts) -> Option<Columns> {
+    pub(super) fn columns(&mut self, counts: &Counts) -> Option<InputDerivatives> {
         let mut gradient = DMatrix::zeros(self.chain.freedoms(), counts.inputs());
         let last = self.chain.elements.len();
         let mut clamp = self.on_node(last, counts)?;
@@ -44,7 +44,7 @@ impl Potential<'_> {
                 let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
                 let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0);
                 let state = &self.work.configurations[k].stations[index];
-                let tangent = &mut self.work.tangents[k];
+                let tangent = &mut self.work.derivatives[k];
                 let size = tangent.size;
                 let motion = DMatrixView::from_slice(tangent.station_motion(element, index, state), size, 6);
                 block.gemm(1.0, &motion, &load, 1.0);
@@ -54,15 +54,15 @@ impl Potential<'_> {
                 .copy_from(&block.rows(START, block.nrows() - START));
             clamp = turned(&axes, &block.rows(0, START).into_owned()) + self.on_node(k, counts)?;
         }
-        Some(Columns { gradient, clamp })
+        Some(InputDerivatives { gradient, clamp })
     }
 
-    /// Displacement and rotation of an element's end by the columns of its [`crate::rod::Tangent`], transposed.
+    /// Displacement and rotation of an element's end by the columns of its [`crate::rod::ElementDerivatives`], transposed.
     pub(super) fn end_motion(&mut self, k: usize) -> DMatrix<f64> {
         let element = &self.chain.elements[k];
         let configuration = &self.work.configurations[k];
         let (left, row) = (configuration.end_theta.left_jacobian(), element.row(element.length));
-        let tangent = &mut self.work.tangents[k];
+        let tangent = &mut self.work.derivatives[k];
         let size = tangent.size;
         DMatrix::from_column_slice(size, 6, tangent.motion(element, &row, &configuration.end.position, &left))
     }
@@ -80,7 +80,7 @@ impl Potential<'_> {
 
 /// How the inputs change when all that is fixed in the world moves along each axis (m) and turns about it at the
 /// base position (rad): six columns, a row for each input.
-pub(super) fn carried(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
+pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
     let base = inputs.base.position;
     let linear = LinearField::new(inputs.uniform_field, inputs.field_gradient);
     let gradient = linear.gradient();

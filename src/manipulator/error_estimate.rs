@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::equilibrium::{Equilibrium, Gap, Inputs, Solution};
+use crate::equilibrium::{Equilibrium, Inputs, Solution, TipDeviation};
 use crate::geometry::Pose;
 
 /// Part of the tolerance beyond which a cheaper model of the interaction is left.
@@ -24,24 +24,24 @@ const GROWTH: i32 = 5;
 
 /// When a model was judged last, and its error there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Judgement {
+pub(super) struct ErrorEstimate {
     inputs: Inputs,
     tip: Pose,
     field: Vector3<f64>,
     /// The error of the tip.
-    pub(super) gap: Gap,
+    pub(super) gap: TipDeviation,
 }
 
-impl Judgement {
+impl ErrorEstimate {
     /// That the last answer of `model`, at `inputs`, is off by `gap`.
-    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, gap: Gap) -> Self {
+    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) -> Self {
         let tip = model.tip();
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
         Self { inputs: inputs.clone(), tip, field, gap }
     }
 
     /// The same instead of an earlier one, without allocating.
-    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, gap: Gap) {
+    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) {
         self.inputs.copy_from(inputs);
         (self.tip, self.gap) = (model.tip(), gap);
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
@@ -53,7 +53,7 @@ impl Judgement {
         let part =
             |change: f64, a: f64, b: f64| if change == 0.0 { 0.0 } else { change / (CHANGED * a.max(b)) };
         let other = |a: &Vector3<f64>, b: &Vector3<f64>| part((a - b).norm(), a.norm(), b.norm());
-        let moved = Gap::between(&tip, &self.tip);
+        let moved = TipDeviation::between(&tip, &self.tip);
         let [gradient, before] = [inputs, then].map(|i| SVector::from(i.field_gradient));
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
         let changes = [
@@ -70,12 +70,12 @@ impl Judgement {
     }
 
     /// Whether that is enough to judge again: the better it was, beside the tolerance, the older it may be.
-    pub(super) fn is_old(&self, age: f64, tolerance: &Gap) -> bool {
+    pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {
         age > tolerance.room(&self.gap, CLIMB).clamp(1.0, STANDING)
     }
 
     /// What the error may be at that age.
-    pub(super) fn error(&self, age: f64) -> Gap {
+    pub(super) fn error(&self, age: f64) -> TipDeviation {
         self.gap.times((1.0 + CHANGED * age).powi(GROWTH))
     }
 }

@@ -8,7 +8,7 @@ use crate::geometry::hat;
 /// Sums of the field over the dipoles of a section, weighted with their moments and with the coordinates `x`, `y` along
 /// `d1`, `d2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sheet {
+pub struct SectionDipoles {
     field: Vector3<f64>,
     /// Gradient, weighted with 1, x, y.
     gradient: [Matrix3<f64>; 3],
@@ -16,7 +16,7 @@ pub struct Sheet {
     along: Option<[Matrix3<f64>; 6]>,
 }
 
-impl Sheet {
+impl SectionDipoles {
     /// No dipoles; `stiff` where second derivatives are summed too.
     #[must_use]
     pub fn new(stiff: bool) -> Self {

@@ -13,9 +13,9 @@ pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);
 
 /// Derivatives of the load's energy by position and rotation of its frame (six rows, world axes), one column an input.
 #[derive(Debug, Clone)]
-pub(crate) struct InputDerivatives(pub(crate) DMatrix<f64>);
+pub(crate) struct LoadDerivatives(pub(crate) DMatrix<f64>);
 
-impl InputDerivatives {
+impl LoadDerivatives {
     /// Of no load.
     pub(super) fn none(inputs: usize) -> Self {
         Self(DMatrix::zeros(6, inputs))

@@ -1,4 +1,4 @@
-//! As much model as the tolerances need: a ladder of models of one design, from the cheapest to the richest.
+//! As much model as the tolerances need: a hierarchy of models of one design, from the cheapest to the richest.
 //!
 //! Level `auto` has several models of the interaction, of which the richest is the judge: one Newton step of it from the shape
 //! of a cheaper one tells how far that is off. A fixed level has one. Above the richest stand finer discretisations of it, made
@@ -12,10 +12,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::judgement::{CLIMB, Judgement};
+use super::error_estimate::{CLIMB, ErrorEstimate};
 use super::models::Models;
 use crate::design::Design;
-use crate::equilibrium::{self, Deadline, Equilibrium, Gap, Inputs, Report, Settings};
+use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
@@ -35,10 +35,10 @@ const PATIENCE: u32 = 16;
 
 /// The models of one design, the one that answers, and how far that is off.
 #[derive(Debug, Clone)]
-pub(super) struct Ladder {
+pub(super) struct Hierarchy {
     models: Models,
     present: usize,
-    judged: Option<Judgement>,
+    judged: Option<ErrorEstimate>,
     /// How much has changed since.
     age: f64,
     wait: Wait,
@@ -46,7 +46,7 @@ pub(super) struct Ladder {
     fold_margin: f64,
     time_budget: f64,
     /// Largest error of the tip: position (m) and angle (rad).
-    tolerance: Gap,
+    tolerance: TipDeviation,
     /// The residual that is asked for of the richest model.
     residual: f64,
 }
@@ -78,17 +78,17 @@ impl Wait {
     }
 }
 
-/// What a ladder remembers of its past.
+/// What a hierarchy remembers of its past.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Snapshot {
     present: usize,
     wait: Wait,
     equilibrium: equilibrium::Snapshot,
-    judged: Option<Judgement>,
+    judged: Option<ErrorEstimate>,
     age: f64,
 }
 
-impl Ladder {
+impl Hierarchy {
     /// # Errors
     /// As [`Equilibrium::new`].
     pub(super) fn new(
@@ -106,7 +106,10 @@ impl Ladder {
             length: design.length(),
             fold_margin: settings.fold_margin,
             time_budget: settings.time_budget,
-            tolerance: Gap { distance: settings.tolerance_position, angle: settings.tolerance_angle },
+            tolerance: TipDeviation {
+                distance: settings.tolerance_position,
+                angle: settings.tolerance_angle,
+            },
             residual: settings.tolerance,
         };
         out.relax();
@@ -115,7 +118,7 @@ impl Ladder {
 
     /// Lets the cheaper models end as soon as their residual is small beside the tolerances.
     fn relax(&mut self) {
-        let Gap { distance, angle } = self.tolerance;
+        let TipDeviation { distance, angle } = self.tolerance;
         let residual = RESIDUAL * (distance / self.length).min(angle);
         let residual = residual.clamp(self.residual, RELAXED * self.residual);
         self.models.cheaper().iter_mut().for_each(|model| model.set_tolerance(residual));
@@ -138,7 +141,7 @@ impl Ladder {
     }
 
     /// New tolerances; the next solve judges by them.
-    pub(super) fn set_tolerance(&mut self, tolerance: Gap) {
+    pub(super) fn set_tolerance(&mut self, tolerance: TipDeviation) {
         if self.tolerance != tolerance {
             (self.tolerance, self.judged) = (tolerance, None);
             self.relax();
@@ -160,17 +163,17 @@ impl Ladder {
         // All models of one solve share its time.
         let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
-            return self.ascend(0, inputs, &deadline, |models, rung, from| {
+            return self.ascend(0, inputs, &deadline, |models, level, from| {
                 if let Some(from) = from
-                    && models.is_refinement(rung, from)
+                    && models.is_refinement(level, from)
                 {
-                    models.warm_start(rung, from, inputs);
-                    let report = models.at_mut(rung).solve_before(&deadline, inputs)?;
+                    models.warm_start(level, from, inputs);
+                    let report = models.at_mut(level).solve_before(&deadline, inputs)?;
                     if report.solved() && report.snaps == 0 {
                         return Ok(report);
                     }
                 }
-                let model = models.at_mut(rung);
+                let model = models.at_mut(level);
                 model.reset();
                 model.solve_before(&deadline, inputs)
             });
@@ -184,9 +187,9 @@ impl Ladder {
             && !(self.is_sound(&report) && (!changed || self.holds(inputs, &deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
-            return self.ascend(next, inputs, &deadline, |models, rung, _| {
-                models.adopt(rung, from, &shape, &before);
-                let model = models.at_mut(rung);
+            return self.ascend(next, inputs, &deadline, |models, level, _| {
+                models.adopt(level, from, &shape, &before);
+                let model = models.at_mut(level);
                 let settled = model.solve_before(&deadline, &before)?;
                 let report = model.solve_before(&deadline, inputs)?;
                 let (iterations, snaps) =
@@ -290,22 +293,22 @@ impl Ladder {
     fn judge(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();
         let error = if late { None } else { self.models.error(self.present)? };
-        let unknown = Gap { distance: self.length, angle: core::f64::consts::PI };
+        let unknown = TipDeviation { distance: self.length, angle: core::f64::consts::PI };
         self.note(inputs, error.unwrap_or(unknown));
         let good = |gap| self.tolerance.room(&gap, part) >= 1.0;
         Ok(error.map_or(self.present >= self.models.richest(), good))
     }
 
-    fn note(&mut self, inputs: &Inputs, gap: Gap) {
+    fn note(&mut self, inputs: &Inputs, gap: TipDeviation) {
         let model = self.models.at(self.present);
         (self.age, self.wait.counted) = (0.0, 0.0);
         match &mut self.judged {
             Some(judged) => judged.renew(model, inputs, gap),
-            None => self.judged = Some(Judgement::new(model, inputs, gap)),
+            None => self.judged = Some(ErrorEstimate::new(model, inputs, gap)),
         }
     }
 
-    /// Whether enough has changed since the last judgement to judge again.
+    /// Whether enough has changed since the last estimate to judge again.
     fn has_changed(&mut self, inputs: &Inputs) -> bool {
         let Some(judged) = &self.judged else { return true };
         self.age = judged.age(self.models.at(self.present), inputs, self.length);

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::chain::Chain;
 use super::settings::Settings;
-use super::views::Views;
+use super::span_quadrature::SpanQuadratures;
 use crate::geometry::Pose;
 use crate::magnetics::{AxialRule, PairRule, PairTable};
 
 /// One quadrature rule per pair, upper triangle row by row, out of a table made once.
 #[derive(Debug, Clone)]
-pub(crate) struct PairRules {
+pub(crate) struct PairQuadrature {
     /// By ring; equal rings share one.
     tables: Vec<Arc<PairTable>>,
     chosen: Vec<usize>,
@@ -20,7 +20,7 @@ pub(crate) struct PairRules {
     number: u64,
 }
 
-impl PairRules {
+impl PairQuadrature {
     /// Tables for the accuracy and the interaction of `settings`.
     pub(crate) fn new(chain: &Chain, settings: &Settings) -> Self {
         let accuracy = settings.pair_accuracy;
@@ -59,7 +59,7 @@ impl PairRules {
             .iter_mut()
             .zip(nodes.windows(2).flat_map(|ends| chain.rings.iter().map(move |body| (ends, body))))
         {
-            let level = Views::level(&nodes[body.node], [&ends[0], &ends[1]]);
+            let level = SpanQuadratures::level(&nodes[body.node], [&ends[0], &ends[1]]);
             changed |= level != std::mem::replace(slot, level);
         }
         self.number += u64::from(changed);
@@ -77,7 +77,7 @@ impl PairRules {
         let most = self.tables.iter().map(|table| table.len()).min().unwrap_or(0);
         let known = spans.len() == self.spans.len()
             && pairs.iter().all(|&number| number < most)
-            && spans.iter().all(|&level| level < Views::LEVELS);
+            && spans.iter().all(|&level| level < SpanQuadratures::LEVELS);
         if known && !self.chosen().eq(chosen.iter().copied()) {
             self.chosen.copy_from_slice(pairs);
             self.spans.copy_from_slice(spans);

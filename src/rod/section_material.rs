@@ -5,7 +5,7 @@ use crate::design::Span;
 
 /// What has weight and magnetic moment at one place of the centreline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Matter {
+pub struct SectionMaterial {
     /// Moments of the material.
     pub moments: SectionMoments,
     /// Magnetisation of the material, A/m.
@@ -16,7 +16,7 @@ pub struct Matter {
     pub line_mass: f64,
 }
 
-impl Matter {
+impl SectionMaterial {
     /// Material of a length `weight` (m) of `span` with these moments.
     pub(super) fn new(span: &Span, moments: SectionMoments, weight: f64) -> Self {
         Self {

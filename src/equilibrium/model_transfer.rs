@@ -14,7 +14,7 @@ pub(super) const NEAR: f64 = 1.0;
 
 /// How far one tip is from another.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Gap {
+pub struct TipDeviation {
     /// Distance of the tips, m.
     pub distance: f64,
     /// Angle by which one is turned against the other, rad.
@@ -35,7 +35,7 @@ impl Equilibrium {
     /// Newton step of this model from there. The branch of this model is forgotten: it is left at the end of that step.
     ///
     /// `None` if nothing is solved yet, if the step is too long to tell, or if this model is not stable there.
-    pub fn gap(&mut self, other: &Self) -> Option<Gap> {
+    pub fn gap(&mut self, other: &Self) -> Option<TipDeviation> {
         let inputs = other.branch.inputs.clone()?;
         self.adopt(other, other.unknowns(), &inputs);
         let mut unknowns = std::mem::take(&mut self.branch.unknowns);
@@ -46,17 +46,17 @@ impl Equilibrium {
         if stable {
             potential.solve(&mut step);
         }
-        let near = stable && norm(&self.chain.metric, &step) <= NEAR * self.chain.unit();
+        let near = stable && norm(&self.chain.metric, &step) <= NEAR * self.chain.radian_norm();
         if near {
             unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
         }
         self.work.place(&self.chain, &inputs.base, &unknowns);
         self.branch.unknowns = unknowns;
-        near.then(|| Gap::between(&self.tip(), &other.tip())).filter(Gap::is_finite)
+        near.then(|| TipDeviation::between(&self.tip(), &other.tip())).filter(TipDeviation::is_finite)
     }
 }
 
-impl Gap {
+impl TipDeviation {
     /// None at all.
     pub const NONE: Self = Self { distance: 0.0, angle: 0.0 };
 

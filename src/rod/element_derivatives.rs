@@ -27,7 +27,7 @@ pub const START: usize = 6;
 
 /// First and second derivatives of one element's part of the Lagrangian.
 #[derive(Debug, Clone)]
-pub struct Tangent {
+pub struct ElementDerivatives {
     /// Rows and columns: six of the start node and the element's freedoms.
     pub size: usize,
     /// Gradient.
@@ -44,7 +44,7 @@ pub struct Tangent {
     answer: Vec<f64>,
 }
 
-impl Tangent {
+impl ElementDerivatives {
     /// Storage for `element`.
     #[must_use]
     pub fn new(element: &Element) -> Self {
