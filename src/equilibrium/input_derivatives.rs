@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DMatrixView, Matrix3, Vector3};
 
 use super::inputs::Inputs;
-use super::jacobian::{Counts, Input};
+use super::layout::{Counts, Input};
 use super::potential::Potential;
 use super::terms::Frame;
 use crate::geometry::hat;
@@ -81,9 +81,19 @@ impl Potential<'_> {
 /// How the inputs change when all that is fixed in the world moves along each axis (m) and turns about it at the
 /// base position (rad): six columns, a row for each input.
 pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
-    let base = inputs.base.position;
-    let linear = LinearField::new(inputs.uniform_field, inputs.field_gradient);
-    let gradient = linear.gradient();
+    let Inputs {
+        magnet,
+        magnet_strength: _, // stays as it is
+        uniform_field,
+        field_gradient,
+        base,
+        tip_force,
+        tip_moment,
+        ring_forces,
+        gravity,
+    } = inputs;
+    let base = base.position;
+    let field_gradient = LinearField::new(*uniform_field, *field_gradient).gradient();
     let mut out = DMatrix::zeros(counts.inputs(), 6);
     for column in 0..6 {
         let unit = Vector3::ith(column % 3, 1.0);
@@ -92,16 +102,16 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
             out.view_mut((input.columns().start, column), (rate.len(), 1)).copy_from_slice(rate);
         };
         let velocity = |point: &Vector3<f64>| shift + spin.cross(&(point - base));
-        set(Input::MagnetPosition, velocity(&inputs.magnet.position).as_slice());
+        set(Input::MagnetPosition, velocity(&magnet.position).as_slice());
         set(Input::MagnetRotation, spin.as_slice());
-        let field = spin.cross(&inputs.uniform_field) - gradient * velocity(&Vector3::zeros());
+        let field = spin.cross(uniform_field) - field_gradient * velocity(&Vector3::zeros());
         set(Input::UniformField, field.as_slice());
-        let turn = hat(&spin) * gradient - gradient * hat(&spin);
+        let turn = hat(&spin) * field_gradient - field_gradient * hat(&spin);
         set(Input::FieldGradient, &[turn.m11, turn.m12, turn.m13, turn.m22, turn.m23]);
-        set(Input::TipForce, spin.cross(&inputs.tip_force).as_slice());
-        set(Input::TipMoment, spin.cross(&inputs.tip_moment).as_slice());
-        set(Input::Gravity, spin.cross(&inputs.gravity).as_slice());
-        for (ring, force) in inputs.ring_forces.iter().enumerate() {
+        set(Input::TipForce, spin.cross(tip_force).as_slice());
+        set(Input::TipMoment, spin.cross(tip_moment).as_slice());
+        set(Input::Gravity, spin.cross(gravity).as_slice());
+        for (ring, force) in ring_forces.iter().enumerate() {
             set(Input::RingForce(ring), spin.cross(force).as_slice());
         }
     }

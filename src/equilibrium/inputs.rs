@@ -116,19 +116,30 @@ impl Inputs {
 
     /// The numbers of each quantity.
     fn quantities(&self) -> impl Iterator<Item = &[f64]> {
+        let Self {
+            magnet,
+            magnet_strength,
+            uniform_field,
+            field_gradient,
+            base,
+            tip_force,
+            tip_moment,
+            ring_forces,
+            gravity,
+        } = self;
         let numbers = [
-            self.magnet.position.as_slice(),
-            self.magnet.rotation.as_slice(),
-            std::slice::from_ref(&self.magnet_strength),
-            self.uniform_field.as_slice(),
-            &self.field_gradient,
-            self.base.position.as_slice(),
-            self.base.rotation.as_slice(),
-            self.tip_force.as_slice(),
-            self.tip_moment.as_slice(),
-            self.gravity.as_slice(),
+            magnet.position.as_slice(),
+            magnet.rotation.as_slice(),
+            std::slice::from_ref(magnet_strength),
+            uniform_field.as_slice(),
+            field_gradient,
+            base.position.as_slice(),
+            base.rotation.as_slice(),
+            tip_force.as_slice(),
+            tip_moment.as_slice(),
+            gravity.as_slice(),
         ];
-        numbers.into_iter().chain(self.ring_forces.iter().map(Vector3::as_slice))
+        numbers.into_iter().chain(ring_forces.iter().map(Vector3::as_slice))
     }
 
     /// Checks that every number is finite and that there is one force for each of `rings` rings.
@@ -136,33 +147,41 @@ impl Inputs {
     /// # Errors
     /// [`Error::Range`] naming the first quantity that is not finite, [`Error::Count`] for the forces.
     pub fn check(&self, rings: usize) -> Result<(), Error> {
-        let vectors = [
-            ("magnet position (m)", self.magnet.position),
-            ("uniform field (T)", self.uniform_field),
-            ("base position (m)", self.base.position),
-            ("tip force (N)", self.tip_force),
-            ("tip moment (N m)", self.tip_moment),
-            ("gravity (m/s2)", self.gravity),
+        let Self {
+            magnet,
+            magnet_strength,
+            uniform_field,
+            field_gradient,
+            base,
+            tip_force,
+            tip_moment,
+            ring_forces,
+            gravity,
+        } = self;
+        let named = [
+            ("magnet position (m)", magnet.position.as_slice()),
+            ("uniform field (T)", uniform_field.as_slice()),
+            ("base position (m)", base.position.as_slice()),
+            ("tip force (N)", tip_force.as_slice()),
+            ("tip moment (N m)", tip_moment.as_slice()),
+            ("gravity (m/s2)", gravity.as_slice()),
         ];
-        let named = vectors.iter().map(|(name, vector)| (*name, vector));
-        for (name, vector) in named.chain(self.ring_forces.iter().map(|force| ("ring force (N)", force))) {
-            for value in vector.iter() {
+        let forces = ring_forces.iter().map(|force| ("ring force (N)", force.as_slice()));
+        let rest = [
+            ("magnet orientation", magnet.rotation.as_slice()),
+            ("base orientation", base.rotation.as_slice()),
+            ("magnet strength", std::slice::from_ref(magnet_strength)),
+            ("field gradient (T/m)", field_gradient),
+        ];
+        for (name, values) in named.into_iter().chain(forces).chain(rest) {
+            for value in values {
                 check(name, *value, |_| true, "finite")?;
             }
         }
-        for (name, pose) in [("magnet orientation", &self.magnet), ("base orientation", &self.base)] {
-            for value in pose.rotation.iter() {
-                check(name, *value, |_| true, "finite")?;
-            }
-        }
-        check("magnet strength", self.magnet_strength, |_| true, "finite")?;
-        for value in self.field_gradient {
-            check("field gradient (T/m)", value, |_| true, "finite")?;
-        }
-        if self.ring_forces.len() == rings {
+        if ring_forces.len() == rings {
             return Ok(());
         }
         let expected = format!("{rings}, one for each ring");
-        Err(Error::Count { quantity: "ring forces".into(), given: self.ring_forces.len(), expected })
+        Err(Error::Count { quantity: "ring forces".into(), given: ring_forces.len(), expected })
     }
 }

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vect
 
 use super::input_derivatives::turned;
 use super::inputs::Inputs;
-use super::jacobian::{Counts, Input};
+use super::layout::{Counts, Input, Output};
 use super::response::{Motion, Response, inside, transport_base};
 use super::solution::Solution;
 use super::solver::{Equilibrium, Place};
@@ -29,27 +29,32 @@ enum Transport {
     Rotation,
 }
 
-/// The rows, one quantity after the other.
+/// The rows of all outputs.
 pub(super) struct OutputDerivatives<'a> {
     matrix: DMatrix<f64>,
-    next: usize,
+    counts: Counts,
     inputs: &'a Inputs,
 }
 
 impl<'a> OutputDerivatives<'a> {
     pub(super) fn new(inputs: &'a Inputs, counts: &Counts) -> Self {
-        Self { matrix: DMatrix::zeros(counts.outputs(), counts.inputs()), next: 0, inputs }
+        Self { matrix: DMatrix::zeros(counts.outputs(), counts.inputs()), counts: *counts, inputs }
     }
 
     pub(super) fn into_matrix(self) -> DMatrix<f64> {
         self.matrix
     }
 
-    /// Adds a quantity, whose rates are seen from the base in the base's columns.
-    fn push<R: Dim, S: RawStorage<f64, R, Dyn>>(&mut self, rates: &Matrix<f64, R, Dyn, S>, kind: Transport) {
-        let mut rows = self.matrix.rows_mut(self.next, rates.nrows());
+    /// Sets the rows of an output, whose rates are seen from the base in the base's columns.
+    fn set<R: Dim, S: RawStorage<f64, R, Dyn>>(
+        &mut self,
+        output: Output,
+        rates: &Matrix<f64, R, Dyn, S>,
+        kind: Transport,
+    ) {
+        let Some(range) = self.counts.rows(output) else { return };
+        let mut rows = self.matrix.rows_mut(range.start, range.len());
         rows.iter_mut().zip(rates.iter()).for_each(|(entry, rate)| *entry = *rate);
-        self.next += rates.nrows();
         let (shift, spin) = (Input::BasePosition.columns().start, Input::BaseRotation.columns().start);
         let mut add = |column: usize, block: Matrix3<f64>| {
             let mut part = rows.columns_mut(column, 3);
@@ -66,9 +71,9 @@ impl<'a> OutputDerivatives<'a> {
         }
     }
 
-    fn push_wrench(&mut self, rates: &DMatrix<f64>, wrench: &Wrench) {
-        self.push(&rates.rows(0, 3), Transport::Vector(wrench.force));
-        self.push(&rates.rows(3, 3), Transport::Vector(wrench.torque));
+    fn set_wrench(&mut self, [force, torque]: [Output; 2], rates: &DMatrix<f64>, wrench: &Wrench) {
+        self.set(force, &rates.rows(0, 3), Transport::Vector(wrench.force));
+        self.set(torque, &rates.rows(3, 3), Transport::Vector(wrench.torque));
     }
 }
 
@@ -78,9 +83,9 @@ impl Equilibrium {
         let tip = self.tip();
         let rates = self.tip_rates(response);
         let open = bending(&rows.inputs.base.axis(), &tip.axis());
-        rows.push(&(open.transpose() * rates.rows(3, 3)), Transport::Not);
-        rows.push(&rates.rows(0, 3), Transport::Position(tip.position));
-        rows.push(&rates.rows(3, 3), Transport::Rotation);
+        rows.set(Output::TipAngle, &(open.transpose() * rates.rows(3, 3)), Transport::Not);
+        rows.set(Output::TipPosition, &rates.rows(0, 3), Transport::Position(tip.position));
+        rows.set(Output::TipRotation, &rates.rows(3, 3), Transport::Rotation);
     }
 
     /// The wrenches of the field on the chain, of the clamp, and of the chain on the magnet.
@@ -92,20 +97,24 @@ impl Equilibrium {
         let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
         let mut on_field = first(&columns.clamp, FIELD_INPUTS);
         transport_base(&mut on_field, by_base);
-        rows.push_wrench(&(by_shape - on_field), &self.magnetic_wrench());
-        rows.push_wrench(&response.clamp, &self.base_reaction());
+        let magnetic = [Output::MagneticForce, Output::MagneticTorque];
+        rows.set_wrench(magnetic, &(by_shape - on_field), &self.magnetic_wrench());
+        let clamp = [Output::BaseReactionForce, Output::BaseReactionMoment];
+        rows.set_wrench(clamp, &response.clamp, &self.base_reaction());
 
         let reaction = self.magnet_reaction(inputs);
-        let by_shape = columns.gradient.columns(0, 6).tr_mul(unknowns);
+        let (position, rotation) = (Input::MagnetPosition.columns(), Input::MagnetRotation.columns());
+        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(unknowns);
         let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
         // From the base to the magnet's centre, which may move.
         let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);
         let mut torque = on_magnet.rows_mut(3, 3);
         torque -= moved;
-        let mut by_position = torque.columns_mut(0, 3);
+        let mut by_position = torque.columns_range_mut(position);
         by_position += hat(&reaction.force);
         transport_base(&mut on_magnet, by_base);
-        rows.push_wrench(&(on_magnet - by_shape), &reaction);
+        let magnet = [Output::MagnetReactionForce, Output::MagnetReactionTorque];
+        rows.set_wrench(magnet, &(on_magnet - by_shape), &reaction);
     }
 
     /// The external field at the tip.
@@ -131,13 +140,14 @@ impl Equilibrium {
             }
         }
         transport_base(&mut field, &response.by_base);
-        rows.push(&(field + gradient * self.tip_rates(response).rows(0, 3)), Transport::Vector(here));
+        let moved = gradient * self.tip_rates(response).rows(0, 3);
+        rows.set(Output::TipField, &(field + moved), Transport::Vector(here));
         Ok(())
     }
 
     /// The centreline.
     pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        for point in self.shape.clone().iter() {
+        for (number, point) in self.shape.clone().iter().enumerate() {
             let (pose, rates) = match &point.place {
                 Place::Rigid(node, distance) => {
                     let pose = self.work.nodes[*node];
@@ -146,32 +156,33 @@ impl Equilibrium {
                 }
                 Place::Elastic(element, row) => self.place(*element, row, &response.motion),
             };
-            rows.push(&rates.rows(0, 3), Transport::Position(pose.position));
+            rows.set(Output::ShapePoint(number), &rates.rows(0, 3), Transport::Position(pose.position));
         }
     }
 
     /// Position, rotation and axis of each ring.
     pub(super) fn add_rings(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        for (body, pose) in self.chain.rings.iter().zip(self.rings()) {
+        for (number, (body, pose)) in self.chain.rings.iter().zip(self.rings()).enumerate() {
             let arm = pose.position - self.work.nodes[body.node].position;
             let rates = moved(&response.motion.nodes[body.node], &arm);
             let axis = pose.axis();
-            rows.push(&rates.rows(0, 3), Transport::Position(pose.position));
-            rows.push(&rates.rows(3, 3), Transport::Rotation);
-            rows.push(&(-hat(&axis) * rates.rows(3, 3)), Transport::Vector(axis));
+            rows.set(Output::RingPosition(number), &rates.rows(0, 3), Transport::Position(pose.position));
+            rows.set(Output::RingRotation(number), &rates.rows(3, 3), Transport::Rotation);
+            rows.set(Output::RingAxis(number), &(-hat(&axis) * rates.rows(3, 3)), Transport::Vector(axis));
         }
     }
 
     /// The bending of each core.
     pub(super) fn add_cores(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let chain = self.chain.clone();
-        for (start, stop) in &chain.cores {
+        for (number, (start, stop)) in chain.cores.iter().enumerate() {
             let [first, _] = &chain.elements[*start].core_ends;
             let [_, last] = &chain.elements[*stop].core_ends;
             let (from, from_rates) = self.place(*start, first, &response.motion);
             let (to, to_rates) = self.place(*stop, last, &response.motion);
             let open = bending(&from.axis(), &to.axis());
-            rows.push(&(open.transpose() * (to_rates - from_rates).rows(3, 3)), Transport::Not);
+            let rates = open.transpose() * (to_rates - from_rates).rows(3, 3);
+            rows.set(Output::CoreAngle(number), &rates, Transport::Not);
         }
     }
 

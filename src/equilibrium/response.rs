@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::input_derivatives::InputDerivatives;
-use super::jacobian::{Counts, Input};
+use super::layout::{Counts, Input};
 use crate::error::Error;
 
 /// How the shape answers to the inputs, one column each; in the base's columns seen from the base.

@@ -8,7 +8,8 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use super::input_derivatives::{base_transport, turned};
 use super::inputs::Inputs;
-use super::jacobian::{Counts, Input, Jacobian};
+use super::jacobian::Jacobian;
+use super::layout::{Counts, Input};
 use super::output_derivatives::OutputDerivatives;
 use super::potential::Potential;
 use super::response::{Motion, Response, inside, transport_base};

@@ -54,18 +54,30 @@ impl ErrorEstimate {
             |change: f64, a: f64, b: f64| if change == 0.0 { 0.0 } else { change / (CHANGED * a.max(b)) };
         let other = |a: &Vector3<f64>, b: &Vector3<f64>| part((a - b).norm(), a.norm(), b.norm());
         let moved = TipDeviation::between(&tip, &self.tip);
-        let [gradient, before] = [inputs, then].map(|i| SVector::from(i.field_gradient));
+        let Inputs {
+            // These change the field at the tip and its pose, which are looked at.
+            magnet: _,
+            magnet_strength: _,
+            uniform_field: _,
+            base: _,
+            field_gradient,
+            tip_force,
+            tip_moment,
+            ring_forces,
+            gravity,
+        } = inputs;
+        let [gradient, before] = [field_gradient, &then.field_gradient].map(|g| SVector::from(*g));
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
         let changes = [
             moved.distance / (MOVED * length),
             moved.angle / MOVED,
             part((gradient - before).norm(), gradient.norm(), before.norm()),
-            other(&inputs.tip_force, &then.tip_force),
-            other(&inputs.tip_moment, &then.tip_moment),
-            other(&inputs.gravity, &then.gravity),
+            other(tip_force, &then.tip_force),
+            other(tip_moment, &then.tip_moment),
+            other(gravity, &then.gravity),
             other(&field, &self.field),
         ];
-        let forces = inputs.ring_forces.iter().zip(&then.ring_forces).map(|(a, b)| other(a, b));
+        let forces = ring_forces.iter().zip(&then.ring_forces).map(|(a, b)| other(a, b));
         changes.into_iter().chain(forces).fold(0.0, f64::max)
     }
 

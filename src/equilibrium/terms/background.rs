@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::load_derivatives::{BACKGROUND_INPUTS, FieldRate, LoadDerivatives};
 use super::{Frame, Term};
 use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::jacobian::Input;
+use crate::equilibrium::layout::Input;
 use crate::geometry::Pose;
 use crate::magnetics::LinearField;
 use crate::rod::{Load, Order};

@@ -2,11 +2,17 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-/// Inputs that make the background field: three of the uniform one, five of its gradient.
-pub(super) const BACKGROUND_INPUTS: usize = 8;
+use crate::equilibrium::layout::Input;
 
-/// Inputs that make the external field: those of the magnet (displacement, rotation and strength), then the background's.
-pub(crate) const FIELD_INPUTS: usize = 7 + BACKGROUND_INPUTS;
+/// Inputs that make the background field: three of the uniform one, five of its gradient.
+pub(super) const BACKGROUND_INPUTS: usize = Input::UniformField.width() + Input::FieldGradient.width();
+
+/// Those of the magnet: displacement, rotation and strength.
+pub(super) const MAGNET_INPUTS: usize =
+    Input::MagnetPosition.width() + Input::MagnetRotation.width() + Input::MagnetStrength.width();
+
+/// Inputs that make the external field, which are the first columns: those of the magnet, then the background's.
+pub(crate) const FIELD_INPUTS: usize = MAGNET_INPUTS + BACKGROUND_INPUTS;
 
 /// Derivative of the field (T) and of its gradient (T/m) by one input.
 pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);

@@ -2,19 +2,16 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::load_derivatives::{FieldRate, LoadDerivatives};
+use super::load_derivatives::{FieldRate, LoadDerivatives, MAGNET_INPUTS};
 use super::{Frame, Term};
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::jacobian::Input;
+use crate::equilibrium::layout::Input;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::source::Source;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::{Assembly, Jet};
 use crate::rod::{Load, Order};
-
-/// Inputs of its own: displacement (3), rotation (3) and strength.
-const INPUTS: usize = 7;
 
 /// The magnet at its pose.
 #[derive(Debug, Clone, Copy)]
@@ -54,7 +51,7 @@ impl<'a> Magnet<'a> {
     ///
     /// A field that moves as a body with velocity `v(x) = t + w x (x - c)` changes at a fixed point by
     /// `w x B - G v`, and its gradient by `hat(w) G - G hat(w) - H v`.
-    pub(super) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; INPUTS]> {
+    pub(super) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; MAGNET_INPUTS]> {
         let turn = &self.inputs.magnet.rotation;
         let arm = point - self.inputs.magnet.position;
         let own = match self.assembly {

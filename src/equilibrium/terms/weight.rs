@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{Frame, LoadDerivatives, Term};
 use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::jacobian::Input;
+use crate::equilibrium::layout::Input;
 use crate::geometry::Pose;
 use crate::rod::{Load, Order};
 

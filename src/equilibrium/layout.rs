@@ -1,0 +1,178 @@
+//! Which input has which columns of a Jacobian, and which output which rows: one ordered table each.
+
+use core::ops::Range;
+
+/// A continuous input: columns of a [`super::Jacobian`].
+///
+/// Rotations are about the body's own origin (the magnet's centre, the base position), by a rotation vector in the
+/// world's axes, rad; see [`crate::geometry::Pose::rotation_rate`] for the components of a quaternion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Input {
+    /// Position of the external magnet, m.
+    MagnetPosition,
+    /// Rotation of the external magnet, rad.
+    MagnetRotation,
+    /// Factor on its field, 1.
+    MagnetStrength,
+    /// Uniform background field, T.
+    UniformField,
+    /// The five numbers of the linear background field, T/m.
+    FieldGradient,
+    /// Force on the tip, N.
+    TipForce,
+    /// Moment on the tip, N m.
+    TipMoment,
+    /// Acceleration of gravity, m/s2.
+    Gravity,
+    /// Position of the base, m.
+    BasePosition,
+    /// Rotation of the base, rad.
+    BaseRotation,
+    /// Force at the centre of this ring (0: the first), N.
+    RingForce(usize),
+}
+
+/// A continuous output: rows of a [`super::Jacobian`]. Points and bodies are counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Output {
+    /// Angle between the tip's and the base's axis, rad; 0 where it is 0 or pi, where it has a corner.
+    TipAngle,
+    /// Position of the tip, m.
+    TipPosition,
+    /// Rotation of the tip, rad, world axes; see [`crate::geometry::Pose::quaternion_rate`].
+    TipRotation,
+    /// External magnetic force, N.
+    MagneticForce,
+    /// External magnetic torque about the base position, N m.
+    MagneticTorque,
+    /// Force that the clamp exerts, N.
+    BaseReactionForce,
+    /// Moment that the clamp exerts about the base position, N m.
+    BaseReactionMoment,
+    /// Force on the external magnet, N.
+    MagnetReactionForce,
+    /// Torque on the external magnet about its centre, N m.
+    MagnetReactionTorque,
+    /// External field at the tip, T.
+    TipField,
+    /// Point of the centreline, m.
+    ShapePoint(usize),
+    /// Centre of a ring, m.
+    RingPosition(usize),
+    /// Rotation of a ring, rad, world axes.
+    RingRotation(usize),
+    /// Axis `d3` of a ring, 1.
+    RingAxis(usize),
+    /// Bending angle of a core, rad; 0 where it is straight, where the angle has a corner.
+    CoreAngle(usize),
+}
+
+/// Inputs of every design in the order of their columns; then come the forces on the rings.
+const INPUTS: [Input; 10] = [
+    Input::MagnetPosition,
+    Input::MagnetRotation,
+    Input::MagnetStrength,
+    Input::UniformField,
+    Input::FieldGradient,
+    Input::TipForce,
+    Input::TipMoment,
+    Input::Gravity,
+    Input::BasePosition,
+    Input::BaseRotation,
+];
+
+/// Outputs of every design in the order of their rows; then come the points, the rings and the cores.
+const OUTPUTS: [Output; 10] = [
+    Output::TipAngle,
+    Output::TipPosition,
+    Output::TipRotation,
+    Output::MagneticForce,
+    Output::MagneticTorque,
+    Output::BaseReactionForce,
+    Output::BaseReactionMoment,
+    Output::MagnetReactionForce,
+    Output::MagnetReactionTorque,
+    Output::TipField,
+];
+
+/// Outputs of each ring in the order of their rows.
+const RING_OUTPUTS: [fn(usize) -> Output; 3] = [Output::RingPosition, Output::RingRotation, Output::RingAxis];
+
+/// Components of a vector.
+const VECTOR: usize = 3;
+
+impl Input {
+    /// Number of its columns.
+    pub(super) const fn width(self) -> usize {
+        match self {
+            Self::MagnetStrength => 1,
+            Self::FieldGradient => 5,
+            _ => VECTOR,
+        }
+    }
+
+    /// Its columns, wherever the design has so many rings.
+    pub(super) fn columns(self) -> Range<usize> {
+        let before: usize =
+            INPUTS.iter().take_while(|input| **input != self).map(|input| input.width()).sum();
+        let first = before + if let Self::RingForce(ring) = self { ring * self.width() } else { 0 };
+        first..first + self.width()
+    }
+}
+
+/// How many bodies and points there are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Counts {
+    pub(super) rings: usize,
+    pub(super) shape_points: usize,
+    pub(super) cores: usize,
+}
+
+impl Counts {
+    /// Number of columns.
+    pub(super) fn inputs(&self) -> usize {
+        Input::RingForce(self.rings).columns().start
+    }
+
+    /// Number of rows.
+    pub(super) fn outputs(&self) -> usize {
+        self.first(Output::CoreAngle(self.cores))
+    }
+
+    /// The rows of an output; `None` for a point or body that the design does not have.
+    pub(super) fn rows(&self, output: Output) -> Option<Range<usize>> {
+        let exists = match output {
+            Output::ShapePoint(point) => point < self.shape_points,
+            Output::RingPosition(ring) | Output::RingRotation(ring) | Output::RingAxis(ring) => {
+                ring < self.rings
+            }
+            Output::CoreAngle(core) => core < self.cores,
+            _ => true,
+        };
+        exists.then(|| self.first(output)..self.first(output) + output.width())
+    }
+
+    /// The first row of an output, be it there or not.
+    fn first(&self, output: Output) -> usize {
+        let points: usize = OUTPUTS.iter().map(|output| output.width()).sum();
+        let rings = points + self.shape_points * VECTOR;
+        let cores = rings + self.rings * RING_OUTPUTS.len() * VECTOR;
+        let of_ring = |ring: usize| {
+            let before = RING_OUTPUTS.iter().take_while(|other| other(ring) != output).count();
+            rings + (ring * RING_OUTPUTS.len() + before) * VECTOR
+        };
+        match output {
+            Output::ShapePoint(point) => points + point * VECTOR,
+            Output::RingPosition(ring) | Output::RingRotation(ring) | Output::RingAxis(ring) => of_ring(ring),
+            Output::CoreAngle(core) => cores + core,
+            _ => OUTPUTS.iter().take_while(|other| **other != output).map(|other| other.width()).sum(),
+        }
+    }
+}
+
+impl Output {
+    /// Number of its rows.
+    fn width(self) -> usize {
+        if matches!(self, Self::TipAngle | Self::CoreAngle(_)) { 1 } else { VECTOR }
+    }
+}
