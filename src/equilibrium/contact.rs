@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 
 use super::chain::Chain;
-use super::correction::Scene;
 use super::inputs::Inputs;
 use super::outcome::{Body, Contact};
+use super::search::Model;
 use super::settings::{Interaction, Settings};
 use super::terms::overlap;
 use super::workspace::Workspace;
@@ -29,7 +29,7 @@ pub(crate) struct Placed<'a> {
     pub(crate) nodes: &'a [Pose],
 }
 
-impl Scene<'_> {
+impl Model<'_> {
     /// The deepest contact of the shape that was placed last, at these inputs.
     pub(crate) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
         let placed = Placed { chain: self.chain, nodes: &work.nodes };

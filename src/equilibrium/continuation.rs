@@ -8,7 +8,7 @@ use super::solution::Solution;
 use super::solver::Equilibrium;
 use crate::error::{Error, check};
 use crate::geometry::Pose;
-use crate::numerics::continuation::{End, Family, Kind, Local, Point, Walk, follow};
+use crate::numerics::continuation::{End, Family, Local, Point, PointKind, Walk, follow};
 use crate::numerics::trust_region::Objective;
 
 /// Difference of the parameter, of its span, by which the gradient is differentiated.
@@ -32,7 +32,7 @@ pub struct Shape {
     /// Number of directions in which the shape is unstable; 0 where it is stable.
     pub unstable: usize,
     /// Whether it is a fold or a place where branches cross; rounding decides there on `unstable`.
-    pub kind: Kind,
+    pub kind: PointKind,
 }
 
 /// A branch of equilibria along a path of inputs.
@@ -47,7 +47,7 @@ pub struct Diagram {
 impl Diagram {
     /// The shapes at which the branch turns back.
     pub fn folds(&self) -> impl Iterator<Item = &Shape> {
-        self.shapes.iter().filter(|shape| shape.kind == Kind::Fold)
+        self.shapes.iter().filter(|shape| shape.kind == PointKind::Fold)
     }
 }
 

@@ -10,7 +10,7 @@ use super::inputs::Inputs;
 use super::layout::{Counts, Input, Output};
 use super::response::{Motion, Response, inside, transport_base};
 use super::solution::Solution;
-use super::solver::{Equilibrium, Place};
+use super::solver::{Equilibrium, Site};
 use super::terms::FIELD_INPUTS;
 use crate::error::Error;
 use crate::geometry::{Pose, hat};
@@ -149,12 +149,12 @@ impl Equilibrium {
     pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         for (number, point) in self.shape.clone().iter().enumerate() {
             let (pose, rates) = match &point.place {
-                Place::Rigid(node, distance) => {
+                Site::Rigid(node, distance) => {
                     let pose = self.work.nodes[*node];
                     let rates = moved(&response.motion.nodes[*node], &(pose.axis() * *distance));
                     (pose.advanced(*distance), rates)
                 }
-                Place::Elastic(element, row) => self.place(*element, row, &response.motion),
+                Site::Elastic(element, row) => self.place(*element, row, &response.motion),
             };
             rows.set(Output::ShapePoint(number), &rates.rows(0, 3), Transport::Position(pose.position));
         }

@@ -3,15 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::factorisation::Origin;
-use super::follow::{Branch, are_finite};
+use super::history::{History, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
 use crate::numerics::trust_region::Objective;
 
 /// What an equilibrium remembers of its past, in numbers; from it another one of the same design goes on bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    branch: Branch,
+pub struct BranchSnapshot {
+    branch: History,
     /// Where the Hessian was made whose factorisation the next solve begins with.
     origin: Option<Origin>,
     /// The rules of the ring pairs at the shape of the branch.
@@ -21,8 +21,8 @@ pub struct Snapshot {
 impl Equilibrium {
     /// What it remembers.
     #[must_use]
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
+    pub fn snapshot(&self) -> BranchSnapshot {
+        BranchSnapshot {
             branch: self.branch.clone(),
             origin: self.work.factorisation.as_ref().map(|last| last.origin().clone()),
             rules: self.rules.chosen().collect(),
@@ -33,9 +33,9 @@ impl Equilibrium {
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a snapshot that is not of this design; the branch is then forgotten.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+    pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
-        let Snapshot { branch, origin, rules } = snapshot;
+        let BranchSnapshot { branch, origin, rules } = snapshot;
         let fits = branch.fits(self.chain.freedoms())
             && origin.as_ref().is_none_or(|origin| are_finite(&origin.unknowns, self.chain.freedoms()));
         let foreign = || Error::Unsupported("the snapshot is not of this design".into());

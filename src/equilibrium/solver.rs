@@ -5,12 +5,14 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::chain::{Chain, arc_lengths};
-use super::correction::{Report, Scene, Scratch, Walk, measure};
 use super::deadline::Deadline;
-use super::follow::Branch;
+use super::history::History;
 use super::inputs::Inputs;
+use super::judge::measure;
 use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
+use super::report::Report;
+use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::terms::Terms;
@@ -26,11 +28,11 @@ use crate::rod::Row;
 #[derive(Debug, Clone)]
 pub(super) struct ShapePoint {
     arc_length: f64,
-    pub(super) place: Place,
+    pub(super) place: Site,
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum Place {
+pub(super) enum Site {
     /// On the rigid part after a node, at this distance.
     Rigid(usize, f64),
     /// On an element.
@@ -46,7 +48,7 @@ pub struct Equilibrium {
     pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
     pub(super) shape: Arc<Vec<ShapePoint>>,
-    pub(super) branch: Branch,
+    pub(super) branch: History,
     pub(super) work: Workspace,
     pub(super) rules: PairQuadrature,
     scratch: Scratch,
@@ -87,7 +89,7 @@ impl Equilibrium {
             settings,
             magnet: magnet.cloned(),
             shape: Arc::new(shape.collect()),
-            branch: Branch::new(&chain),
+            branch: History::new(&chain),
             work,
             rules,
             scratch: Scratch::new(&chain),
@@ -99,7 +101,7 @@ impl Equilibrium {
 
     /// Back to the straight shape at the origin; the branch is forgotten.
     pub fn reset(&mut self) {
-        self.branch = Branch::new(&self.chain);
+        self.branch = History::new(&self.chain);
         self.work.factorisation = None;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
@@ -127,11 +129,12 @@ impl Equilibrium {
     /// The same before a deadline that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
-        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
         let report = Report::start();
-        let mut walk = Walk { scene, work, rules, scratch, report, deadline, reached: None, reach: 0.0 };
-        Ok(walk.follow(&mut self.branch, inputs))
+        let mut search =
+            Search { model, work, rules, scratch, report, deadline, reached: None, reach: 0.0, kept: false };
+        Ok(search.solve(&mut self.branch, inputs))
     }
 
     /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
@@ -204,8 +207,8 @@ impl Equilibrium {
 
     /// With the rules that were chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        let scene = Scene { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
-        scene.potential(inputs, &self.rules, &mut self.work)
+        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        model.potential(inputs, &self.rules, &mut self.work)
     }
 
     /// The same branch with a workspace of its own: its evaluations leave no trace here.
@@ -255,8 +258,8 @@ impl Solution for Equilibrium {
     fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
         self.shape.iter().map(|point| {
             let position = match &point.place {
-                Place::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
-                Place::Elastic(element, row) => self.on_element(*element, row).position,
+                Site::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
+                Site::Elastic(element, row) => self.on_element(*element, row).position,
             };
             (point.arc_length, position)
         })
@@ -284,14 +287,14 @@ fn point_at(chain: &Chain, s: f64) -> ShapePoint {
     let mut start = 0.0;
     for (k, element) in chain.elements.iter().enumerate() {
         if s < start + element.offset {
-            return ShapePoint { arc_length: s, place: Place::Rigid(k, s - start) };
+            return ShapePoint { arc_length: s, place: Site::Rigid(k, s - start) };
         }
         start += element.offset;
         if s <= start + element.length {
-            return ShapePoint { arc_length: s, place: Place::Elastic(k, element.row(s - start)) };
+            return ShapePoint { arc_length: s, place: Site::Elastic(k, element.row(s - start)) };
         }
         start += element.length;
     }
     let last = chain.elements.len();
-    ShapePoint { arc_length: s, place: Place::Rigid(last, (s - start).min(chain.tip_offset)) }
+    ShapePoint { arc_length: s, place: Site::Rigid(last, (s - start).min(chain.tip_offset)) }
 }

@@ -41,7 +41,7 @@ pub struct Manipulator {
 /// What a manipulator remembers of its past, in numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
-    models: hierarchy::Snapshot,
+    models: hierarchy::HierarchySnapshot,
     outputs: Outputs,
     has_shape: bool,
 }

@@ -80,10 +80,10 @@ impl Wait {
 
 /// What a hierarchy remembers of its past.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Snapshot {
+pub(super) struct HierarchySnapshot {
     present: usize,
     wait: Wait,
-    equilibrium: equilibrium::Snapshot,
+    equilibrium: equilibrium::BranchSnapshot,
     judged: Option<ErrorEstimate>,
     age: f64,
 }
@@ -316,9 +316,9 @@ impl Hierarchy {
     }
 
     /// What it remembers.
-    pub(super) fn snapshot(&self) -> Snapshot {
+    pub(super) fn snapshot(&self) -> HierarchySnapshot {
         let equilibrium = self.present().snapshot();
-        Snapshot {
+        HierarchySnapshot {
             present: self.present,
             wait: self.wait,
             equilibrium,
@@ -331,7 +331,7 @@ impl Hierarchy {
     ///
     /// # Errors
     /// As [`Equilibrium::restore`].
-    pub(super) fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+    pub(super) fn restore(&mut self, snapshot: &HierarchySnapshot) -> Result<(), Error> {
         self.reset();
         if snapshot.present > self.models.last() {
             return Err(Error::Unsupported("the snapshot is not of this model".into()));

@@ -78,7 +78,7 @@ pub struct Walk {
 
 /// What is special about a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub enum PointKind {
     /// Nothing.
     Regular,
     /// The parameter turns back: beyond it there is no such stationary point.
@@ -99,7 +99,7 @@ pub struct Point {
     /// Eigenvalues of the Hessian, ascending.
     pub eigenvalues: Vec<f64>,
     /// What is special about it.
-    pub kind: Kind,
+    pub kind: PointKind,
 }
 
 /// Why a walk ended.
@@ -234,7 +234,7 @@ fn finish(
         parameter: place[size],
         tangent: tangent.normalize(),
         eigenvalues,
-        kind: Kind::Regular,
+        kind: PointKind::Regular,
     }))
 }
 
@@ -260,11 +260,11 @@ fn between(
     let folds = here.slope() * next.slope() < 0.0;
     let found = match (folds, changed) {
         (false, 0) => return Ok(Some(Vec::new())),
-        (true, 1) => locate(family, here, next, step, Kind::Fold, Point::slope)?,
+        (true, 1) => locate(family, here, next, step, PointKind::Fold, Point::slope)?,
         (true, _) => None,
         (false, _) => {
             let crossing = before.min(after);
-            let kind = Kind::Branching(changed);
+            let kind = PointKind::Branching(changed);
             locate(family, here, next, step, kind, |point| point.eigenvalues[crossing])?
         }
     };
@@ -278,7 +278,7 @@ fn locate(
     here: &Point,
     next: &Point,
     step: f64,
-    kind: Kind,
+    kind: PointKind,
     measure: impl Fn(&Point) -> f64,
 ) -> Result<Option<Point>, Error> {
     let (mut low, mut at_low) = (0.0, measure(here));

@@ -16,7 +16,7 @@ use crate::design::{Design, Specification};
 use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Shape};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::numerics::continuation::Kind;
+use crate::numerics::continuation::PointKind;
 
 /// Distances from a snap at which it is predicted, relative to the way up to there.
 pub const DISTANCES: [f64; 6] = [0.2, 0.1, 0.05, 0.02, 0.01, 0.001];
@@ -103,10 +103,10 @@ fn turning() -> Result<Found, Error> {
     found.canvas.draw(0, &case, &diagram);
     found.canvas.draw_loading(&loading);
     let plane = dipole::fold_of_turning();
-    for shape in diagram.shapes.iter().filter(|shape| shape.kind != Kind::Regular) {
+    for shape in diagram.shapes.iter().filter(|shape| shape.kind != PointKind::Regular) {
         let (what, closed_form, snap) = match (shape.kind, shape.tip.axis().y > 0.0) {
-            (Kind::Fold, true) => ("dipole turned: folds in the plane (deg)", plane, None),
-            (Kind::Fold, false) => ("dipole turned: the far side folds (deg)", 360.0 - plane, None),
+            (PointKind::Fold, true) => ("dipole turned: folds in the plane (deg)", plane, None),
+            (PointKind::Fold, false) => ("dipole turned: the far side folds (deg)", 360.0 - plane, None),
             (_, true) => ("dipole turned: swings out of the plane (deg)", 180.0, Some(0)),
             (_, false) => ("dipole turned back: swings out (deg)", 180.0, Some(1)),
         };
@@ -142,7 +142,7 @@ fn growing() -> Result<Found, Error> {
     }
     found.canvas.draw_loading(&aside.load(false)?);
     let critical = dipole::critical_field()?;
-    for shape in perfect.shapes.iter().filter(|shape| shape.kind != Kind::Regular) {
+    for shape in perfect.shapes.iter().filter(|shape| shape.kind != PointKind::Regular) {
         found.add("dipole, antiparallel: buckles (mT)", shape, None, Some(critical));
     }
     let least = dipole::fold_aside()?;

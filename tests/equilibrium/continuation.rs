@@ -3,7 +3,7 @@
 use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Diagram, Equilibrium, Inputs, Interaction, Settings, Solution};
 use mcm::manipulator::{Branch, Manipulator};
-use mcm::numerics::continuation::{End, Kind, Walk};
+use mcm::numerics::continuation::{End, PointKind, Walk};
 use nalgebra::Vector3;
 
 use crate::rod::table::{Chain, rows_of};
@@ -70,13 +70,13 @@ fn the_turned_dipole_keeps_to_its_closed_form_through_both_folds() {
     }
     // Out of the plane the arc is unstable between 180 degrees on both its sides, in the plane between the folds.
     let expected = [
-        (180.0, Kind::Branching(1), [0, 1]),
-        (phi, Kind::Fold, [1, 2]),
-        (360.0 - phi, Kind::Fold, [2, 1]),
-        (180.0, Kind::Branching(1), [1, 0]),
+        (180.0, PointKind::Branching(1), [0, 1]),
+        (phi, PointKind::Fold, [1, 2]),
+        (360.0 - phi, PointKind::Fold, [2, 1]),
+        (180.0, PointKind::Branching(1), [1, 0]),
     ];
     let special: Vec<usize> =
-        (0..diagram.shapes.len()).filter(|&index| diagram.shapes[index].kind != Kind::Regular).collect();
+        (0..diagram.shapes.len()).filter(|&index| diagram.shapes[index].kind != PointKind::Regular).collect();
     assert_eq!(special.len(), expected.len());
     for (&index, (value, kind, unstable)) in special.iter().zip(expected) {
         let shape = &diagram.shapes[index];
@@ -99,9 +99,9 @@ fn the_straight_chain_forks_at_its_critical_field_in_both_planes() {
         chain.equilibrium.solve(&field(rings, 0.0, 180.0)).unwrap();
         let growing = |lam: f64| Ok(field(rings, lam * unit, 180.0));
         let diagram = chain.equilibrium.trace(growing, &walk([0.0, 1.5 * row.value], 0.1, 400)).unwrap();
-        let forks: Vec<_> = diagram.shapes.iter().filter(|shape| shape.kind != Kind::Regular).collect();
+        let forks: Vec<_> = diagram.shapes.iter().filter(|shape| shape.kind != PointKind::Regular).collect();
         assert_eq!(forks.len(), 1, "{row:?}");
-        assert_eq!(forks[0].kind, Kind::Branching(2), "{row:?}");
+        assert_eq!(forks[0].kind, PointKind::Branching(2), "{row:?}");
         let error = (forks[0].value / row.value - 1.0).abs();
         assert!(error <= CRITICAL_WITHOUT_PAIRS, "{row:?}: {error:e}");
         assert_eq!(diagram.shapes.last().unwrap().unstable, 2, "{row:?}");
@@ -121,7 +121,7 @@ fn unstable_shapes_are_in_balance_and_lose_one_direction_at_the_fold() {
             unstable += usize::from(shape.unstable > 0);
         }
         assert!(unstable > 20, "{name}: only {unstable} unstable shapes");
-        let fold = diagram.shapes.iter().position(|shape| shape.kind == Kind::Fold).expect("a fold");
+        let fold = diagram.shapes.iter().position(|shape| shape.kind == PointKind::Fold).expect("a fold");
         let around = [fold - 1, fold + 1].map(|index| diagram.shapes[index].unstable);
         assert_eq!((around, diagram.folds().count()), ([0, 1], 1), "{name}");
         println!("{name}: residual {worst:e}");

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use mcm::error::Error;
-use mcm::numerics::continuation::{End, Family, Kind, Local, Walk, follow};
+use mcm::numerics::continuation::{End, Family, Local, PointKind, Walk, follow};
 use nalgebra::{DMatrix, DVector};
 
 use crate::tolerance::{ON_BRANCH, SINGULAR};
@@ -37,15 +37,15 @@ fn the_cusp_is_followed_through_both_folds_and_the_crossing() {
         let x = point.x[0];
         assert!((x * x * x - x - point.parameter).abs() <= ON_BRANCH, "off the branch: {point:?}");
     }
-    let special: Vec<_> = points.iter().filter(|point| point.kind != Kind::Regular).collect();
+    let special: Vec<_> = points.iter().filter(|point| point.kind != PointKind::Regular).collect();
     let fold = 2.0 / (3.0 * 3.0_f64.sqrt());
     // Up, over the crossing of `y`, to the upper fold, back over the crossing to the lower fold, and up over it again.
     let expected = [
-        (CROSSING, Kind::Branching(1)),
-        (fold, Kind::Fold),
-        (CROSSING, Kind::Branching(1)),
-        (-fold, Kind::Fold),
-        (CROSSING, Kind::Branching(1)),
+        (CROSSING, PointKind::Branching(1)),
+        (fold, PointKind::Fold),
+        (CROSSING, PointKind::Branching(1)),
+        (-fold, PointKind::Fold),
+        (CROSSING, PointKind::Branching(1)),
     ];
     assert_eq!(special.len(), expected.len(), "{special:?}");
     for (point, (parameter, kind)) in special.iter().zip(expected) {

@@ -116,7 +116,7 @@ impl Term for Magnet<'_> {
         match frame {
             Frame::Station(station) if station.material.magnetisation != 0.0 => {
                 let points =
-                    self.source.as_ref().map_or(&station.points.0[..], |source| source.points(station));
+                    self.source.as_ref().map_or(&station.points.1[..], |source| source.points(station));
                 let whole = pose.axis() * (station.material.magnetisation * station.material.moments.volume);
                 let moment = whole / points.len() as f64;
                 for point in points {

@@ -12,19 +12,19 @@ use crate::methods::Method;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
-    pub(super) design: DesignTable,
-    pub(super) field: FieldTable,
+    pub(super) design: DesignEntries,
+    pub(super) field: FieldEntries,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) magnet: Option<MagnetTable>,
-    pub(super) base: BaseTable,
-    pub(super) load: LoadTable,
-    pub(super) gravity: GravityTable,
-    pub(super) model: ModelTable,
+    pub(super) magnet: Option<MagnetEntries>,
+    pub(super) base: BaseEntries,
+    pub(super) load: LoadEntries,
+    pub(super) gravity: GravityEntries,
+    pub(super) model: ModelEntries,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Kind {
+pub(super) enum DesignKind {
     #[default]
     Segments,
     Cylinder,
@@ -40,8 +40,8 @@ pub(super) enum SpiralName {
 /// `[design]`: which keys may be present depends on `kind`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct DesignTable {
-    pub(super) kind: Kind,
+pub(super) struct DesignEntries {
+    pub(super) kind: DesignKind,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) segments: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -71,16 +71,16 @@ pub(super) struct DesignTable {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) density_kg_m3: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) helix: Option<HelixTable>,
+    pub(super) helix: Option<HelixEntries>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) ring: Option<RingTable>,
+    pub(super) ring: Option<RingEntries>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) backbone: Option<BackboneTable>,
+    pub(super) backbone: Option<BackboneEntries>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct HelixTable {
+pub(super) struct HelixEntries {
     pub(super) length_mm: f64,
     pub(super) boundary_angle_deg: f64,
     pub(super) radius_mm: f64,
@@ -95,7 +95,7 @@ pub(super) struct HelixTable {
     pub(super) density_kg_m3: Option<f64>,
 }
 
-impl Default for HelixTable {
+impl Default for HelixEntries {
     /// Table 1 of Richter et al.
     fn default() -> Self {
         Self {
@@ -116,14 +116,14 @@ impl Default for HelixTable {
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct RingTable {
+pub(super) struct RingEntries {
     pub(super) length_mm: f64,
     pub(super) remanence_t: f64,
     pub(super) recoil_permeability: f64,
     pub(super) density_kg_m3: f64,
 }
 
-impl Default for RingTable {
+impl Default for RingEntries {
     /// Table 1 of Richter et al.; the density is that of `NdFeB`, rounded.
     fn default() -> Self {
         Self { length_mm: 1.0, remanence_t: 1.35, recoil_permeability: 1.0, density_kg_m3: 7000.0 }
@@ -132,7 +132,7 @@ impl Default for RingTable {
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct BackboneTable {
+pub(super) struct BackboneEntries {
     pub(super) outer_radius_mm: f64,
     pub(super) inner_radius_mm: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -154,14 +154,14 @@ const TURN_AXIS: [f64; 3] = [-1.0, 0.0, 0.0];
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct FieldTable {
+pub(super) struct FieldEntries {
     pub(super) uniform_mt: [f64; 3],
     pub(super) turn_deg: f64,
     pub(super) turn_axis: [f64; 3],
     pub(super) gradient_t_per_m: [f64; 5],
 }
 
-impl Default for FieldTable {
+impl Default for FieldEntries {
     fn default() -> Self {
         Self { uniform_mt: [0.0; 3], turn_deg: 0.0, turn_axis: TURN_AXIS, gradient_t_per_m: [0.0; 5] }
     }
@@ -169,7 +169,7 @@ impl Default for FieldTable {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct MagnetTable {
+pub(super) struct MagnetEntries {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) position_mm: Option<[f64; 3]>,
     pub(super) orientation_wxyz: [f64; 4],
@@ -179,7 +179,7 @@ pub(super) struct MagnetTable {
     pub(super) cylinders: Vec<MagnetCylinder>,
 }
 
-impl Default for MagnetTable {
+impl Default for MagnetEntries {
     /// The paper's pair; below the manipulator's middle its field points along the manipulator's magnetisation.
     fn default() -> Self {
         let cylinder = |offset_mm| MagnetCylinder {
@@ -214,14 +214,14 @@ pub(super) struct MagnetCylinder {
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct BaseTable {
+pub(super) struct BaseEntries {
     pub(super) position_mm: [f64; 3],
     pub(super) orientation_wxyz: [f64; 4],
     pub(super) turn_deg: f64,
     pub(super) turn_axis: [f64; 3],
 }
 
-impl Default for BaseTable {
+impl Default for BaseEntries {
     fn default() -> Self {
         Self {
             position_mm: [0.0; 3],
@@ -234,7 +234,7 @@ impl Default for BaseTable {
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct LoadTable {
+pub(super) struct LoadEntries {
     pub(super) tip_force_n: [f64; 3],
     pub(super) tip_moment_nm: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -243,13 +243,13 @@ pub(super) struct LoadTable {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct GravityTable {
+pub(super) struct GravityEntries {
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub(super) struct ModelTable {
+pub(super) struct ModelEntries {
     #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
     pub(super) interaction: Interaction,
     #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
@@ -258,7 +258,7 @@ pub(super) struct ModelTable {
     pub(super) time_budget_s: f64,
 }
 
-impl Default for ModelTable {
+impl Default for ModelEntries {
     fn default() -> Self {
         Self {
             interaction: Interaction::Auto,

@@ -4,8 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::Scene;
 use super::file::{
-    BackboneTable, DesignTable, FieldTable, HelixTable, Kind, MagnetCylinder, ModelTable, RingTable,
-    SceneFile, SpiralName,
+    BackboneEntries, DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries,
+    RingEntries, SceneFile, SpiralName,
 };
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
@@ -78,7 +78,7 @@ impl SceneFile {
             inputs.magnet = turned(&turn, Pose::new(position, magnet.orientation_wxyz)?);
             inputs.magnet_strength = magnet.strength;
         }
-        let FieldTable { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
+        let FieldEntries { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
         inputs.uniform_field =
             turn("field.turn_axis", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));
         inputs.field_gradient = gradient_t_per_m;
@@ -101,18 +101,18 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Result<Settings, Error> {
-        let ModelTable { interaction, method: _, bending_stop, time_budget_s } = self.model;
+        let ModelEntries { interaction, method: _, bending_stop, time_budget_s } = self.model;
         let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
         Ok(Settings { interaction, bending_stop, time_budget, ..Settings::default() })
     }
 }
 
-impl DesignTable {
+impl DesignEntries {
     const SEGMENTS: usize = 9;
 
     /// Fills in what does not depend on other entries.
     pub(super) fn complete(&mut self) {
-        if self.kind == Kind::Segments {
+        if self.kind == DesignKind::Segments {
             self.segments.get_or_insert(Self::SEGMENTS);
             self.base_magnet.get_or_insert(true);
             self.tip_magnet.get_or_insert(true);
@@ -127,7 +127,7 @@ impl DesignTable {
     fn specification(&self) -> Result<Specification, Error> {
         self.refuse_keys_of_other_kind()?;
         Ok(match self.kind {
-            Kind::Segments => Specification::Segmented(Segmented {
+            DesignKind::Segments => Specification::Segmented(Segmented {
                 segments: self.segments.unwrap_or(Self::SEGMENTS),
                 base_magnet: self.base_magnet.unwrap_or(true),
                 tip_magnet: self.tip_magnet.unwrap_or(true),
@@ -137,9 +137,9 @@ impl DesignTable {
                 },
                 helix: self.helix.unwrap_or_default().si(),
                 ring: self.ring.unwrap_or_default().si(),
-                backbone: self.backbone.map(BackboneTable::si).transpose()?,
+                backbone: self.backbone.map(BackboneEntries::si).transpose()?,
             }),
-            Kind::Cylinder => Specification::Cylinder(Cylinder {
+            DesignKind::Cylinder => Specification::Cylinder(Cylinder {
                 length: required("design.length_mm", self.length_mm)? / MM_PER_M,
                 radius: required("design.radius_mm", self.radius_mm)? / MM_PER_M,
                 inner_radius: self.inner_radius_mm.unwrap_or(0.0) / MM_PER_M,
@@ -151,7 +151,7 @@ impl DesignTable {
 
     /// A composite as in Table 1 unless said, or a bulk material when its modulus or remanence is given directly.
     fn cylinder_material(&self) -> Result<CylinderMaterial, Error> {
-        let table_1 = HelixTable::default();
+        let table_1 = HelixEntries::default();
         let poisson = self.poisson.unwrap_or(table_1.poisson);
         if self.elastic_modulus_mpa.is_none() && self.remanence_t.is_none() {
             return Ok(CylinderMaterial::Composite {
@@ -200,11 +200,11 @@ impl DesignTable {
             ("density_kg_m3", self.density_kg_m3.is_some()),
         ];
         match self.kind {
-            Kind::Segments => refuse(
+            DesignKind::Segments => refuse(
                 &of_cylinder,
                 "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
             ),
-            Kind::Cylinder => refuse(&of_segments, "belongs to kind = \"segments\""),
+            DesignKind::Cylinder => refuse(&of_segments, "belongs to kind = \"segments\""),
         }
     }
 }
@@ -220,7 +220,7 @@ fn required(key: &str, value: Option<f64>) -> Result<f64, Error> {
     value.ok_or_else(|| Error::Unsupported(format!("{key} is missing")))
 }
 
-impl HelixTable {
+impl HelixEntries {
     fn si(self) -> Helix {
         Helix {
             length: self.length_mm / MM_PER_M,
@@ -238,7 +238,7 @@ impl HelixTable {
     }
 }
 
-impl RingTable {
+impl RingEntries {
     fn si(self) -> RingMagnet {
         RingMagnet {
             length: self.length_mm / MM_PER_M,
@@ -249,7 +249,7 @@ impl RingTable {
     }
 }
 
-impl BackboneTable {
+impl BackboneEntries {
     fn si(self) -> Result<Backbone, Error> {
         let modulus = match (self.shore_a, self.elastic_modulus_mpa) {
             (Some(hardness), None) => Modulus::ShoreA(hardness),

@@ -2,7 +2,7 @@
 
 use super::case::{Case, Loading};
 use crate::equilibrium::Diagram;
-use crate::numerics::continuation::Kind;
+use crate::numerics::continuation::PointKind;
 use crate::studies::study::{Column, Curve, Mark, Panel, Stroke};
 
 /// What is drawn, and where.
@@ -68,13 +68,13 @@ impl Canvas {
         let shapes = &diagram.shapes;
         let regular = |index: Option<usize>, stable: bool| {
             let shape = index.and_then(|index| shapes.get(index));
-            shape.is_some_and(|shape| shape.kind == Kind::Regular && (shape.unstable == 0) == stable)
+            shape.is_some_and(|shape| shape.kind == PointKind::Regular && (shape.unstable == 0) == stable)
         };
         for (index, shape) in shapes.iter().enumerate() {
             let angle = (case.angle)(&shape.tip);
             // Between two regular shapes a special one belongs to both, so that their curves meet.
             let near = [Some(index), index.checked_sub(1), Some(index + 1)];
-            let near = if shape.kind == Kind::Regular { &near[..1] } else { &near[1..] };
+            let near = if shape.kind == PointKind::Regular { &near[..1] } else { &near[1..] };
             let mut values = Vec::new();
             for (curve, stable) in [(2 * branch, true), (2 * branch + 1, false)] {
                 if near.iter().any(|index| regular(*index, stable)) {
@@ -82,7 +82,7 @@ impl Canvas {
                 }
             }
             self.push(shape.value, &values);
-            if shape.kind != Kind::Regular {
+            if shape.kind != PointKind::Regular {
                 let first = self.drawing.explained && self.marks.is_empty();
                 let label = if first { "fold" } else { "" };
                 self.marks.push(Mark::Point(label.into(), [shape.value, angle]));

@@ -1,7 +1,8 @@
 //! Beyond the end of a branch: downhill to the next stable shape, and whether that was a snap.
 
-use super::correction::{End, NEARLY, ROUNDING, Walk};
 use super::inputs::Inputs;
+use super::outcome::Outcome;
+use super::search::{NEARLY, ROUNDING, Search};
 use crate::numerics::pseudo_transient::settle;
 use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
 
@@ -27,56 +28,58 @@ pub(super) const PASSING: f64 = 1e-5;
 /// A push (in the chain's unit) off an unstable shape that is in balance.
 const PUSH: f64 = 1e-3;
 
-impl Walk<'_> {
-    /// Downhill from a shape at `before` to the next stable one at `inputs`, as [`Walk::descend`]; counts a snap where the branch
+impl Search<'_> {
+    /// Downhill from a shape at `before` to the next stable one at `inputs`, as [`Search::descend`]; counts a snap where the branch
     /// has been left.
     pub(super) fn descend_from(
         &mut self,
         [before, inputs]: [&Inputs; 2],
         unknowns: &mut [f64],
         tolerance: f64,
-    ) -> End {
+    ) -> Outcome {
         let last = unknowns.to_vec();
         let end = self.descend(inputs, unknowns, tolerance);
-        if matches!(end, End::Held | End::Neutral) && self.has_left(before, inputs, &last, unknowns) {
+        if matches!(end, Outcome::Solved | Outcome::Neutral) && self.has_left(before, inputs, &last, unknowns)
+        {
             self.report.snaps += 1;
         }
         end
     }
 
     /// Downhill to the next stable shape, until Newton's method takes over at the residual `tolerance` (in the chain's unit).
-    pub(super) fn descend(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> End {
-        let unit = self.scene.chain.radian_norm();
+    pub(super) fn descend(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> Outcome {
+        let unit = self.model.chain.radian_norm();
         let mut reached = unknowns.to_vec();
         let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
         let conservative = self.potential(inputs).terms.have_potential();
         if !conservative && minimum.converged && !self.is_confirmed(inputs, &reached) {
             // In balance without being stable: a potential's descent leaves such a shape by itself.
-            spread(&self.scene.chain.metric, &mut reached, PUSH * unit);
+            spread(&self.model.chain.metric, &mut reached, PUSH * unit);
             minimum = self.go_downhill(inputs, &mut reached, tolerance);
         }
         let residual = minimum.residual / unit;
         self.report.residual = residual;
         if !minimum.converged {
-            return if conservative && residual <= NEARLY { End::Neutral } else { End::Lost };
+            return if conservative && residual <= NEARLY { Outcome::Neutral } else { Outcome::BranchEnds };
         }
         let mut corrected = reached.clone();
-        let end = if self.correct(inputs, &mut corrected, self.scene.settings.follow_step).is_some() {
+        let end = if self.correct(inputs, &mut corrected, self.model.settings.follow_step) {
             reached = corrected;
-            End::Held
+            Outcome::Solved
         } else if conservative {
             self.report.residual = residual;
-            End::Neutral
+            Outcome::Neutral
         } else {
-            return End::Lost; // in balance, but not stable
+            return Outcome::BranchEnds; // in balance, but not stable
         };
         unknowns.copy_from_slice(&reached);
+        self.kept = false;
         end
     }
 
     fn is_confirmed(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
         let mut corrected = unknowns.to_vec();
-        self.correct(inputs, &mut corrected, NEARLY).is_some()
+        self.correct(inputs, &mut corrected, NEARLY)
     }
 
     fn go_downhill(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> Minimum {
@@ -97,13 +100,13 @@ impl Walk<'_> {
     /// steeply, leads back when the inputs do.
     fn has_left(&mut self, before: &Inputs, inputs: &Inputs, last: &[f64], reached: &[f64]) -> bool {
         let distance = self.apart(reached, last);
-        if distance <= NEARLY * self.scene.chain.radian_norm() {
+        if distance <= NEARLY * self.model.chain.radian_norm() {
             return false;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
         // Where the branch is soft, little force is left halfway.
-        let tolerance = (SOFT * distance / self.scene.chain.radian_norm()).clamp(ROUNDING, PASSING);
+        let tolerance = (SOFT * distance / self.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
         let left = self.apart(&back, last) > RETURNED * distance
             && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
@@ -126,7 +129,7 @@ impl Walk<'_> {
         if self.apart(&settled, last) > reach {
             return false;
         }
-        let unit = self.scene.chain.radian_norm();
+        let unit = self.model.chain.radian_norm();
         let mut potential = self.potential(inputs);
         let energies = potential.slope(&settled).zip(potential.slope(reached));
         energies.is_some_and(|(settled, reached)| settled - reached <= SAME_ENERGY * unit * unit)
@@ -135,11 +138,11 @@ impl Walk<'_> {
     /// Distance of two shapes in the elastic energy's norm.
     fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-        norm(&self.scene.chain.metric, &between)
+        norm(&self.model.chain.metric, &between)
     }
 
     fn region(&self, tolerance: f64) -> Region {
-        let unit = self.scene.chain.radian_norm();
+        let unit = self.model.chain.radian_norm();
         Region {
             radius: FIRST_RADIUS * unit,
             largest: unit,

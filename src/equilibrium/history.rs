@@ -3,23 +3,19 @@
 use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
-use super::correction::Scene;
 use super::inputs::Inputs;
-use crate::numerics::trust_region::{norm, spread};
+use crate::numerics::trust_region::spread;
 
 /// Shapes before the present one that are kept to predict the next.
 const EARLIER: usize = 2;
 
-/// Longest step (in the chain's unit) that is predicted instead of found.
-const PREDICTED: f64 = 0.1;
-
 /// The shape, and the inputs at which it is in equilibrium.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Branch {
+pub(super) struct History {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
     /// Shape and inputs of the solves before on this branch, the last one first.
-    earlier: Vec<(Vec<f64>, Inputs)>,
+    pub(super) earlier: Vec<(Vec<f64>, Inputs)>,
     /// Margin and verdict at the last factorisation.
     pub(super) margin: f64,
     pub(super) stable: Option<bool>,
@@ -27,7 +23,7 @@ pub(super) struct Branch {
     pub(super) softest: Vec<f64>,
 }
 
-impl Branch {
+impl History {
     pub(super) fn new(chain: &Chain) -> Self {
         let mut softest = vec![0.0; chain.freedoms()];
         spread(&chain.metric, &mut softest, 1.0);
@@ -71,36 +67,6 @@ impl Branch {
         (self.inputs, self.unknowns) = (Some(inputs), unknowns);
         self.earlier.clear();
         (self.margin, self.stable) = (0.0, None);
-    }
-
-    /// Writes to `shape` where the last steps lead to at `target`, as far along as the inputs go on; the length of that step
-    /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
-    ///
-    /// The line through the last two shapes; the parabola through three (Newton's divided differences) where the inputs have
-    /// gone on all the way and it differs by more than the tolerance, which the shapes themselves may be off.
-    pub(super) fn predict(&self, target: &Inputs, scene: &Scene<'_>, shape: &mut [f64]) -> Option<f64> {
-        let held = self.stable.is_none_or(|stable| stable && self.margin >= scene.settings.fold_margin);
-        let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {
-            return None;
-        };
-        let pace = target.pace(here, before)?;
-        for ((x, now), then) in shape.iter_mut().zip(&self.unknowns).zip(last) {
-            *x = pace * (now - then);
-        }
-        if let [(oldest, first), ..] = older
-            && let Some(quickened) = here.pace(before, first).filter(|pace| *pace > 0.0)
-        {
-            let curved = pace * (pace + 1.0) / (1.0 + 1.0 / quickened);
-            let bends = self.unknowns.iter().zip(last).zip(oldest);
-            let bends = bends.map(|((now, then), old)| curved * ((now - then) - quickened * (then - old)));
-            let squares = bends.clone().zip(&scene.chain.metric).map(|(bend, k)| k * bend * bend);
-            if squares.sum::<f64>().sqrt() > scene.settings.tolerance * scene.chain.radian_norm() {
-                shape.iter_mut().zip(bends).for_each(|(x, bend)| *x += bend);
-            }
-        }
-        let length = norm(&scene.chain.metric, shape) / scene.chain.radian_norm();
-        shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
-        Some(length).filter(|length| *length <= PREDICTED)
     }
 }
 

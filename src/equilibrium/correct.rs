@@ -1,0 +1,198 @@
+//! Newton's corrections of a shape, and whether they have stayed on its branch.
+
+use super::inputs::Inputs;
+use super::search::{CORRECTIONS, Model, NEARLY, ROUNDING, Search};
+use crate::numerics::eigenvalue::inner;
+use crate::numerics::trust_region::{Objective, dual_norm, norm};
+
+/// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
+const CONTRACTION: f64 = 0.5;
+
+/// The same for steps with an earlier factorisation, which are only worth while if they contract better.
+const CHORD_CONTRACTION: f64 = 0.1;
+
+/// Part of a step by which the way back may miss its start: a branch that turns more within a step is followed in shorter ones.
+const MISSED: f64 = 0.5;
+
+/// How often the rules may change at a solved shape: a distance at which two rules meet could swap them for ever.
+const RULE_CHOICES: u32 = 3;
+
+impl Search<'_> {
+    /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
+    ///
+    /// Steps with the last factorisation come first, and do alone while that still holds; else the Hessian is made anew
+    /// once on the way.
+    pub(super) fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64], reach: f64) -> bool {
+        let Model { chain, settings, .. } = self.model;
+        let unit = chain.radian_norm();
+        self.kept = false;
+        self.choose_rules(inputs, unknowns);
+        for _ in 0..RULE_CHOICES {
+            if self.work.factorisation.is_none()
+                || !self.chord(inputs, unknowns, reach.min(settings.follow_step), NEARLY)
+            {
+                break;
+            }
+            if !self.choose_rules_here() {
+                self.kept = true;
+                return true;
+            }
+        }
+        let first = reach / CONTRACTION;
+        let (mut previous, mut choices) = (first, RULE_CHOICES);
+        for _ in 0..CORRECTIONS {
+            let mut potential = self.potential(inputs);
+            let Some(energy) = potential.linearise(unknowns) else { return false };
+            let residual = dual_norm(potential.metric(), potential.gradient()) / unit;
+            if !potential.factorise(0.0) {
+                return false;
+            }
+            let mut settled = residual <= settings.tolerance;
+            (self.report.residual, self.report.energy) = (residual, energy);
+            if !settled {
+                let length = self.step(inputs, 0);
+                self.report.iterations += 1;
+                if length <= CONTRACTION * previous {
+                    apply(unknowns, &self.scratch.steps[0]);
+                    settled =
+                        length <= NEARLY && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
+                    previous = length;
+                } else if length < ROUNDING {
+                    settled = true;
+                } else {
+                    return false;
+                }
+            }
+            if settled {
+                // The rules must be those of the solved shape, or the answer would depend on the way to it.
+                if choices == 0 || !self.choose_rules_here() {
+                    // Without a potential a root may be an unstable shape.
+                    return self.potential(inputs).is_stable();
+                }
+                (previous, choices) = (first, choices - 1);
+            }
+        }
+        false
+    }
+
+    /// The step from the last gradient with the last factorisation, corrected by what the last `done` steps of this kind
+    /// have shown; its length in the chain's unit.
+    ///
+    /// Broyden's method in its form without matrices, in the metric of the elastic energy (C. T. Kelley, Iterative Methods
+    /// for Linear and Nonlinear Equations, SIAM 1995, section 7.3).
+    fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
+        let metric = &self.model.chain.metric;
+        let mut steps = std::mem::take(&mut self.scratch.steps);
+        let (earlier, rest) = steps.split_at_mut(done);
+        let step = &mut rest[0];
+        let mut potential = self.potential(inputs);
+        for (s, g) in step.iter_mut().zip(potential.gradient()) {
+            *s = -g;
+        }
+        potential.solve(step);
+        let along = |s: &[f64], z: &[f64]| inner(metric, s, z) / inner(metric, s, s);
+        for pair in earlier.windows(2) {
+            let factor = along(&pair[0], step);
+            step.iter_mut().zip(&pair[1]).for_each(|(z, s)| *z += factor * s);
+        }
+        if let Some(last) = earlier.last() {
+            let stretch = 1.0 / (1.0 - along(last, step));
+            for z in &mut *step {
+                *z *= stretch;
+            }
+        }
+        let length = norm(metric, step) / self.model.chain.radian_norm();
+        self.scratch.steps = steps;
+        length
+    }
+
+    /// Steps with the last factorisation, as long as they contract well: cheap, for small changes.
+    ///
+    /// The first may be as long as `longest`. Where the factorisation no longer holds, they end when what is left should
+    /// be within `until`. Whether the shape is solved, and evaluated.
+    fn chord(&mut self, inputs: &Inputs, unknowns: &mut [f64], mut longest: f64, until: f64) -> bool {
+        let Model { chain, settings, .. } = self.model;
+        for done in 0..CORRECTIONS {
+            let mut potential = self.potential(inputs);
+            let Some(energy) = potential.chord_slope(unknowns) else { return false };
+            let residual = dual_norm(potential.metric(), potential.gradient()) / chain.radian_norm();
+            (self.report.residual, self.report.energy) = (residual, energy);
+            let holds = until == 0.0 || self.holds(unknowns);
+            if residual <= settings.tolerance {
+                return holds;
+            }
+            let length = self.step(inputs, done);
+            if length.is_nan() || length > longest {
+                return holds && length < ROUNDING;
+            }
+            apply(unknowns, &self.scratch.steps[done]);
+            self.report.iterations += 1;
+            longest = CHORD_CONTRACTION * length;
+            if !holds && longest <= until {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Whether what the last factorisation tells about stability holds for the present loads and `unknowns`.
+    fn holds(&self, unknowns: &[f64]) -> bool {
+        let last = self.work.factorisation.as_ref();
+        last.is_some_and(|last| last.holds_at(self.model.chain, unknowns, self.work.loads(), self.reach))
+    }
+
+    /// Corrects a copy of `unknowns` and takes it over if that ends at an equilibrium; on the same branch, if they are
+    /// the equilibrium at the inputs `before`.
+    pub(super) fn try_to_correct(
+        &mut self,
+        before: Option<&Inputs>,
+        inputs: &Inputs,
+        unknowns: &mut [f64],
+    ) -> bool {
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        trial.copy_from_slice(unknowns);
+        let mut found = self.correct(inputs, &mut trial, self.model.settings.follow_step);
+        if let Some(before) = before {
+            found = found && (self.kept || self.goes_on([before, inputs], [unknowns, &trial]));
+        }
+        if found {
+            unknowns.copy_from_slice(&trial);
+        }
+        self.scratch.trial = trial;
+        found
+    }
+
+    /// Whether the branch leads from the first shape, at the first inputs, to the second one, just found at the others.
+    ///
+    /// One Newton step of the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold it
+    /// does not: there the step of the inputs moves the shape by far less than the two are apart.
+    pub(super) fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
+        let metric = &self.model.chain.metric;
+        let mut between = std::mem::take(&mut self.scratch.between);
+        between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
+        let distance = norm(metric, &between);
+        // So near, the last factorisation would have held for both.
+        if distance <= self.reach * self.model.chain.radian_norm() {
+            self.scratch.between = between;
+            return true;
+        }
+        let (residual, energy) = (self.report.residual, self.report.energy);
+        let mut potential = self.potential(before);
+        let returned = potential.chord_slope(now).is_some() && {
+            potential.add_newton_step(&mut between);
+            norm(metric, &between) <= MISSED * distance
+        };
+        self.scratch.between = between;
+        // What is read from the solved shape must be that of its own inputs.
+        let again = self.potential(inputs).chord_slope(now).is_some();
+        (self.report.residual, self.report.energy) = (residual, energy);
+        returned && again
+    }
+}
+
+/// Adds a step to the unknowns.
+fn apply(unknowns: &mut [f64], step: &[f64]) {
+    for (x, s) in unknowns.iter_mut().zip(step) {
+        *x += s;
+    }
+}

@@ -1,0 +1,62 @@
+//! Where the last shapes of a branch lead to expect the next one.
+
+use super::history::History;
+use super::inputs::Inputs;
+use super::search::{Model, NEARLY, Search};
+use crate::numerics::trust_region::norm;
+
+/// Part of a predicted step by which it may have to be corrected.
+const MISTAKEN: f64 = 0.1;
+
+/// Longest step (in the chain's unit) that is predicted instead of found.
+const PREDICTED: f64 = 0.1;
+
+impl Search<'_> {
+    /// Corrects the shape that the last steps lead to expect, if they do and it is nearly right.
+    pub(super) fn predict(&mut self, branch: &mut History, target: &Inputs) -> bool {
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        let expected = branch.predicted(target, &self.model, &mut trial);
+        let mut found =
+            expected.is_some_and(|length| self.correct(target, &mut trial, (MISTAKEN * length).max(NEARLY)));
+        if let Some(before) = &branch.inputs {
+            found = found && (self.kept || self.goes_on([before, target], [&branch.unknowns, &trial]));
+        }
+        if found {
+            branch.unknowns.copy_from_slice(&trial);
+        }
+        self.scratch.trial = trial;
+        found
+    }
+}
+
+impl History {
+    /// Writes to `shape` where the last steps lead to at `target`, as far along as the inputs go on; the length of that step
+    /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
+    ///
+    /// The line through the last two shapes; the parabola through three (Newton's divided differences) where the inputs have
+    /// gone on all the way and it differs by more than the tolerance, which the shapes themselves may be off.
+    fn predicted(&self, target: &Inputs, model: &Model<'_>, shape: &mut [f64]) -> Option<f64> {
+        let held = self.stable.is_none_or(|stable| stable && self.margin >= model.settings.fold_margin);
+        let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {
+            return None;
+        };
+        let pace = target.pace(here, before)?;
+        for ((x, now), then) in shape.iter_mut().zip(&self.unknowns).zip(last) {
+            *x = pace * (now - then);
+        }
+        if let [(oldest, first), ..] = older
+            && let Some(quickened) = here.pace(before, first).filter(|pace| *pace > 0.0)
+        {
+            let curved = pace * (pace + 1.0) / (1.0 + 1.0 / quickened);
+            let bends = self.unknowns.iter().zip(last).zip(oldest);
+            let bends = bends.map(|((now, then), old)| curved * ((now - then) - quickened * (then - old)));
+            let squares = bends.clone().zip(&model.chain.metric).map(|(bend, k)| k * bend * bend);
+            if squares.sum::<f64>().sqrt() > model.settings.tolerance * model.chain.radian_norm() {
+                shape.iter_mut().zip(bends).for_each(|(x, bend)| *x += bend);
+            }
+        }
+        let length = norm(&model.chain.metric, shape) / model.chain.radian_norm();
+        shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
+        Some(length).filter(|length| *length <= PREDICTED)
+    }
+}

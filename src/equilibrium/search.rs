@@ -1,0 +1,118 @@
+//! A search for an equilibrium: what its steps share.
+
+use super::chain::Chain;
+use super::deadline::Deadline;
+use super::inputs::Inputs;
+use super::pair_quadrature::PairQuadrature;
+use super::potential::Potential;
+use super::report::Report;
+use super::settings::Settings;
+use super::terms::Terms;
+use super::workspace::Workspace;
+use crate::magnetics::Assembly;
+use crate::numerics::eigenvalue::Lanczos;
+
+/// So close to the root (in the chain's unit) the Hessian of the next shape does for all that follow.
+pub(super) const NEARLY: f64 = 1e-4;
+
+/// Where rounding, not Newton's method, decides the length of a step (in the chain's unit).
+pub(super) const ROUNDING: f64 = 1e-9;
+
+/// Newton corrections at most for one part of an input change.
+pub(super) const CORRECTIONS: usize = 12;
+
+/// The parts that do not change from solve to solve.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Model<'a> {
+    pub(super) chain: &'a Chain,
+    pub(super) settings: &'a Settings,
+    pub(super) magnet: Option<&'a Assembly>,
+}
+
+impl<'a> Model<'a> {
+    /// The potential at `inputs` with the rules chosen last.
+    pub(super) fn potential(
+        &self,
+        inputs: &'a Inputs,
+        rules: &'a PairQuadrature,
+        work: &'a mut Workspace,
+    ) -> Potential<'a> {
+        let Self { chain, settings, magnet } = *self;
+        let mut terms = Terms::new(chain, settings, magnet, inputs, rules);
+        terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
+        Potential { chain, settings, inputs, terms, rules, work }
+    }
+}
+
+/// What a solve overwrites, kept so that a step along the branch allocates nothing.
+#[derive(Debug, Clone)]
+pub(super) struct Scratch {
+    pub(super) last: Vec<f64>,
+    pub(super) trial: Vec<f64>,
+    /// The way between two shapes, and back.
+    pub(super) between: Vec<f64>,
+    /// Steps with one factorisation.
+    pub(super) steps: Vec<Vec<f64>>,
+    pub(super) lanczos: Lanczos,
+}
+
+impl Scratch {
+    pub(super) fn new(chain: &Chain) -> Self {
+        let zeros = vec![0.0; chain.freedoms()];
+        Self {
+            last: zeros.clone(),
+            trial: zeros.clone(),
+            between: zeros.clone(),
+            steps: vec![zeros; CORRECTIONS],
+            lanczos: Lanczos::default(),
+        }
+    }
+}
+
+/// A search for the equilibrium at some inputs, under way.
+pub(super) struct Search<'a> {
+    pub(super) model: Model<'a>,
+    pub(super) work: &'a mut Workspace,
+    pub(super) rules: &'a mut PairQuadrature,
+    pub(super) scratch: &'a mut Scratch,
+    pub(super) report: Report,
+    pub(super) deadline: &'a Deadline,
+    /// The last equilibrium on the way to the target.
+    pub(super) reached: Option<(Inputs, Vec<f64>)>,
+    /// How far loads and shape may drift from the last factorisation.
+    pub(super) reach: f64,
+    /// Whether the last correction ended so close to the last factorisation that what it told about stability still holds.
+    pub(super) kept: bool,
+}
+
+impl Search<'_> {
+    pub(super) fn potential<'b>(&'b mut self, inputs: &'b Inputs) -> Potential<'b> {
+        self.model.potential(inputs, self.rules, self.work)
+    }
+
+    /// Chooses the rules for a shape.
+    pub(super) fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
+        self.work.place(self.model.chain, &inputs.base, unknowns);
+        self.choose_rules_here();
+    }
+
+    /// The same for the shape evaluated last; whether any rule is another one than before.
+    pub(super) fn choose_rules_here(&mut self) -> bool {
+        self.rules.choose(self.model.chain, &self.work.nodes)
+    }
+
+    /// Residual at which a descent to the target ends.
+    pub(super) fn resting(&self) -> f64 {
+        self.model.settings.tolerance.max(ROUNDING)
+    }
+
+    /// Iterations that this solve may still take.
+    pub(super) fn left(&self) -> u32 {
+        self.model.settings.iterations.saturating_sub(self.report.iterations)
+    }
+
+    /// Whether iterations and time are left.
+    pub(super) fn may_go_on(&self) -> bool {
+        self.left() > 0 && !self.deadline.has_passed()
+    }
+}
