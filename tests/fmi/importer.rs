@@ -25,14 +25,18 @@ const OUTPUTS: [&str; 7] = [
     "magnet.reaction_force[3]",
 ];
 
-/// The default FMU with the library that cargo has built beside this test.
-fn packed() -> PathBuf {
-    let fmu = Path::new(env!("CARGO_TARGET_TMPDIR")).join("importer.fmu");
-    let library = std::env::current_exe().unwrap().with_file_name(format!(
+/// The library that cargo has built beside this test.
+fn library() -> PathBuf {
+    std::env::current_exe().unwrap().with_file_name(format!(
         "{}mcm{}",
         std::env::consts::DLL_PREFIX,
         std::env::consts::DLL_SUFFIX
-    ));
+    ))
+}
+
+/// The default FMU with it.
+fn packed() -> PathBuf {
+    let (fmu, library) = (Path::new(env!("CARGO_TARGET_TMPDIR")).join("importer.fmu"), library());
     let packing = Command::new(env!("CARGO_BIN_EXE_mcm"))
         .args(["pack".as_ref(), "--library".as_ref(), library.as_os_str(), "--out".as_ref(), fmu.as_os_str()])
         .output()
@@ -46,6 +50,17 @@ fn pass() -> (Vec<String>, Vec<Vec<f64>>) {
     let mut reader = csv::Reader::from_path(PASS).unwrap();
     let names = reader.headers().unwrap().iter().skip(1).map(str::to_owned).collect();
     (names, reader.deserialize().map(Result::unwrap).collect())
+}
+
+/// What the methods that are kept to compare with would say, and what an FMU does.
+#[test]
+fn the_library_holds_the_potential_method_alone() {
+    let bytes = std::fs::read(library()).unwrap();
+    let holds = |words: &str| bytes.windows(words.len()).any(|window| window == words.as_bytes());
+    assert!(holds("the branch ends at a fold"), "what an FMU says of a lost branch");
+    for words in ["does not lie in one plane", "collocation intervals of a core"] {
+        assert!(!holds(words), "\"{words}\" is linked into the library");
+    }
 }
 
 fn references<'a>(description: &ModelDescription, names: impl Iterator<Item = &'a str>) -> Vec<u32> {
