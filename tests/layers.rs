@@ -88,8 +88,7 @@ fn modules(path: &Path) -> Vec<String> {
 
 /// Every name directly under the crate that the code (not its comments) mentions; the file is `depth` modules deep.
 fn rooms_used(text: &str, depth: usize) -> BTreeSet<String> {
-    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
-    let code: String = code.split_whitespace().collect();
+    let code = code(text);
     let upwards = "super::".repeat(depth);
     let mut used = BTreeSet::new();
     for root in ["crate::", upwards.as_str()] {
@@ -105,6 +104,32 @@ fn rooms_used(text: &str, depth: usize) -> BTreeSet<String> {
         }
     }
     used
+}
+
+/// The text without comments and white space.
+fn code(text: &str) -> String {
+    let code: String = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    code.split_whitespace().collect()
+}
+
+/// The files beside it that a file's code mentions.
+fn neighbours_used(text: &str) -> BTreeSet<String> {
+    let code = code(text);
+    let own = code.match_indices("super::").filter(|(start, _)| !code[..*start].ends_with("super::"));
+    own.flat_map(|(start, found)| heads(&code[start + found.len()..])).collect()
+}
+
+/// Those of the files of one folder, each with what it uses beside it, that need one another in a circle.
+fn circle(mut files: Vec<(String, BTreeSet<String>)>) -> Vec<String> {
+    loop {
+        let names: BTreeSet<String> = files.iter().map(|(name, _)| name.clone()).collect();
+        let used: BTreeSet<String> = files.iter().flat_map(|(_, uses)| uses.clone()).collect();
+        let before = files.len();
+        files.retain(|(name, uses)| used.contains(name) && uses.iter().any(|other| names.contains(other)));
+        if files.len() == before {
+            return files.into_iter().map(|(name, _)| name).collect();
+        }
+    }
 }
 
 /// The first names of a path or of each path of a `{...}` group.
@@ -155,6 +180,29 @@ fn every_room_uses_only_what_it_may() {
         .flat_map(|file| violations(file.strip_prefix(package).unwrap(), &fs::read_to_string(file).unwrap()))
         .collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn no_files_of_a_folder_need_one_another() {
+    let mut files = Vec::new();
+    files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let folders: BTreeSet<&Path> = files.iter().filter_map(|file| file.parent()).collect();
+    for folder in folders {
+        let own = files.iter().filter(|file| file.parent() == Some(folder) && !file.ends_with("mod.rs"));
+        let stem = |file: &Path| file.file_stem().unwrap().to_string_lossy().into_owned();
+        let uses = own.map(|file| (stem(file), neighbours_used(&fs::read_to_string(file).unwrap())));
+        let found = circle(uses.collect());
+        assert!(found.is_empty(), "{}: {} need one another", folder.display(), found.join(", "));
+    }
+}
+
+#[test]
+fn a_circle_is_seen() {
+    let file = |name: &str, text: &str| (name.to_owned(), neighbours_used(text));
+    let [a, b] = [file("a", "use super::b::B;"), file("b", "use super::{c, d::{D, a}};")];
+    let d = file("d", "use crate::rod::Row; // not super::a\nuse super::super::a::A;");
+    assert_eq!(circle(vec![a.clone(), b.clone(), d.clone()]), Vec::<String>::new());
+    assert_eq!(circle(vec![a, b, d, file("c", "fn f() { super::a::g() }")]), ["a", "b", "c"]);
 }
 
 #[test]
