@@ -1,4 +1,4 @@
-//! The chain as the solver sees it: nodes joined by elements, rings on nodes.
+//! The discretised chain: nodes joined by elements, with rings on nodes.
 
 use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
@@ -9,17 +9,18 @@ use super::settings::Settings;
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
 use super::terms::Frame;
 
-/// Degrees beyond the setting's where rings act on spans: their field varies over less than a core.
+/// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
 
-/// Accuracy of the pairs from which on a table stands for the rings' fields at spans; what it is off by is another at each of
-/// their many points. For pairs of rings, whose few points have large weights of both signs, it would not do.
+/// Accuracy of the pairs from which on tables replace the rings' fields at spans: their errors differ from point to point
+/// and average out over the many points. They are not used for pairs of rings, whose few points have large weights of
+/// both signs.
 const TABLE_ACCURACY: f64 = 1e-4;
 
-/// Arc lengths (m) of so many points, equally spaced over a centreline of `length` (m).
+/// Arc lengths (m) of `points` equally spaced points on a centreline of `length` (m).
 ///
 /// # Errors
-/// [`Error::Range`] for fewer than its two ends.
+/// [`Error::Range`] for fewer than two points, the two ends.
 pub(crate) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
     check("number of shape points", points as f64, |v| v >= 2.0, ">= 2")?;
     Ok((0..points).map(move |i| length * i as f64 / (points - 1) as f64))
@@ -27,23 +28,23 @@ pub(crate) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<It
 
 /// Nodes, elements and rings of a design.
 ///
-/// Node 0 is the base; element `k` leads from node `k` to node `k + 1`. A node's frame sits at the proximal
-/// face of its ring, or where two elements meet.
+/// Node 0 is the base; element `k` leads from node `k` to node `k + 1`. The frame of a node is at the proximal face of
+/// its ring, or where two elements meet.
 #[derive(Debug, Clone)]
 pub(crate) struct Chain {
     pub(crate) elements: Vec<Element>,
     pub(crate) rings: Vec<RingBody>,
     /// Distance from the last node to the tip, m.
     pub(crate) tip_offset: f64,
-    /// First unknown of each element, and their total.
+    /// Index of the first unknown of each element, then the number of unknowns.
     pub(crate) first: Vec<usize>,
     /// Diagonal elastic stiffness of all unknowns.
     pub(crate) metric: Vec<f64>,
-    /// Elements of each segment's core, first and last.
+    /// First and last element of each segment's core.
     pub(crate) cores: Vec<(usize, usize)>,
-    /// Outer radius of each element, m: that of its discs and windings.
+    /// Outer radius of each element, m: the largest of its discs and windings.
     pub(crate) radii: Vec<f64>,
-    /// Where rings act on elements.
+    /// Quadratures of the elements in the fields of the rings.
     pub(super) span_quadratures: SpanQuadratures,
 }
 
@@ -103,7 +104,7 @@ impl Chain {
         Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, span_quadratures })
     }
 
-    /// What the nodes carry, and which: rings, and the tip on the last one.
+    /// The bodies that the nodes carry, with the numbers of the nodes: the rings, and the tip on the last node.
     pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, Frame<'_>)> {
         let rings =
             self.rings.iter().enumerate().map(|(number, body)| (body.node, Frame::Ring(number, body)));
@@ -125,7 +126,7 @@ impl Chain {
         &unknowns[self.first[element]..self.first[element + 1]]
     }
 
-    /// Norm of a change that turns one element's end by a radian: the unit of steps and residuals.
+    /// Radian norm: elastic norm of a change that turns one element's end by one radian, the unit of steps and residuals.
     pub(crate) fn radian_norm(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }

@@ -1,8 +1,9 @@
-//! Static condensation of one element: its Hessian in terms of its two end nodes, the mode amplitudes eliminated.
+//! Static condensation (Schur complement) of one element: its Hessian in terms of its two end nodes, with the mode
+//! amplitudes eliminated.
 //!
-//! The first mode of each strain component is expressed by the displacement of the end nodes (linearised
-//! kinematics), the others are condensed by Cholesky. Congruence keeps the inertia, so that the condensed
-//! chain is positive definite exactly when the whole Hessian is.
+//! The first mode of each strain component is expressed by the displacements of the end nodes (linearised kinematics),
+//! the others are eliminated by a Cholesky factorisation. A congruence preserves the inertia, so that the condensed chain
+//! is positive definite exactly when the whole Hessian is.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
@@ -11,10 +12,10 @@ use crate::rod::{Configuration, ElementDerivatives, START};
 
 use super::terms::blocks;
 
-/// Columns of the two end nodes.
+/// Number of columns of the two end nodes.
 const NODES: usize = 12;
 
-/// Amplitudes that the end nodes determine.
+/// Number of amplitudes that the end nodes determine.
 const END: usize = 6;
 
 /// The static condensation (Schur complement) of one element.
@@ -23,7 +24,7 @@ pub(super) struct Condensation {
     inner: usize,
     by_start: Matrix6<f64>,
     by_end: Matrix6<f64>,
-    /// First amplitudes by the inner ones, six rows of `inner`.
+    /// Derivatives of the first amplitudes with respect to the inner ones, six rows of `inner`.
     by_inner: Vec<f64>,
     /// Hessian in terms of (start, end, inner), row by row.
     whole: Vec<f64>,
@@ -33,7 +34,7 @@ pub(super) struct Condensation {
     factor: Vec<f64>,
     /// `L^-1` times the coupling of inner amplitudes to nodes, by node column.
     coupling: Vec<f64>,
-    /// `L^-1` times the coupling of inner amplitudes to the rings' nodes, by column; empty without it.
+    /// `L^-1` times the coupling of inner amplitudes to the rings' nodes, by column; empty without coupling.
     outer: Vec<f64>,
     /// Condensed coupling of the two nodes (axes of the start node) to the rings' nodes, twelve rows.
     pub(super) condensed_outer: Vec<f64>,
@@ -42,7 +43,7 @@ pub(super) struct Condensation {
 }
 
 impl Condensation {
-    /// Storage for an element with so many amplitudes, coupled to `columns` displacements of rings.
+    /// Allocates storage for an element with this number of amplitudes, coupled to `columns` displacements of rings.
     pub(super) fn new(freedoms: usize, columns: usize) -> Self {
         let inner = freedoms - END;
         let size = NODES + inner;
@@ -61,7 +62,7 @@ impl Condensation {
         }
     }
 
-    /// Linearised kinematics; `false` where the end does not determine the first amplitudes.
+    /// Linearises the kinematics; `false` where the end pose does not determine the first amplitudes.
     pub(super) fn linearise(&mut self, configuration: &Configuration, tangent: &ElementDerivatives) -> bool {
         let Some(turn) = configuration.end_theta.left_jacobian_inverse() else { return false };
         let column = |i: usize| tangent.end_position[i];
@@ -110,8 +111,8 @@ impl Condensation {
         true
     }
 
-    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, one row for each displacement of these,
-    /// after the Hessian itself.
+    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, one row for each of their displacements; call
+    /// it after [`Self::condense`].
     pub(super) fn condense_outer(&mut self, cross: &[f64], columns: usize) {
         let inner = self.inner;
         for (column, entries) in cross.chunks_exact(START + END + inner).enumerate() {
@@ -141,14 +142,16 @@ impl Condensation {
         &self.outer[column * self.inner..][..self.inner]
     }
 
-    /// What eliminated amplitudes (see [`Self::eliminate`]) take from the rings' nodes.
+    /// Subtracts the contribution of the eliminated amplitudes (see [`Self::eliminate`]) from the right-hand side of the
+    /// rings' nodes.
     pub(super) fn eliminate_outer(&self, rhs: &[f64], rings: &mut [f64]) {
         for (column, entry) in rings.iter_mut().enumerate() {
             *entry -= cholesky::dot(self.outer(column), &rhs[END..]);
         }
     }
 
-    /// What displacements of the rings' nodes take from eliminated amplitudes, before they are recovered.
+    /// Subtracts the contribution of the rings' node displacements from the eliminated amplitudes, before these are
+    /// recovered.
     pub(super) fn recover_outer(&self, rings: &[f64], rhs: &mut [f64]) {
         for (column, value) in rings.iter().enumerate() {
             for (entry, x) in rhs[END..].iter_mut().zip(self.outer(column)) {
@@ -157,7 +160,7 @@ impl Condensation {
         }
     }
 
-    /// The Hessian by (start, end, inner amplitudes): substitutes the first amplitudes.
+    /// Transforms the Hessian to (start, end, inner amplitudes) by substituting the first amplitudes.
     fn transform(&mut self, tangent: &ElementDerivatives, metric: &[f64], shift: f64) {
         let (inner, size) = (self.inner, NODES + self.inner);
         let rows = tangent.size;
@@ -207,7 +210,7 @@ impl Condensation {
         }
     }
 
-    /// Splits a right-hand side by amplitudes: what falls on the two nodes is returned, the rest kept in `rhs`.
+    /// Eliminates the amplitudes from a right-hand side: returns the part of the two nodes and keeps the rest in `rhs`.
     pub(super) fn eliminate(&self, rhs: &mut [f64]) -> [f64; NODES] {
         let mut nodes = [0.0; NODES];
         let (ends, inner) = rhs.split_at_mut(END);
@@ -226,7 +229,7 @@ impl Condensation {
         nodes
     }
 
-    /// Completes the amplitudes in `rhs` from the displacements of the two nodes.
+    /// Recovers the amplitudes in `rhs` from the displacements of the two nodes.
     pub(super) fn recover(&self, nodes: &[f64; NODES], rhs: &mut [f64]) {
         let (ends, inner) = rhs.split_at_mut(END);
         for (node, column) in nodes.iter().zip(self.coupling.chunks_exact(self.inner.max(1))) {
@@ -242,7 +245,7 @@ impl Condensation {
     }
 }
 
-/// Turns the four vectors of two nodes from the axes of a frame into fixed axes (or back, with its transpose).
+/// Rotates the four vectors of two nodes from the axes of a frame to fixed axes (or back, with its transpose).
 pub(super) fn turn_nodes(rotation: &Matrix3<f64>, nodes: &mut [f64; NODES]) {
     for part in nodes.chunks_exact_mut(3) {
         let turned = rotation * Vector3::new(part[0], part[1], part[2]);

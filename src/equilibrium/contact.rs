@@ -1,4 +1,4 @@
-//! Bodies that share volume: rings with one another, and all of the manipulator with the external magnet.
+//! Contact: overlap of rings with one another, and of the whole manipulator with the external magnet.
 
 use nalgebra::Vector3;
 
@@ -13,24 +13,24 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Outline};
 use crate::numerics::maximum::largest;
 
-/// Parts of an element at whose ends its sections are looked at.
+/// Number of parts of an element at whose ends its sections are tested.
 const PARTS: usize = 16;
 
-/// How long an element may be, in unstrained lengths, to be sure to be far from a magnet: the model's strains are less than
-/// a tenth.
+/// Upper bound of an element's stretched length, relative to its unstrained length, in the test whether it is far from a
+/// magnet: the model's strains are less than a tenth.
 const STRETCHED: f64 = 2.0;
 
-/// Share of a radius by which a section may lie below a magnet's surface by rounding.
+/// Depth below a magnet's surface, relative to the radius, that a section may have by rounding.
 const TOUCHING: f64 = 1e-9;
 
-/// Nodes and elements of a chain that is placed in the world.
+/// Chain with the poses of its nodes in the world.
 pub(crate) struct Placed<'a> {
     pub(crate) chain: &'a Chain,
     pub(crate) nodes: &'a [Pose],
 }
 
 impl Model<'_> {
-    /// The deepest contact of the shape that was placed last, at these inputs.
+    /// The deepest contact at the shape placed last, at these inputs.
     pub(crate) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
         let placed = Placed { chain: self.chain, nodes: &work.nodes };
         placed.contact(self.settings, self.magnet, inputs, |k, s| {
@@ -42,9 +42,10 @@ impl Model<'_> {
 }
 
 impl Placed<'_> {
-    /// The deepest contact; `section` is the pose of an element's section at an arc length (m) from the element's start.
+    /// The deepest contact; `section` gives the pose of an element's section at an arc length (m) from the element's
+    /// start.
     ///
-    /// Rings count among themselves where they act on each other. A magnet of strength 0 is not there.
+    /// Contact among rings is tested where rings interact. A magnet of strength 0 counts as absent.
     pub(crate) fn contact(
         &self,
         settings: &Settings,
@@ -100,8 +101,8 @@ impl Placed<'_> {
                     let pose = seen(&section(k, s), at, &place);
                     disc.level_in(&cylinder, &pose, reach).unwrap_or(f64::NEG_INFINITY)
                 };
-                // Between two sections nothing comes closer by more than their distance and the turn between them, at
-                // most half a circle in all.
+                // Between two sections nothing can be closer by more than their distance and their relative rotation, at
+                // most half a turn in total.
                 let worth = -(STRETCHED * element.length + core::f64::consts::PI * radius) / PARTS as f64;
                 let (depth, _) = largest(level, [0.0, element.length], PARTS, worth);
                 if depth > TOUCHING * radius {
@@ -112,7 +113,7 @@ impl Placed<'_> {
     }
 }
 
-/// The pose as seen from a cylinder whose centre is at `place` in the magnet's frame, that at `at` in the world.
+/// The pose relative to a cylinder whose centre is at `place` in the frame of the magnet, which is at `at` in the world.
 fn seen(pose: &Pose, at: &Pose, place: &Vector3<f64>) -> Pose {
     let pose = pose.seen_from(at);
     Pose { position: pose.position - place, ..pose }

@@ -1,4 +1,4 @@
-//! Bifurcation diagrams: all equilibria along a path of inputs that one branch leads to, through folds, stable or not.
+//! Bifurcation diagrams: all equilibria on a branch along a path of inputs, through folds, stable or not.
 
 use nalgebra::DVector;
 
@@ -11,13 +11,13 @@ use crate::geometry::Pose;
 use crate::numerics::continuation::{End, Family, Local, Point, PointKind, Walk, follow};
 use crate::numerics::trust_region::Objective;
 
-/// Difference of the parameter, of its span, by which the gradient is differentiated.
+/// Finite difference step of the parameter, relative to its span, for the derivative of the gradient.
 const DIFFERENCE: f64 = 1e-5;
 
 /// An equilibrium on a branch, stable or not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// The value on the path of inputs.
+    /// The parameter value on the path of inputs.
     pub value: f64,
     /// Strain mode amplitudes.
     pub unknowns: Vec<f64>,
@@ -27,36 +27,37 @@ pub struct Shape {
     pub tip_angle: f64,
     /// Potential energy, J.
     pub energy: f64,
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 0 at a fold, negative where unstable.
+    /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy; 0 at a fold, negative where
+    /// unstable.
     pub margin: f64,
-    /// Number of directions in which the shape is unstable; 0 where it is stable.
+    /// Number of unstable directions; 0 where the shape is stable.
     pub unstable: usize,
-    /// Whether it is a fold or a place where branches cross; rounding decides there on `unstable`.
+    /// Whether it is a fold or a branch point; at these, rounding decides on `unstable`.
     pub kind: PointKind,
 }
 
 /// A branch of equilibria along a path of inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagram {
-    /// In their order along the branch, folds among them.
+    /// The equilibria in their order along the branch, including folds.
     pub shapes: Vec<Shape>,
-    /// Why it ends.
+    /// Why the branch ends.
     pub end: End,
 }
 
 impl Diagram {
-    /// The shapes at which the branch turns back.
+    /// The folds: the shapes at which the parameter turns back.
     pub fn folds(&self) -> impl Iterator<Item = &Shape> {
         self.shapes.iter().filter(|shape| shape.kind == PointKind::Fold)
     }
 }
 
 impl Equilibrium {
-    /// Traces the branch that leads through the present shape, or through the equilibrium next to it, with `inputs` a
-    /// function of one number; see [`follow`].
+    /// Traces the branch through the present shape, or through the equilibrium next to it, where `inputs` is a function
+    /// of one parameter; see [`follow`].
     ///
-    /// Lengths of `walk` are in turns of one element by a radian, the whole range counting as one. The inputs are asked for
-    /// a little outside the range, too. The equilibrium itself stays as it is.
+    /// Lengths of `walk` are in the radian norm, where the whole parameter range counts as one. The inputs are also
+    /// evaluated slightly outside the range. The equilibrium itself stays unchanged.
     ///
     /// ```
     /// use mcm::equilibrium::{Equilibrium, Inputs};
@@ -78,8 +79,8 @@ impl Equilibrium {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Range`] for a range without length and as [`follow`]; those of `inputs`; [`Error::Unsupported`] where the
-    /// forces have no potential: at the level `preceding`, and with a moment on the tip.
+    /// [`Error::Range`] for a range without length and as [`follow`]; those of `inputs`; [`Error::Unsupported`] where
+    /// forces are not conservative: at the level `preceding`, and with a moment on the tip.
     pub fn trace(
         &self,
         inputs: impl Fn(f64) -> Result<Inputs, Error>,
@@ -100,14 +101,15 @@ impl Equilibrium {
     }
 }
 
-/// The potential in variables in which the elastic energy is half their square times `unit^2`, by the part of the span.
+/// The potential in scaled variables, in which the elastic energy is half their square times `unit^2`, and with the
+/// parameter relative to its span.
 struct Scaled<F> {
     model: Equilibrium,
     inputs: F,
     low: f64,
     span: f64,
     unit: f64,
-    /// Unknowns of one scaled variable.
+    /// Unknowns per unit of the scaled variables.
     scale: DVector<f64>,
 }
 

@@ -1,27 +1,29 @@
-//! Newton's corrections of a shape, and whether they have stayed on its branch.
+//! Corrector: Newton's method for one shape, and the test whether it has stayed on its branch.
 
 use super::inputs::Inputs;
 use super::search::{CORRECTIONS, Model, NEARLY, ROUNDING, Search};
 use crate::numerics::eigenvalue::inner;
 use crate::numerics::trust_region::{Objective, dual_norm, norm};
 
-/// A Newton correction that shrinks by less than this from step to step is not trusted to stay on its branch.
+/// Largest ratio of the lengths of two successive Newton steps that is trusted to stay on the branch.
 const CONTRACTION: f64 = 0.5;
 
-/// The same for steps with an earlier factorisation, which are only worth while if they contract better.
+/// The same ratio for steps with an earlier factorisation, which only pay off if they contract faster.
 const CHORD_CONTRACTION: f64 = 0.1;
 
-/// Part of a step by which the way back may miss its start: a branch that turns more within a step is followed in shorter ones.
+/// Largest distance, relative to a step, by which the step back may miss its start. A branch that turns more within a
+/// step is followed in shorter steps.
 const MISSED: f64 = 0.5;
 
-/// How often the rules may change at a solved shape: a distance at which two rules meet could swap them for ever.
+/// Maximum number of changes of the quadrature rules at a solved shape: at the distance where two rules meet, they could
+/// alternate for ever.
 const RULE_CHOICES: u32 = 3;
 
 impl Search<'_> {
-    /// Newton's method without safeguards, abandoned as soon as it does not behave as it does near a root.
+    /// Newton's method without safeguards, abandoned as soon as it does not converge as it does near a root.
     ///
-    /// Steps with the last factorisation come first, and do alone while that still holds; else the Hessian is made anew
-    /// once on the way.
+    /// Steps with the last factorisation come first, and suffice while that remains valid; otherwise the Hessian is
+    /// recomputed once on the way.
     pub(super) fn correct(&mut self, inputs: &Inputs, unknowns: &mut [f64], reach: f64) -> bool {
         let Model { chain, settings, .. } = self.model;
         let unit = chain.radian_norm();
@@ -64,9 +66,9 @@ impl Search<'_> {
                 }
             }
             if settled {
-                // The rules must be those of the solved shape, or the answer would depend on the way to it.
+                // The rules must be those of the solved shape, otherwise the solution would depend on the path to it.
                 if choices == 0 || !self.choose_rules_here() {
-                    // Without a potential a root may be an unstable shape.
+                    // For non-conservative forces a root may be an unstable shape.
                     return self.potential(inputs).is_stable();
                 }
                 (previous, choices) = (first, choices - 1);
@@ -75,11 +77,11 @@ impl Search<'_> {
         false
     }
 
-    /// The step from the last gradient with the last factorisation, corrected by what the last `done` steps of this kind
-    /// have shown; its length in the chain's unit.
+    /// Computes the step from the last gradient with the last factorisation, corrected by the last `done` steps of this
+    /// kind; returns its length in the radian norm.
     ///
-    /// Broyden's method in its form without matrices, in the metric of the elastic energy (C. T. Kelley, Iterative Methods
-    /// for Linear and Nonlinear Equations, SIAM 1995, section 7.3).
+    /// Broyden's method in its matrix-free form, in the metric of the elastic energy (C. T. Kelley, Iterative Methods for
+    /// Linear and Nonlinear Equations, SIAM 1995, section 7.3, doi:10.1137/1.9781611970944).
     fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
         let metric = &self.model.chain.metric;
         let mut steps = std::mem::take(&mut self.scratch.steps);
@@ -106,10 +108,10 @@ impl Search<'_> {
         length
     }
 
-    /// Steps with the last factorisation, as long as they contract well: cheap, for small changes.
+    /// Takes steps with the last factorisation as long as they contract well: cheap, for small changes.
     ///
-    /// The first may be as long as `longest`. Where the factorisation no longer holds, they end when what is left should
-    /// be within `until`. Whether the shape is solved, and evaluated.
+    /// The first step may be as long as `longest`. Where the factorisation is no longer valid, the steps end when the
+    /// expected remainder is within `until`. Returns whether the shape is solved and evaluated.
     fn chord(&mut self, inputs: &Inputs, unknowns: &mut [f64], mut longest: f64, until: f64) -> bool {
         let Model { chain, settings, .. } = self.model;
         for done in 0..CORRECTIONS {
@@ -135,14 +137,14 @@ impl Search<'_> {
         false
     }
 
-    /// Whether what the last factorisation tells about stability holds for the present loads and `unknowns`.
+    /// Whether the stability result of the last factorisation is valid for the present loads and `unknowns`.
     fn holds(&self, unknowns: &[f64]) -> bool {
         let last = self.work.factorisation.as_ref();
         last.is_some_and(|last| last.holds_at(self.model.chain, unknowns, self.work.loads(), self.reach))
     }
 
-    /// Corrects a copy of `unknowns` and takes it over if that ends at an equilibrium; on the same branch, if they are
-    /// the equilibrium at the inputs `before`.
+    /// Corrects a copy of `unknowns` and accepts it if it is an equilibrium. If `unknowns` are the equilibrium at the
+    /// inputs `before`, it must also be on the same branch.
     pub(super) fn try_to_correct(
         &mut self,
         before: Option<&Inputs>,
@@ -162,16 +164,17 @@ impl Search<'_> {
         found
     }
 
-    /// Whether the branch leads from the first shape, at the first inputs, to the second one, just found at the others.
+    /// Whether the branch leads from the first shape, at the first inputs, to the second one, just found at the second
+    /// inputs.
     ///
-    /// One Newton step of the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold it
-    /// does not: there the step of the inputs moves the shape by far less than the two are apart.
+    /// One Newton step at the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold
+    /// it does not: there the change of the inputs moves the shape by far less than the distance of the two.
     pub(super) fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
         let metric = &self.model.chain.metric;
         let mut between = std::mem::take(&mut self.scratch.between);
         between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
         let distance = norm(metric, &between);
-        // So near, the last factorisation would have held for both.
+        // At such a short distance the last factorisation would have been valid for both.
         if distance <= self.reach * self.model.chain.radian_norm() {
             self.scratch.between = between;
             return true;
@@ -183,7 +186,7 @@ impl Search<'_> {
             norm(metric, &between) <= MISSED * distance
         };
         self.scratch.between = between;
-        // What is read from the solved shape must be that of its own inputs.
+        // The workspace must hold the solved shape at its own inputs, from which results are read.
         let again = self.potential(inputs).chord_slope(now).is_some();
         (self.report.residual, self.report.energy) = (residual, energy);
         returned && again

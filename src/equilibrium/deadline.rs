@@ -1,12 +1,12 @@
-//! The processor time that a solve may take.
+//! Processor time budget of a solve.
 
 use std::cell::OnceCell;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 
-/// A budget of processor time of this thread. Its clock starts when it is looked at first, which a step that is predicted well
-/// never does.
+/// A budget of processor time of this thread. Its clock starts at the first query, which a well predicted step never
+/// makes.
 #[derive(Debug)]
 pub(crate) struct Deadline {
     budget: Duration,
@@ -20,7 +20,7 @@ impl Deadline {
         Self { budget, start: OnceCell::new() }
     }
 
-    /// Whether the budget is used up; never on a system that does not tell its threads' time.
+    /// Whether the budget is used up; never on a system that does not report the time of threads.
     pub(crate) fn has_passed(&self) -> bool {
         let start = self.start.get_or_init(|| ThreadTime::try_now().ok());
         start.and_then(|start| start.try_elapsed().ok()).is_some_and(|elapsed| elapsed > self.budget)

@@ -1,4 +1,4 @@
-//! Beyond the end of a branch: downhill to the next stable shape, and whether that was a snap.
+//! Descent beyond the end of a branch to the next stable shape, and whether that was a snap.
 
 use super::inputs::Inputs;
 use super::outcome::Outcome;
@@ -6,31 +6,35 @@ use super::search::{NEARLY, ROUNDING, Search};
 use crate::numerics::pseudo_transient::settle;
 use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
 
-/// First radius of the trust region past a fold, in the chain's unit: small, so that the descent is followed.
+/// First radius of the trust region past a fold, in the radian norm: small, so that the path of descent is followed.
 const FIRST_RADIUS: f64 = 0.1;
 
-/// Part of the distance of a descent within which its way back leads to the start where the branch has not been left.
+/// Distance, relative to that of the descent, within which the way back must reach the start if the branch has not been
+/// left.
 const RETURNED: f64 = 0.5;
 
-/// Part of that distance within which overdamped motion ends where the descent has drifted along a neutral branch.
+/// Distance, relative to that of the descent, within which overdamped motion ends if the descent has drifted along a
+/// neutral branch.
 const DRIFTED: f64 = 0.9;
 
-/// Least margin at which a way back is told from none: the residual, over the distance, at which it ends.
+/// Smallest stability margin for which the way back is resolved: the ratio of the residual at which it ends to the
+/// distance.
 const SOFT: f64 = 1e-6;
 
-/// Difference of two energies, in the chain's unit squared, that is none: what the residuals leave open.
+/// Largest difference of two energies that count as equal, in the squared radian norm: what the residuals leave
+/// undetermined.
 const SAME_ENERGY: f64 = 1e-7;
 
-/// Residual (in the chain's unit) at which a descent on the way ends: a nearly neutral valley is not followed to its bottom
-/// before the inputs have come to rest.
+/// Residual (radian norm) at which a descent on the way to the target ends: the bottom of a nearly neutral valley is only
+/// sought at the final inputs.
 pub(super) const PASSING: f64 = 1e-5;
 
-/// A push (in the chain's unit) off an unstable shape that is in balance.
+/// Length of the perturbation (radian norm) of an unstable equilibrium.
 const PUSH: f64 = 1e-3;
 
 impl Search<'_> {
-    /// Downhill from a shape at `before` to the next stable one at `inputs`, as [`Search::descend`]; counts a snap where the branch
-    /// has been left.
+    /// Descends from a shape at `before` to the next stable one at `inputs`, as [`Search::descend`]; counts a snap where
+    /// the branch has been left.
     pub(super) fn descend_from(
         &mut self,
         [before, inputs]: [&Inputs; 2],
@@ -46,14 +50,14 @@ impl Search<'_> {
         end
     }
 
-    /// Downhill to the next stable shape, until Newton's method takes over at the residual `tolerance` (in the chain's unit).
+    /// Descends to the next stable shape, until Newton's method takes over at the residual `tolerance` (radian norm).
     pub(super) fn descend(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> Outcome {
         let unit = self.model.chain.radian_norm();
         let mut reached = unknowns.to_vec();
         let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
         let conservative = self.potential(inputs).terms.have_potential();
         if !conservative && minimum.converged && !self.is_confirmed(inputs, &reached) {
-            // In balance without being stable: a potential's descent leaves such a shape by itself.
+            // An unstable equilibrium, which the descent of a potential leaves by itself.
             spread(&self.model.chain.metric, &mut reached, PUSH * unit);
             minimum = self.go_downhill(inputs, &mut reached, tolerance);
         }
@@ -70,7 +74,7 @@ impl Search<'_> {
             self.report.residual = residual;
             Outcome::Neutral
         } else {
-            return Outcome::BranchEnds; // in balance, but not stable
+            return Outcome::BranchEnds; // an unstable equilibrium
         };
         unknowns.copy_from_slice(&reached);
         self.kept = false;
@@ -96,8 +100,8 @@ impl Search<'_> {
         minimum
     }
 
-    /// Whether a descent from the shape `last`, at `before`, has led to another branch: a branch that goes on, however
-    /// steeply, leads back when the inputs do.
+    /// Whether a descent from the shape `last`, at `before`, has led to another branch: a branch that continues, however
+    /// steeply, leads back when the inputs are reversed.
     fn has_left(&mut self, before: &Inputs, inputs: &Inputs, last: &[f64], reached: &[f64]) -> bool {
         let distance = self.apart(reached, last);
         if distance <= NEARLY * self.model.chain.radian_norm() {
@@ -105,19 +109,19 @@ impl Search<'_> {
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
-        // Where the branch is soft, little force is left halfway.
+        // Where the branch is soft, the residual is already small halfway back.
         let tolerance = (SOFT * distance / self.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
         let left = self.apart(&back, last) > RETURNED * distance
             && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
-        // The factorisation is that of another shape.
+        // The factorisation belongs to another shape.
         self.work.factorisation = None;
         (self.report.residual, self.report.energy) = (residual, energy);
         left
     }
 
-    /// Whether a shape as low as `reached` lies within `reach` of `last`, where overdamped motion leads: then the branch goes on
-    /// there, and the descent has drifted along a direction that is neutral.
+    /// Whether overdamped motion from `last` ends within `reach` of it at a shape as low as `reached`. Then the branch
+    /// continues there, and the descent has drifted along a neutral direction.
     fn has_drifted(&mut self, inputs: &Inputs, last: &[f64], reached: &[f64], reach: f64) -> bool {
         if !self.potential(inputs).terms.have_potential() {
             return false;
@@ -135,7 +139,7 @@ impl Search<'_> {
         energies.is_some_and(|(settled, reached)| settled - reached <= SAME_ENERGY * unit * unit)
     }
 
-    /// Distance of two shapes in the elastic energy's norm.
+    /// Distance of two shapes in the elastic energy norm.
     fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
         norm(&self.model.chain.metric, &between)

@@ -1,7 +1,7 @@
-//! A factorised Hessian: where it was made, and whether what it told about stability still holds.
+//! A factorised Hessian, with its origin and with how long its stability result stays valid.
 //!
-//! The Hessian depends on the shape and, through the turning of the directors, on the forces and couples along the
-//! chain. While both have hardly changed, the factorisation and what it told about stability still hold.
+//! The Hessian depends on the shape and, through the rotation of the directors, on the forces and couples along the
+//! chain. While both have hardly changed, the factorisation and its stability result remain valid.
 
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -13,72 +13,73 @@ use crate::geometry::Pose;
 use crate::numerics::cholesky;
 use crate::rod::ElementDerivatives;
 
-/// How rings and spans are coupled.
+/// Coupling of rings and spans in the Hessian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum SpanCoupling {
-    /// Not at all.
+    /// No coupling.
     None,
-    /// Rings act on spans alone.
+    /// Rings act on spans, without reaction.
     OneSided,
-    /// Spans act back on rings.
+    /// Rings act on spans and spans on rings.
     Mutual,
 }
 
-/// The Hessian of a shape in parts.
+/// The Hessian at a shape, in parts.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hessian<'a> {
     pub(super) chain: &'a Chain,
-    /// By the displacements of the nodes, row by row.
+    /// Second derivatives with respect to the node displacements, row by row.
     pub(super) nodes: &'a [f64],
-    /// Of each element.
+    /// Second derivatives of each element.
     pub(super) elements: &'a [ElementDerivatives],
-    /// Of each element and the rings' nodes; empty where rings do not act on spans.
+    /// Mixed second derivatives of each element and the rings' nodes; empty where rings do not act on spans.
     pub(super) mixed: &'a [Vec<f64>],
     pub(super) spans: SpanCoupling,
-    /// Whether all forces have a potential, so that it is symmetric.
+    /// Whether all forces are conservative, so that the Hessian is symmetric.
     pub(super) symmetric: bool,
-    /// Whether every action among rings has its reaction.
+    /// Whether every force between rings has its reaction.
     pub(super) reciprocal: bool,
 }
 
-/// Where a Hessian was made: enough to make it again.
+/// Where a Hessian was computed: enough to compute it again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Origin {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Inputs,
-    /// The rules of the ring pairs.
+    /// The quadrature rules of the ring pairs.
     pub(super) rules: Vec<usize>,
-    /// Whether the margin of the branch was found there.
+    /// Whether the stability margin of the branch was determined there.
     pub(super) judged: bool,
 }
 
-/// The Hessian of a shape, ready to be factorised; its storage is that of the last one.
+/// The Hessian at a shape before its factorisation; it reuses the storage of the last one.
 #[derive(Debug, Clone)]
 pub(super) struct Linearisation {
     pub(super) condensations: Vec<Condensation>,
-    /// Axes of the elements' start nodes: it is factorised and solved with in these, wherever the chain moves afterwards.
+    /// Axes of the elements' start nodes at the origin. Factorisation and solves use these, wherever the chain moves
+    /// afterwards.
     axes: Vec<Matrix3<f64>>,
-    /// By the displacements of the nodes, row by row; then its Cholesky factor.
+    /// Hessian with respect to the node displacements, row by row; later its Cholesky factor.
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     origin: Origin,
-    /// What acted on nodes and elements: couple (N m) and force (N).
+    /// Loads on nodes and elements: couple (N m) and force (N).
     loads: Vec<(Matrix3<f64>, Vector3<f64>)>,
 }
 
-/// A Hessian that is factorised, with a shift or without.
+/// A factorised Hessian, with or without a shift.
 #[derive(Debug, Clone)]
 pub(super) struct Factorisation {
     made: Box<Linearisation>,
-    /// Where the matrix is not symmetric.
+    /// LU factors, where the matrix is not symmetric.
     lu: Option<LU<f64, Dyn, Dyn>>,
-    /// Whether its symmetric part is positive definite.
+    /// Whether the symmetric part is positive definite.
     pub(super) definite: bool,
     spans: SpanCoupling,
 }
 
 impl Linearisation {
-    /// Storage, nothing is made yet; `spans` where rings act on spans.
+    /// Allocates the storage; `spans` tells whether rings act on spans.
     pub(super) fn new(chain: &Chain, spans: bool) -> Box<Self> {
         let count = chain.elements.len();
         let size = 6 * count;
@@ -94,7 +95,8 @@ impl Linearisation {
         })
     }
 
-    /// Keeps where it has been made: the shape, the nodes' poses there, what acts on nodes and elements, and the rules.
+    /// Records the origin: the shape, the nodes' poses there, the loads on nodes and elements, the inputs and the
+    /// quadrature rules.
     pub(super) fn note(
         &mut self,
         (unknowns, nodes): (&[f64], &[Pose]),
@@ -115,8 +117,8 @@ impl Linearisation {
         origin.judged = false;
     }
 
-    /// Factorises the Hessian that was made here, plus `shift` times the elastic one; itself where it is not positive definite
-    /// or, without a potential, not regular.
+    /// Factorises this Hessian plus `shift` times the elastic one. Returns itself where the matrix is not positive
+    /// definite or, for non-conservative forces, not regular.
     pub(super) fn factorise(
         mut self: Box<Self>,
         hessian: &Hessian<'_>,
@@ -152,7 +154,7 @@ impl Linearisation {
         let axes = self.axes[k];
         for i in 0..4 {
             for j in 0..4 {
-                // The first six rows are the base's where the element starts there.
+                // The base is fixed: it has no rows where the element starts there.
                 let (Some(row), Some(column)) = (free(6 * k + 3 * i), free(6 * k + 3 * j)) else { continue };
                 let part = Matrix3::from_fn(|a, b| own.condensed[3 * i + a][3 * j + b]);
                 let turned = axes * part * axes.transpose();
@@ -228,23 +230,23 @@ impl Factorisation {
         }
     }
 
-    /// Where it was made.
+    /// Shape, inputs and rules at which it was computed.
     pub(super) fn origin(&self) -> &Origin {
         &self.made.origin
     }
 
-    /// The margin of the branch has been found here, or is known to be that of here.
+    /// Sets whether the stability margin of the branch is that of this factorisation.
     pub(super) fn set_judged(&mut self, judged: bool) {
         self.made.origin.judged = judged;
     }
 
-    /// The storage, for the next one.
+    /// Returns the storage for the next Hessian.
     pub(super) fn into_linearisation(self) -> Box<Linearisation> {
         self.made
     }
 
-    /// Whether what it told about stability holds for `unknowns` with such `loads` on nodes and elements: they may be as far as
-    /// `reach` from its origin, in the radian norm.
+    /// Whether its stability result is valid for `unknowns` with these `loads` on nodes and elements: both together may
+    /// differ by `reach` from its origin, in the radian norm.
     pub(super) fn holds_at(
         &self,
         chain: &Chain,
@@ -271,7 +273,7 @@ impl Factorisation {
     }
 }
 
-/// The row of a node's displacement in the matrix of the nodes, from which the base is left out.
+/// The row of a node's displacement in the matrix of the nodes, which leaves out the base.
 fn free(row: usize) -> Option<usize> {
     row.checked_sub(6)
 }

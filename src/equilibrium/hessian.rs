@@ -1,13 +1,13 @@
-//! The Hessian as one matrix by the unknowns, definite or not: for studies of unstable shapes.
+//! The full Hessian with respect to the unknowns, definite or not, for studies of unstable shapes.
 //!
-//! The solver never makes it: what it factorises is condensed to the nodes, see [`super::condensed`].
+//! The solver does not form it: it factorises the matrix condensed to the nodes, see [`super::condensation`].
 
 use nalgebra::{DMatrix, DMatrixView};
 
 use super::potential::Potential;
 
 impl Potential<'_> {
-    /// The matrix at the shape that was linearised last, where all forces have a potential.
+    /// The matrix at the shape linearised last, where all forces are conservative.
     pub(super) fn hessian(&mut self) -> DMatrix<f64> {
         let (size, rows) = (self.chain.freedoms(), 6 * self.chain.elements.len());
         let motion = self.motion(&DMatrix::identity(size, size));
@@ -15,7 +15,7 @@ impl Potential<'_> {
         for (k, node) in motion.nodes.iter().skip(1).enumerate() {
             nodes.rows_mut(6 * k, 6).copy_from(node);
         }
-        // Stored row by row, and symmetric.
+        // It is stored row by row, and symmetric.
         let mut out = nodes.tr_mul(&(DMatrixView::from_slice(&self.work.node_hessian, rows, rows) * &nodes));
         for (k, moved) in motion.elements.iter().enumerate() {
             let size = moved.nrows();

@@ -1,4 +1,4 @@
-//! A branch of equilibria: its last shapes, and where they lead to expect the next one.
+//! History of a branch of equilibria: its last shapes, from which the next one is extrapolated.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,20 @@ use super::chain::Chain;
 use super::inputs::Inputs;
 use crate::numerics::trust_region::spread;
 
-/// Shapes before the present one that are kept to predict the next.
+/// Number of earlier shapes that are kept for the predictor.
 const EARLIER: usize = 2;
 
-/// The shape, and the inputs at which it is in equilibrium.
+/// The present shape with its inputs, and the shapes before it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct History {
     pub(super) unknowns: Vec<f64>,
     pub(super) inputs: Option<Inputs>,
-    /// Shape and inputs of the solves before on this branch, the last one first.
+    /// Shapes and inputs of the previous solves on this branch, the most recent first.
     pub(super) earlier: Vec<(Vec<f64>, Inputs)>,
-    /// Margin and verdict at the last factorisation.
+    /// Stability margin and verdict at the last factorisation.
     pub(super) margin: f64,
     pub(super) stable: Option<bool>,
-    /// Direction of least stiffness, the first guess for the next search.
+    /// Direction of least stiffness, the initial guess of the next eigenvalue search.
     pub(super) softest: Vec<f64>,
 }
 
@@ -31,19 +31,20 @@ impl History {
         Self { unknowns, inputs: None, earlier: Vec::new(), margin: 0.0, stable: None, softest }
     }
 
-    /// Whether that many unknowns are those of every shape, and all of them are finite.
+    /// Whether every shape has this number of unknowns and all of them are finite.
     pub(super) fn fits(&self, freedoms: usize) -> bool {
         let earlier = self.earlier.iter().map(|earlier| &earlier.0);
         let mut lists = [&self.unknowns, &self.softest].into_iter().chain(earlier);
         lists.all(|list| are_finite(list, freedoms)) && self.earlier.len() <= EARLIER
     }
 
-    /// All inputs.
+    /// Present and earlier inputs.
     pub(super) fn all_inputs(&self) -> impl Iterator<Item = &Inputs> {
         self.inputs.iter().chain(self.earlier.iter().map(|earlier| &earlier.1))
     }
 
-    /// Goes on to a shape at `inputs`; `last` is the shape before, from which no line leads on where it begins `anew`.
+    /// Advances to a shape at `inputs`; `last` is the previous shape. With `anew` the earlier shapes are dropped, since
+    /// they do not extrapolate to the next one.
     pub(super) fn advance(&mut self, inputs: &Inputs, last: &[f64], anew: bool) {
         let Some(here) = &mut self.inputs else {
             self.inputs = Some(inputs.clone());
@@ -62,7 +63,7 @@ impl History {
         here.copy_from(inputs);
     }
 
-    /// Rests at an equilibrium on the way to inputs that were not reached.
+    /// Stays at an equilibrium on the way to inputs that were not reached.
     pub(super) fn rest_at(&mut self, inputs: Inputs, unknowns: Vec<f64>) {
         (self.inputs, self.unknowns) = (Some(inputs), unknowns);
         self.earlier.clear();
@@ -70,7 +71,7 @@ impl History {
     }
 }
 
-/// Whether these are so many finite numbers.
+/// Whether the list has this many entries and all of them are finite.
 pub(super) fn are_finite(list: &[f64], count: usize) -> bool {
     list.len() == count && list.iter().all(|x| x.is_finite())
 }

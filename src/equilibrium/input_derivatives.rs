@@ -1,4 +1,4 @@
-//! What a unit of each input adds to the gradient and to the clamp: mixed derivatives of the potential.
+//! Mixed derivatives of the potential: the contribution of each input to the gradient and to the clamp's wrench.
 
 use nalgebra::{DMatrix, DMatrixView, Matrix3, Vector3};
 
@@ -10,16 +10,16 @@ use crate::geometry::hat;
 use crate::magnetics::LinearField;
 use crate::rod::START;
 
-/// Mixed derivatives at a fixed base, one column an input; the base's own columns are zero.
+/// Mixed derivatives at a fixed base, one column for each input; the base's own columns are zero.
 #[derive(Debug, Clone)]
 pub(super) struct InputDerivatives {
-    /// By the unknowns.
+    /// With respect to the unknowns.
     pub(super) gradient: DMatrix<f64>,
-    /// By a rigid displacement (m) and rotation (rad, about the base) of the whole chain.
+    /// With respect to a rigid displacement (m) and rotation (rad, about the base) of the whole chain.
     pub(super) clamp: DMatrix<f64>,
 }
 
-/// The vectors of a 6-row matrix turned by `rotation`.
+/// Rotates the vectors of a 6-row matrix by `rotation`.
 pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<f64> {
     let mut out = DMatrix::zeros(6, twists.ncols());
     for part in [0, 3] {
@@ -29,8 +29,8 @@ pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<
 }
 
 impl Potential<'_> {
-    /// The columns at the shape that was linearised last; `None` where a body lies inside or on an edge of
-    /// the magnet, be it switched off.
+    /// The mixed derivatives at the shape linearised last; `None` where a body lies inside or on an edge of the magnet,
+    /// even if that is switched off.
     pub(super) fn columns(&mut self, counts: &Counts) -> Option<InputDerivatives> {
         let mut gradient = DMatrix::zeros(self.chain.freedoms(), counts.inputs());
         let last = self.chain.elements.len();
@@ -57,7 +57,8 @@ impl Potential<'_> {
         Some(InputDerivatives { gradient, clamp })
     }
 
-    /// Displacement and rotation of an element's end by the columns of its [`crate::rod::ElementDerivatives`], transposed.
+    /// Displacement and rotation of an element's end with respect to the variables of its
+    /// [`crate::rod::ElementDerivatives`], transposed.
     pub(super) fn end_motion(&mut self, k: usize) -> DMatrix<f64> {
         let element = &self.chain.elements[k];
         let configuration = &self.work.configurations[k];
@@ -67,7 +68,7 @@ impl Potential<'_> {
         DMatrix::from_column_slice(size, 6, tangent.motion(element, &row, &configuration.end.position, &left))
     }
 
-    /// Loads on what a node carries.
+    /// Mixed derivatives of the loads on everything that a node carries.
     fn on_node(&self, node: usize, counts: &Counts) -> Option<DMatrix<f64>> {
         let pose = self.work.nodes[node];
         let mut out = DMatrix::zeros(6, counts.inputs());
@@ -78,12 +79,12 @@ impl Potential<'_> {
     }
 }
 
-/// How the inputs change when all that is fixed in the world moves along each axis (m) and turns about it at the
-/// base position (rad): six columns, a row for each input.
+/// Rates of the inputs when everything fixed in the world moves along each axis (m) and rotates about it at the base
+/// position (rad): six columns, a row for each input.
 pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
     let Inputs {
         magnet,
-        magnet_strength: _, // stays as it is
+        magnet_strength: _, // does not change
         uniform_field,
         field_gradient,
         base,

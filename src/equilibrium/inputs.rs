@@ -1,4 +1,4 @@
-//! What acts on the manipulator, world frame, SI units.
+//! Inputs of the model: what acts on the manipulator, world frame, SI units.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,10 +6,10 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, check};
 use crate::geometry::Pose;
 
-/// What the next step of a quantity may go aside of the last one, in lengths of that, to count as going on.
+/// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
 
-/// How many times the last step the next one may be as long.
+/// Maximum length of an input step, relative to the previous step, for which extrapolation is used.
 const FARTHEST: f64 = 4.0;
 
 /// Pose and strength of the external magnet, background field, base pose and loads.
@@ -21,7 +21,7 @@ pub struct Inputs {
     pub magnet_strength: f64,
     /// Uniform background field, T.
     pub uniform_field: Vector3<f64>,
-    /// `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
+    /// Components `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
     pub field_gradient: [f64; 5],
     /// Clamped base pose.
     pub base: Pose,
@@ -29,14 +29,14 @@ pub struct Inputs {
     pub tip_force: Vector3<f64>,
     /// Moment on the tip, N m.
     pub tip_moment: Vector3<f64>,
-    /// Force at each ring's centre, base to tip, N; as many as the design has rings.
+    /// Force at each ring's centre, from base to tip, N; one for each ring of the design.
     pub ring_forces: Vec<Vector3<f64>>,
     /// Acceleration of gravity, m/s2.
     pub gravity: Vector3<f64>,
 }
 
 impl Inputs {
-    /// Nothing acts: no field, no load, base at the origin; `rings` is the number of rings of the design.
+    /// Inputs without field or load, base at the origin; `rings` is the number of rings of the design.
     #[must_use]
     pub fn unloaded(rings: usize) -> Self {
         Self {
@@ -54,26 +54,26 @@ impl Inputs {
 }
 
 impl Inputs {
-    /// The same poses without field, magnet, load or weight: where a first solve starts.
+    /// The same poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
         Self { magnet: self.magnet, base: self.base, ..Self::unloaded(self.ring_forces.len()) }
     }
 
-    /// The same without the dead moment on the tip, the one load that has no potential.
+    /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
     #[must_use]
     pub fn without_moment(&self) -> Self {
         Self { tip_moment: Vector3::zeros(), ..self.clone() }
     }
 
-    /// Takes over `other`, without allocating if it has as many rings.
+    /// Copies `other`, without allocation if it has the same number of rings.
     pub fn copy_from(&mut self, other: &Self) {
         let mut ring_forces = std::mem::take(&mut self.ring_forces);
         ring_forces.clone_from(&other.ring_forces);
         *self = Self { ring_forces, ..*other };
     }
 
-    /// The inputs a fraction `t` of the way to `other`; orientations turn along the shortest arc.
+    /// Interpolates by the fraction `t` towards `other`; orientations turn along the shortest arc.
     #[must_use]
     pub fn between(&self, other: &Self, t: f64) -> Self {
         let mix = |a: &Vector3<f64>, b: &Vector3<f64>| a.lerp(b, t);
@@ -91,8 +91,8 @@ impl Inputs {
         }
     }
 
-    /// How far these go on from `here` in the direction from `before` to there, in steps of that length; `None` where they
-    /// go elsewhere or much further.
+    /// Length of the step from `here` to these inputs in units of the previous step, from `before` to `here`. `None` if
+    /// it points in another direction or is much longer.
     pub(super) fn pace(&self, here: &Self, before: &Self) -> Option<f64> {
         let (mut sum, mut moving) = (0.0, 0.0);
         for ((now, here), before) in self.quantities().zip(here.quantities()).zip(before.quantities()) {
@@ -114,7 +114,7 @@ impl Inputs {
         (moving > 0.0).then(|| sum / moving)
     }
 
-    /// The numbers of each quantity.
+    /// The components of each quantity.
     fn quantities(&self) -> impl Iterator<Item = &[f64]> {
         let Self {
             magnet,

@@ -1,4 +1,4 @@
-//! Strain modes for a shape that another model has found.
+//! Strain mode amplitudes for a shape that another model has found.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
@@ -6,20 +6,20 @@ use super::solver::Equilibrium;
 use crate::geometry::{Pose, rotation_log};
 use crate::rod::{Configuration, Element};
 
-/// Corrections of an element's amplitudes: each squares the distance that is left.
+/// Newton corrections of an element's amplitudes; each squares the remaining distance.
 const CORRECTIONS: usize = 8;
 
-/// Step of the differences, in radians of the first mode.
+/// Finite difference step, in radians of the first mode.
 const STEP: f64 = 1e-6;
 
 /// The first amplitudes of an element are the rotation vector of its end.
 const ROTATION: usize = 3;
 
 impl Equilibrium {
-    /// Amplitudes that put every ring where `rings` (poses of the centres, base to tip) has it, bent as little as that
-    /// allows; the first guess for the equilibrium that a shape of another model approximates.
+    /// Amplitudes that put every ring at its pose in `rings` (poses of the centres, base to tip) with the least bending;
+    /// the initial guess for the equilibrium that a shape of another model approximates.
     ///
-    /// `None` where a node has no ring, or `rings` is no shape of this chain.
+    /// `None` where a node has no ring, or where `rings` is not a shape of this chain.
     #[must_use]
     pub fn amplitudes_through(&self, rings: &[Pose]) -> Option<Vec<f64>> {
         let chain = &self.chain;
@@ -39,7 +39,7 @@ impl Equilibrium {
         Some(unknowns)
     }
 
-    /// Poses of the rings' centres, base to tip, in any shape; that of the branch stays.
+    /// Poses of the rings' centres, base to tip, at any shape; the branch stays unchanged.
     #[must_use]
     pub fn rings_at(&self, base: &Pose, unknowns: &[f64]) -> Vec<Pose> {
         let chain = &self.chain;
@@ -53,7 +53,7 @@ impl Equilibrium {
     }
 }
 
-/// The amplitudes, of steps that are shortest in the elastic energy, with which the element ends at `target`.
+/// Amplitudes with which the element ends at `target`, found by steps that are shortest in the elastic energy norm.
 fn reaching(element: &Element, target: &Pose) -> Option<Vec<f64>> {
     let mut amplitudes = vec![0.0; element.freedoms()];
     amplitudes[..ROTATION].copy_from_slice(rotation_log(&target.rotation).as_slice());

@@ -1,4 +1,4 @@
-//! The derivatives of all outputs by all inputs.
+//! Derivatives of all outputs with respect to all inputs.
 
 use core::ops::Range;
 
@@ -6,8 +6,8 @@ use nalgebra::{DMatrix, DMatrixView, DVector, Matrix6, Matrix6x3};
 
 use super::layout::{Counts, Input, Output};
 
-/// Exact derivatives of all outputs by all inputs at one equilibrium: a matrix with a row for each output and a
-/// column for each input, in SI units, world frame.
+/// Exact derivatives of all outputs with respect to all inputs at one equilibrium: a matrix with a row for each output
+/// and a column for each input, in SI units, world frame.
 ///
 /// With the potential `U(q, u)` of the unknowns `q` and inputs `u`, and an output `y(q, u)`,
 ///
@@ -15,10 +15,9 @@ use super::layout::{Counts, Input, Output};
 /// dy/du = @y/@u + @y/@q dq/du      dq/du = -H^-1 @2U/@q@u      H = @2U/@q2
 /// ```
 ///
-/// at one factorisation of `H` for all inputs. The quadrature of rings (see
-/// [`super::Settings::pair_accuracy`]) counts as fixed. Left out are the stability margin, which would need third
-/// derivatives, and the energy, whose derivative is the load that belongs to the input (by the base pose: its
-/// reaction).
+/// with one factorisation of `H` for all inputs. The quadrature of rings (see [`super::Settings::pair_accuracy`]) is
+/// treated as fixed. Not included are the stability margin, which would need third derivatives, and the energy, whose
+/// derivative is the load conjugate to the input (for the base pose: its reaction).
 ///
 /// ```
 /// use mcm::manipulator::{Input, Output, Scene};
@@ -58,14 +57,14 @@ impl Jacobian {
         self.counts.rows(output)
     }
 
-    /// Derivatives of one output by one input; `None` for a point or body that the design does not have.
+    /// Derivatives of one output with respect to one input; `None` for a point or body that the design does not have.
     #[must_use]
     pub fn block(&self, output: Output, input: Input) -> Option<DMatrixView<'_, f64>> {
         let (rows, columns) = (self.rows(output)?, self.columns(input)?);
         Some(self.matrix.view((rows.start, columns.start), (rows.len(), columns.len())))
     }
 
-    /// Rates of all outputs when the inputs change at the given rates, one for each column.
+    /// Rates of all outputs for the given rates of the inputs, one for each column.
     ///
     /// # Errors
     /// [`crate::error::Error::Count`] for a direction of another length.
@@ -77,14 +76,14 @@ impl Jacobian {
         Err(crate::error::Error::Count { quantity, given, expected: self.matrix.ncols().to_string() })
     }
 
-    /// The actuation Jacobian: displacement (m) and rotation (rad) of the tip by those of the magnet about its centre,
-    /// world axes.
+    /// The actuation Jacobian: displacement (m) and rotation (rad) of the tip with respect to displacement and rotation
+    /// of the magnet about its centre, world axes.
     #[must_use]
     pub fn tip_by_magnet(&self) -> Matrix6<f64> {
         self.matrix.fixed_view::<6, 6>(self.tip(), Input::MagnetPosition.columns().start).into_owned()
     }
 
-    /// Displacement (m) and rotation (rad) of the tip by the uniform background field (T), world axes.
+    /// Displacement (m) and rotation (rad) of the tip with respect to the uniform background field (T), world axes.
     #[must_use]
     pub fn tip_by_uniform_field(&self) -> Matrix6x3<f64> {
         self.matrix.fixed_view::<6, 3>(self.tip(), Input::UniformField.columns().start).into_owned()

@@ -1,22 +1,22 @@
-//! Which input has which columns of a Jacobian, and which output which rows: one ordered table each.
+//! Layout of the Jacobian: one ordered table of inputs (columns) and one of outputs (rows).
 
 use core::ops::Range;
 
-/// A continuous input: columns of a [`super::Jacobian`].
+/// A continuous input: a group of columns of a [`super::Jacobian`].
 ///
-/// Rotations are about the body's own origin (the magnet's centre, the base position), by a rotation vector in the
-/// world's axes, rad; see [`crate::geometry::Pose::rotation_rate`] for the components of a quaternion.
+/// Rotations are about the body's own origin (the magnet's centre, the base position), as rotation vectors in world axes,
+/// rad; see [`crate::geometry::Pose::rotation_rate`] for the components of a quaternion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Input {
     /// Position of the external magnet, m.
     MagnetPosition,
     /// Rotation of the external magnet, rad.
     MagnetRotation,
-    /// Factor on its field, 1.
+    /// Factor on the field of the external magnet, 1.
     MagnetStrength,
     /// Uniform background field, T.
     UniformField,
-    /// The five numbers of the linear background field, T/m.
+    /// The five independent components of the linear background field, T/m.
     FieldGradient,
     /// Force on the tip, N.
     TipForce,
@@ -28,14 +28,15 @@ pub enum Input {
     BasePosition,
     /// Rotation of the base, rad.
     BaseRotation,
-    /// Force at the centre of this ring (0: the first), N.
+    /// Force at the centre of this ring (counted from 0), N.
     RingForce(usize),
 }
 
-/// A continuous output: rows of a [`super::Jacobian`]. Points and bodies are counted from 0.
+/// A continuous output: a group of rows of a [`super::Jacobian`]. Points and bodies are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Output {
-    /// Angle between the tip's and the base's axis, rad; 0 where it is 0 or pi, where it has a corner.
+    /// Angle between the axes of tip and base, rad; its derivative is set to 0 at 0 and pi, where it is not
+    /// differentiable.
     TipAngle,
     /// Position of the tip, m.
     TipPosition,
@@ -63,11 +64,12 @@ pub enum Output {
     RingRotation(usize),
     /// Axis `d3` of a ring, 1.
     RingAxis(usize),
-    /// Bending angle of a core, rad; 0 where it is straight, where the angle has a corner.
+    /// Bending angle of a core, rad; its derivative is set to 0 where the core is straight and the angle is not
+    /// differentiable.
     CoreAngle(usize),
 }
 
-/// Inputs of every design in the order of their columns; then come the forces on the rings.
+/// Inputs of every design in the order of their columns; the forces on the rings follow.
 const INPUTS: [Input; 10] = [
     Input::MagnetPosition,
     Input::MagnetRotation,
@@ -81,7 +83,7 @@ const INPUTS: [Input; 10] = [
     Input::BaseRotation,
 ];
 
-/// Outputs of every design in the order of their rows; then come the points, the rings and the cores.
+/// Outputs of every design in the order of their rows; shape points, rings and cores follow.
 const OUTPUTS: [Output; 10] = [
     Output::TipAngle,
     Output::TipPosition,
@@ -98,11 +100,11 @@ const OUTPUTS: [Output; 10] = [
 /// Outputs of each ring in the order of their rows.
 const RING_OUTPUTS: [fn(usize) -> Output; 3] = [Output::RingPosition, Output::RingRotation, Output::RingAxis];
 
-/// Components of a vector.
+/// Number of components of a vector.
 const VECTOR: usize = 3;
 
 impl Input {
-    /// Number of its columns.
+    /// Number of columns of this input.
     pub(super) const fn width(self) -> usize {
         match self {
             Self::MagnetStrength => 1,
@@ -111,7 +113,7 @@ impl Input {
         }
     }
 
-    /// Its columns, wherever the design has so many rings.
+    /// The columns of this input, for any design that has this ring.
     pub(super) fn columns(self) -> Range<usize> {
         let before: usize =
             INPUTS.iter().take_while(|input| **input != self).map(|input| input.width()).sum();
@@ -120,7 +122,7 @@ impl Input {
     }
 }
 
-/// How many bodies and points there are.
+/// Numbers of rings, shape points and cores of a design.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) rings: usize,
@@ -152,7 +154,7 @@ impl Counts {
         exists.then(|| self.first(output)..self.first(output) + output.width())
     }
 
-    /// The first row of an output, be it there or not.
+    /// The first row of an output, whether or not the design has it.
     fn first(&self, output: Output) -> usize {
         let points: usize = OUTPUTS.iter().map(|output| output.width()).sum();
         let rings = points + self.shape_points * VECTOR;
@@ -171,7 +173,7 @@ impl Counts {
 }
 
 impl Output {
-    /// Number of its rows.
+    /// Number of rows of this output.
     fn width(self) -> usize {
         if matches!(self, Self::TipAngle | Self::CoreAngle(_)) { 1 } else { VECTOR }
     }

@@ -1,4 +1,4 @@
-//! All loads on the chain at one shape, added up frame by frame and pair by pair.
+//! All loads on the chain at one shape, summed over frames and pairs.
 
 use nalgebra::{Matrix3, Matrix6};
 
@@ -8,7 +8,7 @@ use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
 use crate::rod::{Load, Order};
 
 impl Potential<'_> {
-    /// Places the chain and adds up all loads; the energy, or `None` where something touches.
+    /// Places the chain and sums all loads; returns the energy, or `None` where bodies touch.
     pub(super) fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
         let hessian = order == Order::Hessian;
         self.work.place(self.chain, &self.inputs.base, unknowns);
@@ -65,9 +65,9 @@ impl Potential<'_> {
         Some(())
     }
 
-    /// Adds what rings do to rings and to spans to the loads; the energy, or `None` where something touches.
+    /// Adds the loads of rings on rings and on spans; returns their energy, or `None` where bodies touch.
     ///
-    /// The first step after a change of the inputs starts from the shape of the last solve: nothing is made anew.
+    /// The first step after a change of the inputs starts from the shape of the last solve, whose pair loads are reused.
     pub(super) fn add_pair_loads(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
         let (base, rules, tabulated) = (&self.inputs.base, self.rules.number(), self.terms.spans.tabulated);
         let kept = self.work.pair_loads.at(unknowns, base, rules, tabulated);
@@ -94,7 +94,7 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    /// Adds the energies of all pairs of rings to the kept loads; their sum.
+    /// Adds all pairs of rings to the stored loads; returns the sum of their energies.
     fn load_ring_pairs(&mut self, order: Order) -> Option<f64> {
         let (pairs, mut energy) = (self.terms.pairs, 0.0);
         let mutual = pairs.are_mutual();
@@ -119,7 +119,7 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    /// Adds the energies of all rings with all spans to the kept loads; their sum.
+    /// Adds all rings with all spans to the stored loads; returns the sum of their energies.
     fn load_rings_on_spans(&mut self, order: Order) -> Option<f64> {
         let (spans, mut energy) = (self.terms.spans, 0.0);
         if !spans.act() {
@@ -155,7 +155,7 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    /// Columns of the rings' nodes beside the Hessian of element `k`.
+    /// Computes the mixed derivatives of element `k` and the rings' nodes.
     pub(super) fn mix(&mut self, k: usize) {
         let element = &self.chain.elements[k];
         let axes = self.work.nodes[k].rotation;
@@ -185,7 +185,7 @@ impl Potential<'_> {
         }
     }
 
-    /// Adds a block between two nodes; the base's (node 0) is left out.
+    /// Adds a block between two nodes to the Hessian of the nodes, which leaves out the base (node 0).
     pub(super) fn add_block(&mut self, row: usize, column: usize, block: &Matrix6<f64>) {
         let (Some(row), Some(column)) = (row.checked_sub(1), column.checked_sub(1)) else { return };
         let size = 6 * self.chain.elements.len();

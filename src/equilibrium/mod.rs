@@ -1,4 +1,4 @@
-//! The potential of the whole chain, its minimum, its stability.
+//! Potential energy of the whole chain, its minimum and the stability of that minimum.
 
 mod chain;
 mod condensation;

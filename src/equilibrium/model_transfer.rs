@@ -1,4 +1,4 @@
-//! From the shape of one model of a design to another, and how far the two are apart.
+//! Transfer of a shape from one model of a design to another, and the tip deviation of the two.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,32 +9,33 @@ use super::solver::Equilibrium;
 use crate::geometry::{Pose, rotation_log};
 use crate::numerics::trust_region::{Objective, norm};
 
-/// Longest Newton step, in turns of one element by a radian, whose end still counts as an estimate of the equilibrium.
+/// Longest Newton step, in the radian norm, whose end still counts as an estimate of the equilibrium.
 pub(super) const NEAR: f64 = 1.0;
 
-/// How far one tip is from another.
+/// Tip deviation: distance and angle between two tips.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TipDeviation {
     /// Distance of the tips, m.
     pub distance: f64,
-    /// Angle by which one is turned against the other, rad.
+    /// Angle of the relative rotation, rad.
     pub angle: f64,
 }
 
 impl Equilibrium {
-    /// Takes up a shape of another model of the same design as if it had been solved at `inputs`; the past is forgotten.
+    /// Adopts the shape of another model of the same design as if it had been solved at `inputs`; the history is
+    /// forgotten.
     ///
-    /// The next solve corrects what the two models disagree upon.
+    /// The next solve corrects the difference of the two models.
     pub fn adopt(&mut self, other: &Self, unknowns: &[f64], inputs: &Inputs) {
         self.reset();
         self.branch.unknowns = transferred(&self.chain, &other.chain, unknowns);
         self.branch.inputs = Some(inputs.clone());
     }
 
-    /// How far the last solved shape of another model of the same design is from an equilibrium of this one, by one
-    /// Newton step of this model from there. The branch of this model is forgotten: it is left at the end of that step.
+    /// Deviation of the last solved shape of another model of the same design from an equilibrium of this one, estimated
+    /// by one Newton step of this model. The branch of this model is forgotten: it is left at the end of that step.
     ///
-    /// `None` if nothing is solved yet, if the step is too long to tell, or if this model is not stable there.
+    /// `None` if nothing is solved yet, if the step is too long for an estimate, or if this model is not stable there.
     pub fn gap(&mut self, other: &Self) -> Option<TipDeviation> {
         let inputs = other.branch.inputs.clone()?;
         self.adopt(other, other.unknowns(), &inputs);
@@ -57,28 +58,28 @@ impl Equilibrium {
 }
 
 impl TipDeviation {
-    /// None at all.
+    /// No deviation.
     pub const NONE: Self = Self { distance: 0.0, angle: 0.0 };
 
-    /// Of two poses.
+    /// The deviation of two poses.
     #[must_use]
     pub fn between(a: &Pose, b: &Pose) -> Self {
         let angle = rotation_log(&a.rotation.tr_mul(&b.rotation)).norm();
         Self { distance: (a.position - b.position).norm(), angle }
     }
 
-    /// How many times `gap` fits into that part of this one.
+    /// The largest factor by which `gap` may be multiplied to stay within the fraction `part` of this deviation.
     pub(crate) fn room(&self, gap: &Self, part: f64) -> f64 {
         part * (self.distance / gap.distance).min(self.angle / gap.angle)
     }
 
-    /// Both parts times a factor.
+    /// Distance and angle multiplied by a factor.
     #[must_use]
     pub(crate) fn times(self, factor: f64) -> Self {
         Self { distance: factor * self.distance, angle: factor * self.angle }
     }
 
-    /// At most so far in all.
+    /// Upper bound of two successive deviations.
     #[must_use]
     pub(crate) fn plus(self, other: Self) -> Self {
         Self { distance: self.distance + other.distance, angle: self.angle + other.angle }

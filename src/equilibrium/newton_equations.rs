@@ -1,4 +1,4 @@
-//! Newton's equations of the whole chain, as the trust region and Newton's method ask for them.
+//! Newton's equations of the whole chain, as used by the trust region and Newton's method.
 
 use super::factorisation::{Hessian, Linearisation, SpanCoupling};
 use super::potential::Potential;
@@ -25,7 +25,7 @@ impl Objective for Potential<'_> {
         &self.work.gradient
     }
 
-    /// Where the forces have no potential, whether the matrix is regular.
+    /// Returns whether the matrix is positive definite or, for non-conservative forces, regular.
     fn factorise(&mut self, shift: f64) -> bool {
         let Some(made) = self.work.take_linearisation() else { return false };
         let hessian = Hessian {

@@ -1,36 +1,36 @@
-//! How a solve ends, and what to do about it.
+//! Outcome of a solve, and what to do about it.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Depth that is told in numbers, m: half of the last digit in millimetres.
+/// Smallest depth that is printed in numbers, m: half of the last digit in millimetres.
 const SHALLOWEST: f64 = 0.5e-6;
 
-/// How a search for an equilibrium ended.
+/// Outcome of a search for an equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
-    /// At an equilibrium; whether it is stable is told beside it.
+    /// An equilibrium was found; whether it is stable is reported separately.
     Solved,
-    /// At an equilibrium of neutral stability: one direction is free to rounding, as where a bent manipulator may turn
-    /// about the axis of an antiparallel field.
+    /// An equilibrium of neutral stability: one direction is determined only by rounding, as where a bent manipulator may
+    /// turn about the axis of an antiparallel field.
     Neutral,
     /// The branch ends at a fold, and no stable shape was found beyond it.
     BranchEnds,
-    /// Two bodies would share volume.
+    /// Two bodies would overlap.
     Contact(Contact),
-    /// The iterations or the processor time that the settings allow were used up.
+    /// The iterations or the processor time allowed by the settings were used up.
     OutOfBudget,
 }
 
-/// Two bodies that share volume.
+/// Two bodies that overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Contact {
     /// A body of the manipulator.
     pub first: Body,
-    /// The body that it meets.
+    /// The body that it touches.
     pub second: Body,
-    /// How deep one is inside the other, m.
+    /// Penetration depth, m.
     pub depth: f64,
 }
 
@@ -46,13 +46,13 @@ pub enum Body {
 }
 
 impl Outcome {
-    /// Whether there is an equilibrium at the inputs asked for.
+    /// Whether an equilibrium was found at the requested inputs.
     #[must_use]
     pub fn is_solved(self) -> bool {
         matches!(self, Self::Solved | Self::Neutral)
     }
 
-    /// Its name in JSON.
+    /// The name of the outcome in JSON.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -65,7 +65,7 @@ impl Outcome {
     }
 }
 
-/// What happened and what to do about it, in a sentence without a full stop.
+/// What happened and what to do about it, as a sentence without a full stop.
 impl fmt::Display for Outcome {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

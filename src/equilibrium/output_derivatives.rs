@@ -1,7 +1,8 @@
-//! The rows of a Jacobian: how every output answers when the shape and the inputs change.
+//! Rows of the Jacobian: derivatives of every output with respect to shape and inputs.
 //!
-//! Wrenches are derivatives of the energy by rigid motions of the field, of the magnet or of all that surrounds the
-//! chain. Their derivatives by the shape are therefore columns of the inputs: second derivatives are symmetric.
+//! Wrenches are derivatives of the energy with respect to rigid motions of the field, of the magnet or of everything that
+//! surrounds the chain. Second derivatives are symmetric, so that the derivatives of wrenches with respect to the shape
+//! are columns of the inputs.
 
 use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vector3};
 
@@ -17,10 +18,10 @@ use crate::geometry::{Pose, hat};
 use crate::magnetics::Wrench;
 use crate::rod::{Configuration, Row};
 
-/// Sine of an angle below which its corner counts as reached.
+/// Sine of an angle below which it counts as not differentiable.
 const CORNER: f64 = 1e-9;
 
-/// What a quantity does when the whole scene moves as one body.
+/// Behaviour of a quantity under a rigid motion of the whole scene.
 #[derive(Debug, Clone, Copy)]
 enum Transport {
     Not,
@@ -45,7 +46,7 @@ impl<'a> OutputDerivatives<'a> {
         self.matrix
     }
 
-    /// Sets the rows of an output, whose rates are seen from the base in the base's columns.
+    /// Sets the rows of an output; in the base's columns, `rates` are given relative to the base.
     fn set<R: Dim, S: RawStorage<f64, R, Dyn>>(
         &mut self,
         output: Output,
@@ -88,7 +89,7 @@ impl Equilibrium {
         rows.set(Output::TipRotation, &rates.rows(3, 3), Transport::Rotation);
     }
 
-    /// The wrenches of the field on the chain, of the clamp, and of the chain on the magnet.
+    /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
     pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let Response { by_base, columns, unknowns, .. } = response;
         let inputs = rows.inputs;
@@ -106,7 +107,7 @@ impl Equilibrium {
         let (position, rotation) = (Input::MagnetPosition.columns(), Input::MagnetRotation.columns());
         let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(unknowns);
         let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
-        // From the base to the magnet's centre, which may move.
+        // The torque is moved from the base to the magnet's centre, which may move.
         let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);
         let mut torque = on_magnet.rows_mut(3, 3);
         torque -= moved;
@@ -135,7 +136,7 @@ impl Equilibrium {
         for (column, (rate, _)) in rates.iter().enumerate() {
             field.set_column(column, rate);
             if column < 3 {
-                // The magnet's field moves with it: minus its gradient.
+                // The field moves with the magnet: its derivative is minus its gradient.
                 gradient.set_column(column, &(gradient.column(column) - rate));
             }
         }
@@ -145,7 +146,7 @@ impl Equilibrium {
         Ok(())
     }
 
-    /// The centreline.
+    /// Positions of the centreline points.
     pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         for (number, point) in self.shape.clone().iter().enumerate() {
             let (pose, rates) = match &point.place {
@@ -172,7 +173,7 @@ impl Equilibrium {
         }
     }
 
-    /// The bending of each core.
+    /// Bending angle of each core.
     pub(super) fn add_cores(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let chain = self.chain.clone();
         for (number, (start, stop)) in chain.cores.iter().enumerate() {
@@ -191,7 +192,7 @@ impl Equilibrium {
         moved(&response.motion.nodes[last], &(self.tip().position - self.work.nodes[last].position))
     }
 
-    /// Pose of a place on an element, and its displacement and rotation by each input.
+    /// Pose at a point of an element, and its displacement and rotation for each input.
     fn place(&mut self, k: usize, row: &Row, motion: &Motion) -> (Pose, DMatrix<f64>) {
         let element = &self.chain.elements[k];
         let amplitudes = self.chain.part(k, &self.branch.unknowns);
@@ -205,14 +206,14 @@ impl Equilibrium {
     }
 }
 
-/// The first columns alone, the others zero.
+/// Keeps the first columns and sets the others to zero.
 fn first(rates: &DMatrix<f64>, columns: usize) -> DMatrix<f64> {
     let mut out = rates.clone();
     out.columns_mut(columns, rates.ncols() - columns).fill(0.0);
     out
 }
 
-/// Displacement and rotation of a point at `arm` from one that moves so.
+/// Displacement and rotation of a point at `arm` from a body with these twists.
 fn moved(twists: &DMatrix<f64>, arm: &Vector3<f64>) -> DMatrix<f64> {
     let mut out = twists.clone();
     let mut position = out.rows_mut(0, 3);
@@ -220,7 +221,7 @@ fn moved(twists: &DMatrix<f64>, arm: &Vector3<f64>) -> DMatrix<f64> {
     out
 }
 
-/// The axis about which a rotation of `to` opens the angle from `from`; zero where the angle has a corner.
+/// The axis about which a rotation of `to` increases its angle from `from`; zero where the angle is not differentiable.
 fn bending(from: &Vector3<f64>, to: &Vector3<f64>) -> Vector3<f64> {
     from.cross(to).try_normalize(CORNER).unwrap_or_default()
 }

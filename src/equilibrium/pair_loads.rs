@@ -1,27 +1,27 @@
-//! The loads of rings on rings and on spans; kept, as they depend on the shape alone.
+//! Loads of rings on rings and on spans; stored, as they depend on the shape alone.
 
 use super::chain::Chain;
 use crate::geometry::Pose;
 use crate::rod::Load;
 
-/// Loads of all pairs at the shape for which they were last made.
+/// Loads of all pairs at the shape at which they were last computed.
 #[derive(Debug, Clone)]
 pub(super) struct PairLoads {
-    /// On the nodes: forces and couples only.
+    /// Loads on the nodes: forces and couples only.
     pub(super) nodes: Vec<Load>,
-    /// On the stations, element by element.
+    /// Loads on the stations, element by element.
     pub(super) stations: Vec<Vec<Load>>,
-    /// `None` where they were not finished.
+    /// `None` where their computation was not completed.
     pub(super) made: Option<Made>,
     pub(super) base: Pose,
     pub(super) unknowns: Vec<f64>,
 }
 
-/// How the loads were made.
+/// Energy of the loads, and how they were computed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Made {
     pub(super) energy: f64,
-    /// Number of the rules.
+    /// Version number of the quadrature rules.
     pub(super) rules: u64,
     pub(super) tabulated: bool,
 }
@@ -37,7 +37,7 @@ impl PairLoads {
         }
     }
 
-    /// The energy, if these are the loads at that shape with those rules; tabulated ones do where tables may stand.
+    /// The energy, if the loads are those at this shape with these rules; tabulated ones count where tables are allowed.
     pub(super) fn at(&self, unknowns: &[f64], base: &Pose, rules: u64, tabulated: bool) -> Option<f64> {
         let alike = |made: &Made| made.rules == rules && (tabulated || !made.tabulated);
         let made = self.made.filter(|made| alike(made) && self.base == *base && self.unknowns == unknowns);

@@ -1,4 +1,4 @@
-//! The quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
+//! Quadrature of each pair of rings: as few nodes as its distance and the accuracy allow.
 
 use std::sync::Arc;
 
@@ -8,20 +8,20 @@ use super::span_quadrature::SpanQuadratures;
 use crate::geometry::Pose;
 use crate::magnetics::{AxialRule, PairRule, PairTable};
 
-/// One quadrature rule per pair, upper triangle row by row, out of a table made once.
+/// One quadrature rule for each pair, upper triangle row by row, from a table made once.
 #[derive(Debug, Clone)]
 pub(crate) struct PairQuadrature {
-    /// By ring; equal rings share one.
+    /// One table for each ring; equal rings share theirs.
     tables: Vec<Arc<PairTable>>,
     chosen: Vec<usize>,
-    /// The level of every element and ring, element by element; none where rings do not act on spans.
+    /// The level of every element and ring, element by element; empty where rings do not act on spans.
     spans: Vec<usize>,
-    /// How often they have changed.
+    /// Number of changes of the rules.
     number: u64,
 }
 
 impl PairQuadrature {
-    /// Tables for the accuracy and the interaction of `settings`.
+    /// Makes the tables for the accuracy and the interaction of `settings`.
     pub(crate) fn new(chain: &Chain, settings: &Settings) -> Self {
         let accuracy = settings.pair_accuracy;
         let mut tables: Vec<Arc<PairTable>> = Vec::new();
@@ -36,7 +36,7 @@ impl PairQuadrature {
         Self { tables, chosen: vec![0; count], spans, number: 0 }
     }
 
-    /// Chooses the rules for the present node poses; whether any is another one than before.
+    /// Chooses the rules for the present node poses; returns whether any rule has changed.
     pub(crate) fn choose(&mut self, chain: &Chain, nodes: &[Pose]) -> bool {
         let mut changed = false;
         let mut chosen = self.chosen.iter_mut();
@@ -71,7 +71,7 @@ impl PairQuadrature {
         self.chosen.iter().chain(&self.spans).copied()
     }
 
-    /// Chooses by these numbers; false, and nothing happens, if there are no such rules or levels.
+    /// Chooses the rules and levels with these numbers; returns false, without a change, if they do not exist.
     pub(crate) fn restore(&mut self, chosen: &[usize]) -> bool {
         let Some((pairs, spans)) = chosen.split_at_checked(self.chosen.len()) else { return false };
         let most = self.tables.iter().map(|table| table.len()).min().unwrap_or(0);
@@ -86,7 +86,7 @@ impl PairQuadrature {
         known
     }
 
-    /// How often the rules have changed: the same number, the same rules.
+    /// Version number of the rules: equal numbers mean equal rules.
     pub(crate) fn number(&self) -> u64 {
         self.number
     }
@@ -101,7 +101,7 @@ impl PairQuadrature {
         self.tables[second].rule(self.chosen[pair])
     }
 
-    /// The rule of the pair of two rings, the earlier first.
+    /// The rule of the pair of two rings, the proximal one first.
     pub(crate) fn between(&self, first: usize, second: usize) -> PairRule<'_> {
         let rings = self.tables.len();
         self.pair(first * (2 * rings - first - 1) / 2 + second - first - 1, second)

@@ -1,4 +1,4 @@
-//! The potential of the whole chain, with exact gradient and Hessian.
+//! Potential energy of the whole chain, with exact gradient and Hessian.
 
 use nalgebra::Vector3;
 
@@ -14,13 +14,14 @@ use crate::numerics::eigenvalue::{Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
 use crate::rod::Order;
 
-/// Residual from which on tables may stand: smaller ones are asked for by those who take differences, which jumps spoil.
+/// Tolerance (radian norm) from which on tabulated ring fields may be used. Smaller tolerances are requested for finite
+/// differences, which the jumps of a table would spoil.
 const TABLE_RESIDUAL: f64 = 5e-8;
 
-/// Arnoldi vectors for the eigenvalues of a matrix that is not symmetric.
+/// Number of Arnoldi vectors for the eigenvalues of a non-symmetric matrix.
 const ARNOLDI: usize = 48;
 
-/// The look at the margin when it is asked for.
+/// Search effort for the stability margin when the user asks for it.
 pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
 /// The potential at given inputs.
@@ -35,12 +36,13 @@ pub(super) struct Potential<'a> {
 }
 
 impl Potential<'_> {
-    /// The smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper bound by `search`;
-    /// positive where the shape is stable, NaN where none is found. `softest` is the first guess, and then its vector.
+    /// Stability margin: smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper
+    /// bound found by `search`. It is positive where the shape is stable and NaN where none is found. `softest` is the
+    /// initial guess and then the eigenvector.
     ///
-    /// Of forces without a potential it is the smallest real part of the eigenvalues: where that is negative the shape diverges
-    /// in overdamped motion. Whether a shape flutters, in a pair of complex eigenvalues of the undamped motion, is another
-    /// question: it takes the masses and the damping, which statics does not know.
+    /// For non-conservative forces it is the smallest real part of the eigenvalues: where that is negative, the shape
+    /// diverges in overdamped motion. Flutter, a pair of complex eigenvalues of the undamped motion, is not covered: it
+    /// depends on masses and damping, which are not part of statics.
     pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.chain.metric;
         if self.terms.have_potential() {
@@ -49,8 +51,8 @@ impl Potential<'_> {
         smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
     }
 
-    /// Whether the shape factorised last is stable, for all that its factorisation tells; see [`Potential::margin`]. Where the
-    /// symmetric part is positive definite no displacement gains energy, with a potential or without.
+    /// Whether the shape factorised last is stable, as far as its factorisation tells; see [`Potential::margin`]. Where
+    /// the symmetric part is positive definite, no displacement gains energy, conservative forces or not.
     pub(super) fn is_stable(&mut self) -> bool {
         if self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite) {
             return true;
@@ -60,8 +62,8 @@ impl Potential<'_> {
         self.margin(&mut Lanczos::default(), &mut softest, THOROUGH) > 0.0
     }
 
-    /// Computes the gradient at `x` alone, and keeps the last factorisation; the energy. Tables may stand for the rings'
-    /// fields, so that energies are not to be compared.
+    /// Computes the energy and the gradient at `x` without a new Hessian, so that the last factorisation is kept. Tables
+    /// may replace the rings' fields, so that these energies must not be compared.
     pub(super) fn chord_slope(&mut self, x: &[f64]) -> Option<f64> {
         self.terms.spans.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
         let energy = self.slope(x);
@@ -69,7 +71,7 @@ impl Potential<'_> {
         energy
     }
 
-    /// Adds the Newton step from the last gradient with the last factorisation to `x`; the gradient is spent.
+    /// Adds to `x` the Newton step from the last gradient with the last factorisation; the gradient is overwritten.
     pub(super) fn add_newton_step(&mut self, x: &mut [f64]) {
         let mut step = std::mem::take(&mut self.work.gradient);
         self.solve(&mut step);
@@ -77,7 +79,8 @@ impl Potential<'_> {
         self.work.gradient = step;
     }
 
-    /// Gradient and, with storage for their condensation, element Hessians, from the tip to the base.
+    /// Computes the gradient recursively from the tip to the base and, where storage for the condensations is given, the
+    /// element Hessians.
     pub(super) fn backward(
         &mut self,
         unknowns: &[f64],

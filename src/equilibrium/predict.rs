@@ -1,18 +1,18 @@
-//! Where the last shapes of a branch lead to expect the next one.
+//! Predictor: extrapolates the last shapes of a branch to the next one.
 
 use super::history::History;
 use super::inputs::Inputs;
 use super::search::{Model, NEARLY, Search};
 use crate::numerics::trust_region::norm;
 
-/// Part of a predicted step by which it may have to be corrected.
+/// Largest correction of a predicted step, relative to its length.
 const MISTAKEN: f64 = 0.1;
 
-/// Longest step (in the chain's unit) that is predicted instead of found.
+/// Longest step (radian norm) that is predicted.
 const PREDICTED: f64 = 0.1;
 
 impl Search<'_> {
-    /// Corrects the shape that the last steps lead to expect, if they do and it is nearly right.
+    /// Predicts the next shape and corrects it; returns whether the prediction was possible and nearly right.
     pub(super) fn predict(&mut self, branch: &mut History, target: &Inputs) -> bool {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         let expected = branch.predicted(target, &self.model, &mut trial);
@@ -30,11 +30,12 @@ impl Search<'_> {
 }
 
 impl History {
-    /// Writes to `shape` where the last steps lead to at `target`, as far along as the inputs go on; the length of that step
-    /// in the chain's unit. `None` where the inputs go elsewhere, or the way is too far or too near a fold to tell.
+    /// Writes the shape extrapolated to `target` to `shape` and returns the length of that step in the radian norm.
+    /// `None` where the inputs change direction, or the step is too long or too near a fold for extrapolation.
     ///
-    /// The line through the last two shapes; the parabola through three (Newton's divided differences) where the inputs have
-    /// gone on all the way and it differs by more than the tolerance, which the shapes themselves may be off.
+    /// Linear extrapolation through the last two shapes; quadratic through three (Newton's divided differences) where the
+    /// inputs have kept their direction and the two differ by more than the tolerance, which is the error of the shapes
+    /// themselves.
     fn predicted(&self, target: &Inputs, model: &Model<'_>, shape: &mut [f64]) -> Option<f64> {
         let held = self.stable.is_none_or(|stable| stable && self.margin >= model.settings.fold_margin);
         let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {

@@ -1,10 +1,10 @@
-//! How far an answer is from converged: what a finer discretisation of the same model makes of it.
+//! Error estimate of the discretisation: the tip deviation from a finer discretisation of the same model.
 //!
-//! The finer model has strain modes of higher degree, and smaller errors of its quadratures. Its forces at the shape of the
-//! coarser one say three things at once: what the added modes lack, what the quadratures were off, and the residual. The
-//! added modes are stiff beside the loads, so that their elastic stiffness alone decides how far they give way; what this and
-//! the rest of the forces do to the coarser modes follows by the factorisation that the solve has left. So two gradients
-//! of the finer model suffice, without a Hessian of it.
+//! The finer model has strain modes of higher degree and smaller quadrature errors. Its residual at the coarser shape
+//! combines the effect of the missing modes, the quadrature errors and the residual of the coarser solve. The added modes
+//! are stiff compared with the loads, so that their elastic stiffness alone determines their amplitudes; the effect of
+//! these and of the remaining forces on the coarser modes follows from the factorisation left by the solve. Two gradients
+//! of the finer model therefore suffice, without its Hessian.
 
 use super::inputs::Inputs;
 use super::model_transfer::{NEAR, TipDeviation};
@@ -16,18 +16,18 @@ use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::numerics::trust_region::{Objective, norm};
 
-/// Degrees that one refinement adds: an odd one alone adds almost nothing.
+/// Polynomial degrees added by one refinement: a single odd degree adds almost nothing.
 const DEGREES: usize = 2;
 
-/// What one refinement leaves of the errors of the quadratures, and the smallest error that one asks for.
+/// Factor by which one refinement reduces the quadrature errors, and the smallest error it requests.
 const QUADRATURE: f64 = 1e-2;
 const FINEST: f64 = 1e-10;
 
-/// The least error that is told, of the tip over the length and of its angle (rad): residuals, and strains with kinks, of which
-/// more modes find little at once.
+/// Smallest reported error, of the tip position over the length and of its angle (rad): it covers residuals, and strains
+/// with kinks, to which more modes converge slowly.
 const LEAST: f64 = 1e-8;
 
-/// A finer discretisation of a model, and how its modes follow from those of the coarser one.
+/// A finer discretisation of a model, and the map from the coarser modes to its own.
 #[derive(Debug, Clone)]
 pub struct Refinement {
     /// The finer model.
@@ -38,19 +38,20 @@ pub struct Refinement {
     coarse: Vec<f64>,
 }
 
-/// Unknown of the finer model, unknown of the coarser one, and how much of a unit amplitude of the second the first takes up.
+/// Projection of the coarser modes onto the finer ones. Entries: unknown of the finer model, unknown of the coarser one,
+/// and amplitude of the first for a unit amplitude of the second.
 #[derive(Debug, Clone)]
 struct Projection(Vec<(usize, usize, f64)>);
 
 impl Projection {
-    /// Adds the shape `coarse` to `fine`.
+    /// Adds the coarser shape `coarse` to `fine`.
     fn raise(&self, coarse: &[f64], fine: &mut [f64]) {
         for (i, j, part) in &self.0 {
             fine[*i] += part * coarse[*j];
         }
     }
 
-    /// Writes the part of `fine` that the coarser modes have, or of a gradient, to `coarse`.
+    /// Writes the part of `fine`, or of a gradient, in the coarser modes to `coarse`.
     fn lower(&self, fine: &[f64], coarse: &mut [f64]) {
         coarse.fill(0.0);
         for (i, j, part) in &self.0 {
@@ -60,7 +61,7 @@ impl Projection {
 }
 
 impl Settings {
-    /// The same with the next finer discretisation.
+    /// The same settings with the next finer discretisation.
     #[must_use]
     pub fn refined(&self) -> Self {
         let finest = FINEST.min(self.pair_accuracy);
@@ -70,7 +71,7 @@ impl Settings {
 }
 
 impl Equilibrium {
-    /// Whether there are fields that vary over a ring.
+    /// Whether there are fields that vary over a ring, so that quadratures are needed.
     fn has_quadratures(&self, inputs: &Inputs) -> bool {
         let magnet = self.magnet.is_some() && inputs.magnet_strength != 0.0;
         magnet || self.settings.interaction != Interaction::None
@@ -78,7 +79,7 @@ impl Equilibrium {
 }
 
 impl Refinement {
-    /// Of `coarse`, which is of this design and magnet.
+    /// Refines `coarse`, which must be of this design and magnet.
     ///
     /// # Errors
     /// As [`Equilibrium::new`].
@@ -101,11 +102,11 @@ impl Refinement {
         Ok(Self { shape: zeros.clone(), step: zeros, coarse, model, projection })
     }
 
-    /// How far the tip of `coarse` at its last solved shape is from where the finer model would put it, to first order, and
-    /// what the quadratures of that one may be off.
+    /// Error estimate of the tip of `coarse` at its last solved shape: its first-order deviation from the finer model,
+    /// plus the possible quadrature error of that model.
     ///
-    /// Neither branch is touched. `None` before the first solve, where `coarse` cannot be factorised, and where the step
-    /// is too long to tell.
+    /// Neither branch is changed. `None` before the first solve, where `coarse` cannot be factorised, and where the step
+    /// is too long for an estimate.
     pub fn error_of(&mut self, coarse: &mut Equilibrium) -> Option<TipDeviation> {
         let inputs = coarse.branch.inputs.take()?;
         let error = self.error_at(coarse, &inputs);
@@ -125,7 +126,7 @@ impl Refinement {
         if !factored {
             return None;
         }
-        // What the added modes give way: all of the elastic step but its part in the coarser modes.
+        // Amplitudes of the added modes: the elastic step without its part in the coarser modes.
         let mut finer = model.potential(inputs, shape);
         finer.slope(shape)?;
         let metric = &finer.chain.metric;
@@ -136,7 +137,7 @@ impl Refinement {
         negate(own);
         projection.raise(own, step);
         add(step, shape);
-        // What the coarser modes do then.
+        // Response of the coarser modes.
         finer.slope(shape)?;
         projection.lower(finer.gradient(), own);
         negate(own);
@@ -150,7 +151,7 @@ impl Refinement {
         add(step, shape);
         model.work.place(&model.chain, &inputs.base, shape);
         let seen = TipDeviation::between(&model.tip(), &coarse.tip());
-        // Between two accuracies the quadratures may well stay the same: what the finer ones may be off is added.
+        // Two accuracies may share the same quadratures, so that the possible error of the finer ones is added.
         let quadratures = model.has_quadratures(inputs);
         let unseen = LEAST + if quadratures { QUADRATURE * coarse.settings.pair_accuracy } else { 0.0 };
         let unseen = TipDeviation { distance: unseen * model.chain.length(), angle: unseen };

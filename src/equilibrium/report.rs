@@ -1,32 +1,32 @@
-//! What a solve tells.
+//! Report of a solve.
 
 use super::outcome::Outcome;
 
-/// What a solve did.
+/// Report of one solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Report {
-    /// How it ended; see [`Report::solved`].
+    /// How the solve ended; see [`Report::solved`].
     pub outcome: Outcome,
-    /// How far along the change of the inputs it got, from 0 to 1; 1 where it is solved.
+    /// Fraction of the input change that was reached, from 0 to 1; 1 where it is solved.
     pub progress: f64,
     /// Newton iterations.
     pub iterations: u32,
-    /// Dual norm of the gradient, relative to turning one element by a radian.
+    /// Residual: dual norm of the gradient in the radian norm (1: one element's end turned by a radian).
     pub residual: f64,
-    /// Upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the elastic
-    /// energy; see [`super::Equilibrium::margin`]. Along small steps it is that of the last factorisation, which the
-    /// present one undercuts or exceeds by some percent at most.
+    /// Stability margin: an upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the
+    /// elastic energy; see [`super::Equilibrium::margin`]. Along small steps it is that of the last factorisation, from
+    /// which the present margin differs by some percent at most.
     pub margin: f64,
-    /// Whether the equilibrium is stable; `None` where the forces have no potential to tell.
+    /// Whether the equilibrium is stable; `None` where non-conservative forces leave it undetermined.
     pub stable: Option<bool>,
-    /// Jumps to another branch in this solve.
+    /// Number of snaps to another branch in this solve.
     pub snaps: u32,
     /// Potential energy, J.
     pub energy: f64,
 }
 
 impl Report {
-    /// Whether an equilibrium was found at the inputs asked for.
+    /// Whether an equilibrium was found at the requested inputs.
     #[must_use]
     pub fn solved(&self) -> bool {
         self.outcome.is_solved()

@@ -1,4 +1,4 @@
-//! How the shape answers to the inputs.
+//! First-order response of the shape to the inputs.
 
 use nalgebra::DMatrix;
 
@@ -6,13 +6,13 @@ use super::input_derivatives::InputDerivatives;
 use super::layout::{Counts, Input};
 use crate::error::Error;
 
-/// How the shape answers to the inputs, one column each; in the base's columns seen from the base.
+/// First-order response of the shape, one column for each input; the base's columns are relative to the base.
 #[derive(Debug)]
 pub(super) struct Response {
     pub(super) counts: Counts,
     /// Whether the external magnet, which may be switched off, could be switched on.
     pub(super) with_magnet: bool,
-    /// How the inputs change when the world moves about the base: see [`super::input_derivatives::base_transport`].
+    /// Rates of the inputs when the world moves about the base: see [`super::input_derivatives::base_transport`].
     pub(super) by_base: DMatrix<f64>,
     /// Mixed derivatives.
     pub(super) columns: InputDerivatives,
@@ -23,19 +23,19 @@ pub(super) struct Response {
     pub(super) clamp: DMatrix<f64>,
 }
 
-/// Displacements (m) and rotations (rad) of the nodes, and of the columns of each element's tangent.
+/// Displacements (m) and rotations (rad) of the nodes, and rates of the variables of each element's derivatives.
 #[derive(Debug)]
 pub(super) struct Motion {
     pub(super) nodes: Vec<DMatrix<f64>>,
     pub(super) elements: Vec<DMatrix<f64>>,
 }
 
-/// What is said of a point where no field is known.
+/// The error for a point where the field is not defined.
 pub(super) fn inside() -> Error {
     Error::NoDerivatives("a part lies inside or on an edge of the external magnet".into())
 }
 
-/// Fills the base's columns, seen from the base: what surrounds the chain moves the other way.
+/// Fills the base's columns, relative to the base: what surrounds the chain moves the opposite way.
 pub(super) fn transport_base(rates: &mut DMatrix<f64>, by_base: &DMatrix<f64>) {
     let columns = -&*rates * by_base;
     rates.columns_mut(Input::BasePosition.columns().start, 6).copy_from(&columns);

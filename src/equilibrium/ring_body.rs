@@ -1,4 +1,4 @@
-//! A ring of the chain: a rigid magnet on a node.
+//! Ring of the chain: a rigid magnet on a node.
 
 use std::sync::Arc;
 
@@ -13,11 +13,11 @@ use crate::magnetics::{AxialSource, FieldTable, Outline};
 pub(crate) struct RingBody {
     /// Dimensions and material.
     pub(crate) ring: Ring,
-    /// Its node; 0 is the clamped base.
+    /// The number of its node; 0 is the clamped base.
     pub(crate) node: usize,
     /// Its field, in its own frame.
     pub(crate) source: AxialSource,
-    /// The same from a table, where spans are to be seen so.
+    /// The same field from a table, where tables are used for spans.
     pub(crate) table: Option<Arc<FieldTable>>,
     /// Magnetisation, A/m.
     pub(crate) magnetisation: f64,
@@ -39,18 +39,18 @@ impl RingBody {
         0.5 * self.ring.length
     }
 
-    /// Its outline; nothing of the manipulator or of a magnet is taken to fit into its bore.
+    /// Its outline without the bore: no part of the manipulator or of a magnet is assumed to fit into it.
     pub(crate) fn outline(&self) -> Outline {
         Outline::new(0.0, self.ring.outer_radius, self.ring.length)
     }
 
-    /// Pose of its centre where that of its node is `node`.
+    /// Pose of its centre for a node at the pose `node`.
     pub(crate) fn centre(&self, node: &Pose) -> Pose {
         node.advanced(self.half_length())
     }
 }
 
-/// Tabulates the fields of the rings, equal ones once.
+/// Tabulates the fields of the rings, once for equal rings.
 pub(super) fn tabulate(rings: &mut [RingBody]) {
     for number in 0..rings.len() {
         let (before, rest) = rings.split_at_mut(number);

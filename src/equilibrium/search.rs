@@ -1,4 +1,4 @@
-//! A search for an equilibrium: what its steps share.
+//! Search for an equilibrium: the state that its steps share.
 
 use super::chain::Chain;
 use super::deadline::Deadline;
@@ -12,16 +12,16 @@ use super::workspace::Workspace;
 use crate::magnetics::Assembly;
 use crate::numerics::eigenvalue::Lanczos;
 
-/// So close to the root (in the chain's unit) the Hessian of the next shape does for all that follow.
+/// Distance to the root (radian norm) within which the Hessian of the next shape suffices for all further steps.
 pub(super) const NEARLY: f64 = 1e-4;
 
-/// Where rounding, not Newton's method, decides the length of a step (in the chain's unit).
+/// Step length (radian norm) below which rounding, not Newton's method, determines the step.
 pub(super) const ROUNDING: f64 = 1e-9;
 
-/// Newton corrections at most for one part of an input change.
+/// Maximum number of Newton corrections for one part of an input change.
 pub(super) const CORRECTIONS: usize = 12;
 
-/// The parts that do not change from solve to solve.
+/// The parts of a model that do not change from solve to solve.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model<'a> {
     pub(super) chain: &'a Chain,
@@ -30,7 +30,7 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    /// The potential at `inputs` with the rules chosen last.
+    /// The potential at `inputs` with the quadrature rules chosen last.
     pub(super) fn potential(
         &self,
         inputs: &'a Inputs,
@@ -44,12 +44,12 @@ impl<'a> Model<'a> {
     }
 }
 
-/// What a solve overwrites, kept so that a step along the branch allocates nothing.
+/// Buffers of a solve, kept so that a step along the branch allocates nothing.
 #[derive(Debug, Clone)]
 pub(super) struct Scratch {
     pub(super) last: Vec<f64>,
     pub(super) trial: Vec<f64>,
-    /// The way between two shapes, and back.
+    /// Difference of two shapes, and the step back.
     pub(super) between: Vec<f64>,
     /// Steps with one factorisation.
     pub(super) steps: Vec<Vec<f64>>,
@@ -69,7 +69,7 @@ impl Scratch {
     }
 }
 
-/// A search for the equilibrium at some inputs, under way.
+/// A search for the equilibrium at given inputs, in progress.
 pub(super) struct Search<'a> {
     pub(super) model: Model<'a>,
     pub(super) work: &'a mut Workspace,
@@ -79,9 +79,9 @@ pub(super) struct Search<'a> {
     pub(super) deadline: &'a Deadline,
     /// The last equilibrium on the way to the target.
     pub(super) reached: Option<(Inputs, Vec<f64>)>,
-    /// How far loads and shape may drift from the last factorisation.
+    /// Largest drift of loads and shape from the last factorisation for which that counts as valid.
     pub(super) reach: f64,
-    /// Whether the last correction ended so close to the last factorisation that what it told about stability still holds.
+    /// Whether the last correction ended so close to the last factorisation that its stability result is still valid.
     pub(super) kept: bool,
 }
 
@@ -90,13 +90,13 @@ impl Search<'_> {
         self.model.potential(inputs, self.rules, self.work)
     }
 
-    /// Chooses the rules for a shape.
+    /// Chooses the quadrature rules for a shape.
     pub(super) fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
         self.work.place(self.model.chain, &inputs.base, unknowns);
         self.choose_rules_here();
     }
 
-    /// The same for the shape evaluated last; whether any rule is another one than before.
+    /// The same for the shape evaluated last; returns whether any rule has changed.
     pub(super) fn choose_rules_here(&mut self) -> bool {
         self.rules.choose(self.model.chain, &self.work.nodes)
     }
@@ -106,7 +106,7 @@ impl Search<'_> {
         self.model.settings.tolerance.max(ROUNDING)
     }
 
-    /// Iterations that this solve may still take.
+    /// Remaining iterations of this solve.
     pub(super) fn left(&self) -> u32 {
         self.model.settings.iterations.saturating_sub(self.report.iterations)
     }

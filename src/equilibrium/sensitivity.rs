@@ -1,8 +1,8 @@
 //! Exact derivatives of all outputs, from the factorisation of the Hessian at the equilibrium.
 //!
-//! Every input has a column `@2U/@q@u` of mixed derivatives; one solve each gives the rates of the unknowns, which
-//! the chain carries along to its nodes. Moving the base is moving everything else the other way, seen from a frame
-//! that moves with the base: its columns are combinations of the others.
+//! Every input has a column `@2U/@q@u` of mixed derivatives; one solve for each gives the rates of the unknowns, from
+//! which the rates of the nodes follow along the chain. A motion of the base is the opposite motion of all other bodies
+//! and fields, seen from a frame that moves with the base: its columns are combinations of the others.
 
 use nalgebra::{DMatrix, DMatrixView};
 
@@ -19,23 +19,22 @@ use crate::error::Error;
 use crate::numerics::trust_region::{Objective, norm, spread};
 use crate::rod::START;
 
-/// Stiffness of the softest direction, relative to the elastic one, from which on a shape counts as at a fold: the
-/// residual of a solve leaves the stiffness itself uncertain by its square root, 3e-6.
+/// Stiffness of the softest direction, relative to the elastic stiffness, below which a shape counts as being at a fold:
+/// the residual of a solve leaves the stiffness itself uncertain by its square root, 3e-6.
 const SINGULAR: f64 = 1e-5;
 
-/// Inverse iterations that look for it: near a fold, each gains orders of magnitude.
+/// Number of inverse iterations for it: near a fold, each gains orders of magnitude.
 const ITERATIONS: usize = 4;
 
 impl Equilibrium {
-    /// Derivatives of all outputs by all inputs at the last solved shape.
+    /// Derivatives of all outputs with respect to all inputs at the last solved shape.
     ///
-    /// The equilibrium itself stays as it is, and goes on as if nothing had been asked.
+    /// The equilibrium itself and its later solves stay unchanged.
     ///
     /// # Errors
-    /// [`Error::NoDerivatives`] before the first solved shape; at a fold, where the shape moves infinitely far with
-    /// its inputs (the stiffness of some direction is below 1e-5 of the elastic one); and where a part or the tip
-    /// lies inside or on an edge of the external magnet. One that is switched off there cannot be switched on: its
-    /// columns are zero.
+    /// [`Error::NoDerivatives`] before the first solved shape; at a fold, where the derivatives are infinite (the
+    /// stiffness of some direction is below 1e-5 of the elastic one); and where a part or the tip lies inside or on an
+    /// edge of the external magnet. A magnet that is switched off there cannot be switched on: its columns are zero.
     pub fn jacobian(&self) -> Result<Jacobian, Error> {
         let nothing = || Error::NoDerivatives("nothing is solved yet".into());
         let inputs = self.branch.inputs.clone().ok_or_else(nothing)?;
@@ -72,7 +71,7 @@ impl Equilibrium {
         let mut columns = potential.columns(&counts);
         let with_magnet = columns.is_some();
         if columns.is_none() && inputs.magnet_strength == 0.0 {
-            // Switched off inside the manipulator, a magnet can only stay so.
+            // A magnet that is switched off inside the manipulator can only stay off.
             potential.terms.magnet = potential.terms.magnet.removed();
             columns = potential.columns(&counts);
         }
@@ -93,8 +92,8 @@ impl Equilibrium {
 }
 
 impl Potential<'_> {
-    /// Stiffness of the softest direction relative to the elastic one, from above, close where it is small: by
-    /// inverse iteration, with or without a potential.
+    /// Stiffness of the softest direction relative to the elastic stiffness, by inverse iteration: an upper bound, close
+    /// where it is small, for conservative and non-conservative forces.
     fn softest_stiffness(&mut self) -> f64 {
         let metric = &self.chain.metric;
         let mut direction = vec![0.0; metric.len()];
@@ -109,7 +108,7 @@ impl Potential<'_> {
         1.0 / growth
     }
 
-    /// Carries the rates of the unknowns along the chain, from the base that stands still.
+    /// Propagates the rates of the unknowns along the chain, from the fixed base.
     pub(super) fn motion(&mut self, unknown_rates: &DMatrix<f64>) -> Motion {
         let mut nodes = vec![DMatrix::zeros(6, unknown_rates.ncols())];
         let mut elements = Vec::new();
@@ -132,21 +131,21 @@ impl Potential<'_> {
         if self.settings.interaction == Interaction::Preceding {
             return self.clamp_without_reciprocity(&response.motion) + &columns.clamp;
         }
-        // Nothing inside pulls at the clamp: its wrench is the energy's derivative by what surrounds the chain. A
-        // dead moment has none, and stays as it is wherever the tip turns.
+        // No internal force acts on the clamp: its wrench is the energy's derivative with respect to a motion of all that
+        // surrounds the chain. A fixed tip moment has no energy and does not follow the tip.
         let mut around = response.by_base.clone();
         around.rows_mut(Input::TipMoment.columns().start, 3).fill(0.0);
         &columns.clamp - (&columns.gradient * around).tr_mul(&response.unknowns)
     }
 
-    /// The part of it that comes from the shape, added up from the tip where actions lack their reactions.
+    /// The part of the clamp rates that comes from the shape, summed from the tip where forces lack their reactions.
     fn clamp_without_reciprocity(&mut self, motion: &Motion) -> DMatrix<f64> {
         let last = self.chain.elements.len();
         let mut others = DMatrix::zeros(6 * last, motion.nodes[0].ncols());
         for (k, node) in motion.nodes.iter().skip(1).enumerate() {
             others.rows_mut(6 * k, 6).copy_from(node);
         }
-        // Stored row by row, the matrices are seen transposed.
+        // The matrices are stored row by row and therefore appear transposed.
         let transposed = DMatrixView::from_slice(&self.work.node_hessian, 6 * last, 6 * last);
         let on_nodes = transposed.tr_mul(&others);
         let mut wrench = DMatrix::zeros(6, others.ncols());

@@ -1,29 +1,30 @@
-//! All knobs of the equilibrium, in one place.
+//! Settings of the model and its solver, in one place.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
 
-/// What acts on what inside the manipulator. Its number is that of the FMU's enumeration.
+/// Level of magnetic interaction inside the manipulator. Its number is that of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interaction {
     /// External field only.
     None = 0,
-    /// Every ring's field acts on all bodies after it, but not on the disc bonded to its face: the model of
-    /// Richter et al., without reaction.
+    /// The field of every ring acts on all bodies distal to it, except the disc bonded to its face, without reaction: the
+    /// model of Richter et al.
     Preceding = 1,
-    /// All pairs of rings, mutual.
+    /// Mutual interaction of all pairs of rings.
     Rings = 2,
-    /// All pairs of rings, and every ring with every span but the disc bonded to its face, mutual. Spans among
-    /// themselves are neglected.
+    /// Mutual interaction of all pairs of rings, and of every ring with every span except the disc bonded to its face.
+    /// The interaction of spans with one another is neglected.
     Full = 3,
-    /// The cheapest of several models that is within the tolerances of the richest: [`Self::Full`] with bending stop.
+    /// The cheapest of several models that agrees within the tolerances with the richest one: [`Self::Full`] with bending
+    /// stop.
     Auto = 4,
 }
 
 impl Interaction {
-    /// Every level with its name in scene files and in the FMU and its description there. A level that is not in
-    /// this table does not exist for users.
+    /// Every level, with its name in scene files and in the FMU and its description in the FMU. A level that is not in
+    /// this table is not available to users.
     pub const ALL: &[(Self, &str, &str)] = &[
         (Self::None, "none", "External field only"),
         (Self::Preceding, "preceding", "Every ring's field acts on all bodies after it, without reaction"),
@@ -50,7 +51,7 @@ impl Interaction {
         Self::ALL.iter().find(|row| row.1 == name).map(|row| row.0)
     }
 
-    /// Its name in scene files, on the command line and in the FMU.
+    /// The name of the level in scene files, on the command line and in the FMU.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|row| row.0 == self).map_or("", |row| row.1)
@@ -62,35 +63,39 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// How far a manipulator's tip may be from the converged answer of the model, m; default 1e-5. Where it is further, a
-    /// finer discretisation answers; [`Interaction::Auto`] also chooses the interaction by it.
+    /// Largest deviation of a manipulator's tip position from the converged solution of the model, m; default 1e-5. Where
+    /// the deviation is larger, a finer discretisation is solved; [`Interaction::Auto`] also chooses the interaction by
+    /// it.
     pub tolerance_position: f64,
-    /// How far its tip may be turned against that one, rad; default 1e-3.
+    /// Largest rotation of the tip relative to the converged solution, rad; default 1e-3.
     pub tolerance_angle: f64,
-    /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent
-    /// windings touch; default no, as in the paper's model. [`Interaction::Auto`] always sees to it.
+    /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent windings
+    /// touch; default no, as in the paper's model. [`Interaction::Auto`] always includes it.
     pub bending_stop: bool,
-    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four more are added where
-    /// rings act on spans, and two or four by a manipulator where its tolerances need them.
+    /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four degrees are added where rings
+    /// act on spans, and a manipulator adds two or four where its tolerances need them.
     pub degree: usize,
-    /// Elements of a plain cylinder, 1 to 64; default 8.
+    /// Number of elements of a plain cylinder, 1 to 64; default 8.
     pub cylinder_elements: usize,
-    /// Largest error of the energy of a ring or of a span in a field, relative to that energy, and of the energy of two
-    /// rings, relative to that of two dipoles as far apart as a ring is wide; default 1e-5. Of rings too close for nodes on
-    /// an axis, by default 3.8 mm between the faces of the paper's, force, torque and energy are good to a tenth of it, down to gaps of
-    /// a fortieth of the outer radius; the paper's own, 4 mm apart, to 7e-6 of their force by default. What can be
-    /// reached is 1e-10.
+    /// Largest quadrature error of magnetic energies, relative; default 1e-5. For a ring or a span in a field, it is
+    /// relative to that energy; for two rings, to the energy of two dipoles one ring width apart.
+    ///
+    /// Force, torque and energy of two rings like the paper's are good to a tenth of it, down to gaps of a fortieth of
+    /// the outer radius: by default to 1e-6 at every gap from 0.1 mm to 40 mm (worst measured 7e-7). The quadrature uses
+    /// nodes on the axis, at most 15, from 3.9 mm between the faces of the paper's rings on, and the magnetic charges on
+    /// the faces where they are closer. The smallest error that can be reached is 1e-10.
     pub pair_accuracy: f64,
-    /// Residual at which the shape is solved, in turns of one element by a radian; default 1e-11. The cheaper models of the
-    /// level `auto` end at up to 1e4 times as much, as their errors allow.
+    /// Residual at which a shape counts as solved, in the radian norm (1: one element turned by a radian); default 1e-11.
+    /// The cheaper models of the level `auto` stop at up to 1e4 times as much, as their errors allow.
     pub tolerance: f64,
-    /// Largest first Newton step when a branch is followed, in the same measure; default 0.5.
+    /// Largest first Newton step when a branch is followed, in the radian norm; default 0.5.
     pub follow_step: f64,
-    /// Smallest part of an input change that is tried before a fold is assumed; default 1/4096.
+    /// Smallest fraction of an input change that is tried before a fold is assumed; default 1/4096.
     pub smallest_part: f64,
     /// Stability margin below which a shape counts as close to a fold; default 0.05.
     pub fold_margin: f64,
-    /// Iterations at most of one solve, after which it has failed; default 1500. It is the time that bounds most solves.
+    /// Maximum number of iterations of one solve, beyond which it fails; default 1500. Most solves are limited by their
+    /// time instead.
     pub iterations: u32,
     /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
     /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
@@ -118,16 +123,16 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The same without tolerances of the tip: the discretisation is the one that they name.
+    /// The same settings without tolerances of the tip: the discretisation is exactly the one that the settings specify.
     #[must_use]
     pub fn as_discretised(&self) -> Self {
         Self { tolerance_position: f64::MAX, tolerance_angle: f64::MAX, ..*self }
     }
 
-    /// The settings, checked.
+    /// Checks all settings and returns them.
     ///
     /// # Errors
-    /// [`Error::Range`] naming the first knob out of range.
+    /// [`Error::Range`] naming the first setting out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let positive = |value: f64| value > 0.0;
         check("tolerance of the tip position", self.tolerance_position, positive, "> 0 m")?;

@@ -1,4 +1,4 @@
-//! What an equilibrium remembers, to be taken up by another one, also in another process.
+//! Snapshots of a branch, from which another equilibrium continues, also in another process.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,18 +8,18 @@ use super::solver::Equilibrium;
 use crate::error::Error;
 use crate::numerics::trust_region::Objective;
 
-/// What an equilibrium remembers of its past, in numbers; from it another one of the same design goes on bit for bit.
+/// Stored state of a branch, from which another equilibrium of the same design continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BranchSnapshot {
     branch: History,
-    /// Where the Hessian was made whose factorisation the next solve begins with.
+    /// Shape and inputs of the Hessian whose factorisation the next solve starts with.
     origin: Option<Origin>,
-    /// The rules of the ring pairs at the shape of the branch.
+    /// Quadrature rules of the ring pairs at the present shape of the branch.
     rules: Vec<usize>,
 }
 
 impl Equilibrium {
-    /// What it remembers.
+    /// Takes a snapshot of the branch.
     #[must_use]
     pub fn snapshot(&self) -> BranchSnapshot {
         BranchSnapshot {
@@ -29,10 +29,10 @@ impl Equilibrium {
         }
     }
 
-    /// Remembers what another equilibrium of the same design and settings did.
+    /// Restores the snapshot of another equilibrium of the same design and settings.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a snapshot that is not of this design; the branch is then forgotten.
+    /// [`Error::Unsupported`] for a snapshot of another design; the branch is then forgotten.
     pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
         let BranchSnapshot { branch, origin, rules } = snapshot;
@@ -56,7 +56,7 @@ impl Equilibrium {
         Ok(())
     }
 
-    /// Makes the Hessian of `origin` again.
+    /// Computes and factorises the Hessian of `origin` again.
     fn refactorise(&mut self, origin: &Origin) -> bool {
         if !self.rules.restore(&origin.rules) {
             return false;

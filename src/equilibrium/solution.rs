@@ -1,4 +1,4 @@
-//! What can be read from a solved shape, whichever method found it.
+//! Results of a solved shape, independent of the method that found it.
 
 use nalgebra::Vector3;
 
@@ -6,18 +6,18 @@ use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
 
-/// The last solved shape and what acts on it, world frame, SI units; before the first solve, the straight shape at the origin.
+/// The last solved shape and its loads, world frame, SI units; before the first solve, the straight shape at the origin.
 pub trait Solution {
     /// Pose of the tip: the distal face of the last body.
     fn tip(&self) -> Pose;
 
-    /// Poses of the rings' centres, base to tip.
+    /// Poses of the rings' centres, from base to tip.
     fn rings(&self) -> impl Iterator<Item = Pose> + '_;
 
     /// Bending angle of each core (of the whole rod, for a plain cylinder), rad.
     fn core_angles(&self) -> impl Iterator<Item = f64> + '_;
 
-    /// Unstrained arc length (m) and position (m) of the shape points, base to tip.
+    /// Unstrained arc length (m) and position (m) of the shape points, from base to tip.
     fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_;
 
     /// Total external magnetic wrench on the manipulator, torque about the base position.
@@ -26,7 +26,7 @@ pub trait Solution {
     /// Force and moment (about the base position) that the clamp exerts.
     fn base_reaction(&self) -> Wrench;
 
-    /// Wrench on the external magnet about its centre at `inputs`, those of the last solve.
+    /// Wrench on the external magnet about its centre; `inputs` must be those of the last solve.
     fn magnet_reaction(&self, inputs: &Inputs) -> Wrench;
 
     /// External field (T) at a point, m; `None` inside a magnet.

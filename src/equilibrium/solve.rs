@@ -1,5 +1,5 @@
-//! One solve: predict the next shape and correct it; else go on in shorter steps of the inputs; else descend to the next branch;
-//! then judge.
+//! One solve: predict the next shape and correct it. Where that fails, follow the branch in shorter steps of the inputs;
+//! where the branch ends, descend to the next one. Then judge the stability.
 
 use super::descend::PASSING;
 use super::history::History;
@@ -8,21 +8,22 @@ use super::outcome::Outcome;
 use super::report::Report;
 use super::search::{ROUNDING, Search};
 
-/// How far loads and shape may drift from the last factorisation, relative to the margin, while it tells about stability.
+/// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
+/// margin.
 const KEPT: f64 = 0.1;
 
-/// Largest first step from the straight shape to the one that the internal forces alone leave: there is no
-/// branch to lose yet.
+/// Largest first Newton step, in the radian norm, from the straight shape to the one under internal forces alone. It may
+/// be large because there is no branch to lose yet.
 const SETTLING: f64 = 4.0;
 
-/// Part of the iterations, as one over this number, that is kept for a descent at the end of the way.
+/// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
 
-/// How much longer a step is after one that had to be descended.
+/// Growth factor of the step length after a step that needed a descent.
 const FURTHER: f64 = 4.0;
 
 impl Search<'_> {
-    /// Moves `branch` to the equilibrium at `target`; on failure the branch stays where it was.
+    /// Moves `branch` to the equilibrium at `target`; on failure the branch stays unchanged.
     pub(super) fn solve(&mut self, branch: &mut History, target: &Inputs) -> Report {
         self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
@@ -39,12 +40,13 @@ impl Search<'_> {
         }
         (self.report.outcome, self.report.progress) = (outcome, 1.0);
         (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
-        // Neither from beyond a snap nor from another model's shape does a line lead on.
+        // Past a snap, or from the shape of another model, the last steps do not extrapolate to the next one.
         branch.advance(target, &self.scratch.last, self.report.snaps > 0 || taken_up);
         self.report
     }
 
-    /// Leaves `branch` where it was or, where only the budget ended the way, at the last shape on it: asked again, it goes on.
+    /// Restores `branch`. If only the budget ran out, it is left at the last equilibrium on the way instead, so that the
+    /// next solve continues there.
     fn give_up(&mut self, branch: &mut History, outcome: Outcome) -> Report {
         self.work.factorisation = None;
         match self.reached.take().filter(|_| outcome == Outcome::OutOfBudget) {
@@ -55,8 +57,8 @@ impl Search<'_> {
         self.report
     }
 
-    /// Corrects a shape taken up from another model, which is not yet an equilibrium of this one: that is no step of the
-    /// inputs. Whether it is at those of the target then.
+    /// Corrects a shape adopted from another model, which is not yet an equilibrium of this one; this is not a step of
+    /// the inputs. Returns whether the shape then is at the target's inputs.
     fn settle(&mut self, branch: &mut History, target: &Inputs) -> bool {
         let Some(here) = branch.inputs.as_ref().filter(|_| branch.stable.is_none()) else { return false };
         self.try_to_correct(None, here, &mut branch.unknowns) && here == target
@@ -67,7 +69,7 @@ impl Search<'_> {
         if let Some(start) = from {
             return self.advance([start, target], [0.0, 1.0], unknowns);
         }
-        // The unloaded shape: its internal forces alone, found from straight.
+        // The unloaded shape, under internal forces alone, is found from the straight one.
         let unloaded = target.without_loads();
         if !self.correct(&unloaded, unknowns, SETTLING)
             && self.descend(&unloaded, unknowns, self.resting()) != Outcome::Solved
@@ -78,21 +80,22 @@ impl Search<'_> {
         if held == *target {
             return self.advance([&unloaded, target], [0.0, 1.0], unknowns);
         }
-        // A load without a potential does not choose the branch: it is added to the shape that all others leave.
+        // A non-conservative load does not select the branch: it is applied last, to the shape under all other loads.
         match self.advance([&unloaded, &held], [0.0, 0.5], unknowns) {
             Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [0.5, 1.0], unknowns),
             lost => lost,
         }
     }
 
-    /// Follows the branch along the inputs between two; `stage` is where that lies in the whole solve.
+    /// Follows the branch along the straight path between two inputs; `stage` is the range of progress that this path
+    /// covers in the whole solve.
     fn advance(&mut self, [start, target]: [&Inputs; 2], stage: [f64; 2], unknowns: &mut [f64]) -> Outcome {
         let at = |part: f64| if part >= 1.0 { target.clone() } else { start.between(target, part) };
         let (smallest, resting) = (self.model.settings.smallest_part, self.resting());
         let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
         let mut here = start.clone();
         let (mut neutral, mut shortened) = (false, false);
-        // Snaps when the last descent began: what comes down in several steps has snapped once.
+        // Number of snaps when the last descent began: a descent over several steps counts as one snap.
         let mut before_descent = None;
         while self.left() > self.model.settings.iterations / RESERVE && self.may_go_on() {
             self.report.progress = stage[0] + done * (stage[1] - stage[0]);
@@ -113,13 +116,13 @@ impl Search<'_> {
                 self.report.snaps = self.report.snaps.min(before + 1);
                 end
             };
-            // Where the branch has to be descended again and again, it is steep or nearly neutral: shorter steps are no help.
+            // Repeated descents mean that the branch is steep or nearly neutral: shorter steps do not help.
             floor = if corrected { smallest } else { FURTHER * floor };
             neutral = end == Outcome::Neutral && next < 1.0;
             if end != Outcome::Solved && !neutral {
                 return self.rests(end);
             }
-            // A length that was just too long is not tried again at once.
+            // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
             (done, here, shortened) = (next, inputs, false);
             if done >= 1.0 {
@@ -129,12 +132,12 @@ impl Search<'_> {
                 self.reached = Some((here.clone(), unknowns.to_vec()));
             }
         }
-        // Too many small steps along the branch: downhill all the way.
+        // Too many small steps along the branch: descend to the target at once.
         let end = self.descend_from([&here, target], unknowns, resting);
         self.rests(end)
     }
 
-    /// A neutral shape at the target is only one in balance.
+    /// Accepts a neutral shape at the target only if it is in equilibrium.
     fn rests(&self, end: Outcome) -> Outcome {
         if end == Outcome::Neutral && self.report.residual > ROUNDING { Outcome::BranchEnds } else { end }
     }

@@ -1,4 +1,4 @@
-//! The equilibrium of one manipulator: solve it, then ask for poses and wrenches.
+//! Equilibrium of one manipulator: solve it, then read poses and wrenches.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
 
-/// Where on the centreline a shape point lies.
+/// Point of the centreline at which the shape is reported.
 #[derive(Debug, Clone)]
 pub(super) struct ShapePoint {
     arc_length: f64,
@@ -33,15 +33,15 @@ pub(super) struct ShapePoint {
 
 #[derive(Debug, Clone)]
 pub(super) enum Site {
-    /// On the rigid part after a node, at this distance.
+    /// On the rigid part after a node, at this distance (m) from the node.
     Rigid(usize, f64),
-    /// On an element.
+    /// On an element, at this row of mode values.
     Elastic(usize, Row),
 }
 
-/// The equilibrium of a manipulator, with the branch that it follows.
+/// Equilibrium of a manipulator, with the branch that it follows.
 ///
-/// A clone is a full snapshot: it goes on bit for bit as the original would.
+/// A clone is a full snapshot: its further solves agree bit for bit with those of the original.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
@@ -55,11 +55,11 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// The straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
+    /// Creates the straight, unloaded manipulator; `shape_points` is the number of centreline points, at least 2.
     ///
     /// # Errors
     /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for
-    /// [`Interaction::Auto`], which takes several models.
+    /// [`Interaction::Auto`], which needs several models.
     pub fn new(
         design: &Design,
         magnet: Option<&Assembly>,
@@ -69,7 +69,7 @@ impl Equilibrium {
         Self::of_checked(design, magnet, settings.checked()?, shape_points)
     }
 
-    /// The same by settings that are checked, but for their degree, which may be a higher one here.
+    /// As [`Self::new`], for settings that are already checked; their degree may exceed the range that users may set.
     pub(super) fn of_checked(
         design: &Design,
         magnet: Option<&Assembly>,
@@ -99,14 +99,14 @@ impl Equilibrium {
         Ok(out)
     }
 
-    /// Back to the straight shape at the origin; the branch is forgotten.
+    /// Returns to the straight shape at the origin and forgets the branch.
     pub fn reset(&mut self) {
         self.branch = History::new(&self.chain);
         self.work.factorisation = None;
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
-    /// The settings.
+    /// The settings of the model and its solver.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -120,13 +120,13 @@ impl Equilibrium {
     /// Follows the branch to `inputs`.
     ///
     /// # Errors
-    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
-    /// branch is then untouched. A solve that fails is no error: see [`Report::solved`].
+    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the branch is then
+    /// unchanged. A solve that fails is not an error: see [`Report::solved`].
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         self.solve_before(&Deadline::new(self.settings.time_budget), inputs)
     }
 
-    /// The same before a deadline that other solves may share.
+    /// As [`Self::solve`], within a time budget that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
         let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
@@ -137,8 +137,8 @@ impl Equilibrium {
         Ok(search.solve(&mut self.branch, inputs))
     }
 
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape: 1 for the
-    /// unloaded manipulator without internal forces, 0 at a fold. `None` before the first solve.
+    /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape. It
+    /// is 1 for the unloaded manipulator without internal forces and 0 at a fold; `None` before the first solve.
     #[must_use]
     pub fn margin(&self) -> Option<f64> {
         let (inputs, unknowns) = (self.branch.inputs.as_ref()?, &self.branch.unknowns);
@@ -161,19 +161,19 @@ impl Equilibrium {
         self.chain.freedoms()
     }
 
-    /// The strain mode amplitudes of the present shape.
+    /// Strain mode amplitudes of the present shape.
     #[must_use]
     pub fn unknowns(&self) -> &[f64] {
         &self.branch.unknowns
     }
 
-    /// Diagonal elastic stiffness `K` by the unknowns, about the straight shape.
+    /// Diagonal elastic stiffness `K` with respect to the unknowns, about the straight shape.
     #[must_use]
     pub fn metric(&self) -> &[f64] {
         &self.chain.metric
     }
 
-    /// Energy (J) and its gradient by the unknowns at any shape; `None` where bodies touch.
+    /// Energy (J) and its gradient with respect to the unknowns at any shape; `None` where bodies touch.
     pub fn gradient(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<(f64, Vec<f64>)> {
         let mut potential = self.potential(inputs, unknowns);
         let energy = potential.linearise(unknowns)?;
@@ -195,7 +195,7 @@ impl Equilibrium {
             potential.solve(&mut solution);
             solution
         });
-        self.work.factorisation = None; // not that of the branch
+        self.work.factorisation = None; // it does not belong to the branch
         solved
     }
 
@@ -205,13 +205,13 @@ impl Equilibrium {
         self.potential_as_ruled(inputs)
     }
 
-    /// With the rules that were chosen last.
+    /// The potential with the quadrature rules chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
         let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         model.potential(inputs, &self.rules, &mut self.work)
     }
 
-    /// The same branch with a workspace of its own: its evaluations leave no trace here.
+    /// Copy of the branch with its own workspace, whose evaluations do not change the original.
     pub(super) fn apart(&self) -> Self {
         Self {
             chain: Arc::clone(&self.chain),
@@ -225,7 +225,7 @@ impl Equilibrium {
         }
     }
 
-    /// What acts at `inputs`, with the rules that were chosen last.
+    /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
         Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), inputs, &self.rules)
     }
@@ -282,7 +282,7 @@ impl Solution for Equilibrium {
     }
 }
 
-/// Finds the body at unstrained arc length `s` from the base.
+/// Finds the node or element at unstrained arc length `s` (m) from the base.
 fn point_at(chain: &Chain, s: f64) -> ShapePoint {
     let mut start = 0.0;
     for (k, element) in chain.elements.iter().enumerate() {

@@ -1,6 +1,6 @@
-//! What makes a field, and the energy of rings and stations in it.
+//! Field sources, and the energy of rings and stations in their fields.
 //!
-//! Energies are computed in the frame of the source, where its field is cheapest; only their sums are turned.
+//! Energies are computed in the frame of the source, where its field is cheapest; only their sums are rotated.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -10,51 +10,52 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable};
 use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station, StationQuadrature};
 
-/// The magnet in a source.
+/// The magnet that makes the field of a source.
 #[derive(Debug, Clone, Copy)]
 enum Magnet<'a> {
     Assembly(&'a Assembly, f64),
     Ring(&'a AxialSource, Option<&'a FieldTable>),
 }
 
-/// A field at a point.
+/// Field (T) and its derivatives at a point.
 struct Near {
     field: Vector3<f64>,
     gradient: Matrix3<f64>,
-    /// Second derivative of the component along an axis.
+    /// Second derivative of the field component along an axis.
     along: Option<Matrix3<f64>>,
 }
 
-/// A magnet at a pose.
+/// A field source at a pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Source<'a> {
     frame: Pose,
     magnet: Magnet<'a>,
-    /// Largest spread (see [`Station::spread`]) with which material counts as one point.
+    /// Largest spread (see [`Station::spread`]) for which the material of a section is represented by one point, m2.
     compact: f64,
 }
 
 impl<'a> Source<'a> {
-    /// The external magnet at its pose, its field times `strength`.
+    /// The external magnet at its pose, with its field scaled by `strength`.
     pub(crate) fn assembly(assembly: &'a Assembly, frame: Pose, strength: f64) -> Self {
         Self { frame, magnet: Magnet::Assembly(assembly, strength), compact: 0.0 }
     }
 
-    /// The same for a `chain` with its base there, sampled as coarsely as this relative `accuracy` of the energies allows.
+    /// The same source for a `chain` with its base at `base`, whose sections are sampled as coarsely as this relative
+    /// `accuracy` of the energies allows.
     ///
-    /// A dipole at distance `d` along the axis has the mean `B (1 - 3 spread / d^2)` over a section. The distance is that
-    /// of all the chain may reach, so that the choice depends on the inputs alone.
+    /// The mean field of a dipole over a section at distance `d` along its axis is `B (1 - 3 spread / d^2)`. The distance
+    /// is taken to everything that the chain may reach, so that the choice depends on the inputs alone.
     pub(crate) fn seen_by(self, chain: &Chain, base: &Pose, accuracy: f64) -> Self {
         let reach = self.distance(&base.position) - chain.length();
         Self { compact: accuracy / 3.0 * reach * reach.max(0.0), ..self }
     }
 
-    /// The points of a station's section that carry its material in equal parts.
+    /// The points of a station's section, each of which carries an equal share of its material.
     pub(crate) fn points<'s>(&self, station: &'s Station) -> &'s [Vector2<f64>] {
         if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
     }
 
-    /// A ring of the manipulator whose node is at `node`; `tabulated` where its table may stand for its field and gradient.
+    /// A ring of the manipulator whose node is at `node`; with `tabulated`, its table may replace field and gradient.
     pub(crate) fn ring(body: &'a RingBody, node: &Pose, tabulated: bool) -> Self {
         Self {
             frame: body.centre(node),
@@ -63,19 +64,19 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The axes in which the energies are given: the columns, in the world's axes.
+    /// The axes in which the energies are given, as columns in world axes.
     pub(crate) fn axes(&self) -> &Matrix3<f64> {
         &self.frame.rotation
     }
 
-    /// Field (T) at a point of the world; `None` inside a magnet.
+    /// Field (T) at a point in the world frame; `None` inside a magnet.
     pub(crate) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         let local = self.frame.rotation.tr_mul(&(point - self.frame.position));
         let near = self.near(&local, &Vector3::z(), Order::Gradient)?;
         Some(self.frame.rotation * near.field)
     }
 
-    /// Distance from a point of the world, m.
+    /// Distance (m) from a point in the world frame.
     pub(crate) fn distance(&self, point: &Vector3<f64>) -> f64 {
         let local = || self.frame.rotation.tr_mul(&(point - self.frame.position));
         match self.magnet {
@@ -84,8 +85,8 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The field at a point of the source's frame, with the second derivative of its component along `axis` where
-    /// asked for; `None` inside a magnet.
+    /// Field at a point in the source's frame; for second order, with the second derivative of its component along
+    /// `axis`. `None` inside a magnet.
     #[inline]
     fn near(&self, point: &Vector3<f64>, axis: &Vector3<f64>, order: Order) -> Option<Near> {
         if let (Magnet::Ring(_, Some(table)), Order::Gradient) = (self.magnet, order)
@@ -135,7 +136,7 @@ impl<'a> Source<'a> {
         Some(load)
     }
 
-    /// The same for a ring in the field of this one, by the magnetic charges of its two faces, proximal and distal.
+    /// The same for a ring in the field of another ring, from the magnetic charges on its proximal and distal face.
     pub(crate) fn on_faces(
         &self,
         body: &RingBody,
@@ -171,7 +172,7 @@ impl<'a> Source<'a> {
         Some(load)
     }
 
-    /// The same for material of a section at `pose`, where `points` carry it in equal parts.
+    /// The same for the material of a section at `pose`, represented by `points` with equal shares.
     pub(crate) fn on_material(
         &self,
         material: &SectionMaterial,
@@ -186,13 +187,13 @@ impl<'a> Source<'a> {
         self.on_section(points.iter().map(|point| (*point, share)), &self.locate(pose), order)
     }
 
-    /// The same, for a sample of the material.
+    /// The same for a quadrature sample of the material.
     pub(crate) fn on_sample(&self, sample: &StationQuadrature, pose: &Pose, order: Order) -> Option<Load> {
         let dipoles = sample.points.iter().map(|point| (point.position, sample.magnetisation * point.volume));
         self.on_section(dipoles, &self.locate(pose), order)
     }
 
-    /// Dipoles (A m2) at points of a section, whose pose is given in the source's frame.
+    /// Energy of dipoles (A m2) at points of a section whose pose is given in the source's frame.
     fn on_section(
         &self,
         dipoles: impl Iterator<Item = (Vector2<f64>, f64)>,

@@ -1,35 +1,35 @@
-//! How finely each ring sees the material of each element: by their distance and by the bend between them.
+//! Quadrature of the material of each element in the field of each ring, by their distance and the bend between them.
 
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
 use crate::geometry::Pose;
 use crate::rod::{Element, Piece, SourceGeometry, StationQuadrature};
 
-/// Bends up to which each of the samples of a view is made, rad; the last serves beyond too.
+/// Largest bends for which each of the samples is made, rad; the last sample is also used beyond.
 const BENDS: [f64; 5] = [0.08, 0.16, 0.32, 0.64, 1.28];
 
-/// Part of the accuracy of the pairs that is asked for between a ring and a span: the errors of a ring's spans add up.
+/// Accuracy between a ring and a span, relative to that of the pairs: the errors of all spans of a ring add up.
 pub(super) const SPAN_SHARE: f64 = 0.3;
 
-/// The samples of an element for one ring, by bend.
+/// The quadrature samples of an element for one ring, one for each bend.
 #[derive(Debug, Clone)]
 struct SpanQuadrature {
-    /// An element of this make.
+    /// An element of this kind.
     element: usize,
     sight: SourceGeometry,
     samples: [Vec<StationQuadrature>; BENDS.len()],
 }
 
-/// The samples of all elements for all rings; equal ones are kept once.
+/// The quadrature samples of all elements for all rings; equal ones are stored once.
 #[derive(Debug, Clone)]
 pub(super) struct SpanQuadratures {
     views: Vec<SpanQuadrature>,
-    /// By element and ring; `None` where the ring does not act.
+    /// Index into `views` by element and ring; `None` where the ring does not act.
     places: Vec<Vec<Option<usize>>>,
 }
 
 impl SpanQuadratures {
-    /// Of elements made of `pieces`.
+    /// Makes the samples of elements that consist of `pieces`.
     pub(super) fn new(
         elements: &[Element],
         pieces: &[Vec<Piece<'_>>],
@@ -56,10 +56,10 @@ impl SpanQuadratures {
         self.places[element][ring].map_or(&[], |place| &self.views[place].samples[level])
     }
 
-    /// How many levels there are.
+    /// Number of levels.
     pub(super) const LEVELS: usize = BENDS.len();
 
-    /// The level for the bend between a ring and an element, whose ends are at two nodes.
+    /// The level for the bend between a ring and an element with ends at two nodes.
     pub(super) fn level(ring: &Pose, ends: [&Pose; 2]) -> usize {
         let least = ends.map(|end| ring.axis().dot(&end.axis())).into_iter().fold(1.0, f64::min);
         let bend = least.clamp(-1.0, 1.0).acos();
@@ -67,7 +67,7 @@ impl SpanQuadratures {
     }
 }
 
-/// Where a ring is seen from element `k` of the straight chain, if it acts there.
+/// Geometry of a ring as seen from element `k` of the straight chain, if it acts there.
 fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<SourceGeometry> {
     let beyond = body.node > k;
     let acts = match settings.interaction {
@@ -77,7 +77,7 @@ fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -
     };
     let between = if beyond { &elements[k + 1..body.node] } else { &elements[body.node..k] };
     let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
-    // What stands before an element's start is counted with it: the ring itself, or the one that it faces.
+    // An element's offset contains the ring before its start: this ring itself, or the one that it faces.
     let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
     acts.then(|| SourceGeometry {
         distance,

@@ -1,4 +1,4 @@
-//! What evaluations overwrite.
+//! Workspace of the evaluations of the potential.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -10,29 +10,28 @@ use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, START};
 
-/// Everything that an evaluation overwrites; kept between solves so that none allocates.
+/// Everything that an evaluation overwrites; kept between solves so that none of them allocates.
 #[derive(Debug, Clone)]
 pub(super) struct Workspace {
     pub(super) configurations: Vec<Configuration>,
     pub(super) nodes: Vec<Pose>,
-    /// The unknowns for which they are placed; not a number before the first ones.
+    /// The unknowns at which the chain is placed; NaN before the first evaluation.
     pub(super) placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     pub(super) pair_loads: PairLoads,
     pub(super) wrenches: TermWrenches,
-    /// Derivative of the energy by the clamped base: force and moment that the clamp exerts.
+    /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
     pub(super) derivatives: Vec<ElementDerivatives>,
-    /// By element: mixed derivatives of rings and stations, and what they add up to: one row for each displacement of
-    /// a node.
+    /// By element: mixed derivatives of rings and stations, and their sum, with one row for each displacement of a node.
     pub(super) mixed: Vec<Vec<Mixed>>,
     pub(super) cross: Vec<Vec<f64>>,
     pub(super) gradient: Vec<f64>,
     pub(super) node_hessian: Vec<f64>,
-    /// The last Hessian while it is not factorised.
+    /// The last Hessian, as long as it is not factorised.
     pub(super) linearisation: Option<Box<Linearisation>>,
-    /// That of this shape or an earlier one.
+    /// The factorisation at this shape or an earlier one.
     pub(super) factorisation: Option<Factorisation>,
 }
 
@@ -66,7 +65,7 @@ impl Workspace {
         self.nodes[element].compose(&Pose { position: state.position, rotation: state.directors })
     }
 
-    /// Places all stations and nodes for the given base and unknowns, if they are not there.
+    /// Places all stations and nodes for the given base and unknowns, unless they are there already.
     pub(super) fn place(&mut self, chain: &Chain, base: &Pose, unknowns: &[f64]) {
         if self.nodes[0] == *base && self.placed == unknowns {
             return;
@@ -84,7 +83,7 @@ impl Workspace {
         self.factorisation.take().map(Factorisation::into_linearisation).or_else(|| self.linearisation.take())
     }
 
-    /// What acts on all nodes, then on each element: couple (N m) and force (N).
+    /// Loads on all nodes, then the total on each element: couple (N m) and force (N).
     pub(super) fn loads(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_ {
         let nodes = self.node_loads.iter().map(|load| (load.couple, load.force));
         let elements = self.station_loads.iter().map(|loads| {

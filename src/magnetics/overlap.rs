@@ -33,7 +33,7 @@ pub struct Outline {
 }
 
 /// A body in the frame of another one, turned about that one's axis until its own lies in the plane of the first two
-/// coordinates of [`Placed::at`].
+/// coordinates of [`Placed::centre`].
 struct Placed {
     body: Outline,
     /// Centre: along the horizontal projection of the axis, across it, and along the other's axis, m.

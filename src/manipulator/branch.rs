@@ -5,28 +5,28 @@ use super::solve::Solve;
 use super::{Inputs, Outcome, Outputs, Status};
 use crate::error::{Error, check};
 
-/// Width of the interval in which a fold is located, of the path's span.
+/// Width of the interval in which a fold is located, relative to the span of the path.
 const FOLD_WIDTH: f64 = 1e-5;
 
-/// Shapes from which a snap is predicted.
+/// Number of solved shapes used to predict a fold.
 const REMEMBERED: usize = 3;
 
-/// Where a branch was left.
+/// A fold, where the followed branch was left.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fold {
-    /// The value on the path, the middle of an interval of 1e-5 of the path's span.
+    /// Path parameter at the fold: the middle of an interval of 1e-5 of the path's span.
     pub value: f64,
-    /// Whether it was met while the value grew.
+    /// Whether the fold was met with increasing path parameter.
     pub upwards: bool,
     /// The last shape on the branch, with its stability margin measured.
     pub before: Outputs,
-    /// The shape that was found next, and its value; `None`: the branch ends, and no stable shape was found.
+    /// Path parameter and outputs of the next shape found; `None` if the branch ends and no stable shape was found.
     pub after: Option<(f64, Outputs)>,
-    /// How the solve next to it ended.
+    /// Outcome of the solve just beyond the fold.
     pub outcome: Outcome,
 }
 
-/// A manipulator whose inputs are functions of one number.
+/// A manipulator followed along a path of inputs with one scalar parameter.
 ///
 /// ```
 /// use mcm::manipulator::{Branch, Inputs, Scene};
@@ -46,20 +46,20 @@ pub struct Branch<F> {
     inputs: F,
     span: f64,
     longest_step: f64,
-    /// Value at which the manipulator's shape is in equilibrium.
+    /// Path parameter at which the manipulator's present shape is in equilibrium.
     here: Option<f64>,
-    /// The branch ended on the last way.
+    /// Whether the branch ended on the last path.
     lost: bool,
     folds: Vec<Fold>,
-    /// Value and margin of the last solved targets of [`Branch::to`] on this branch.
+    /// Path parameter and stability margin at the last solved targets of [`Branch::to`] on this branch.
     margins: Vec<(f64, f64)>,
 }
 
 impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
-    /// The branch of `manipulator`, unsolved; `inputs` gives what acts at each value.
+    /// Creates the unsolved branch of `manipulator`; `inputs` gives the inputs at each path parameter.
     ///
-    /// The values to be visited span `span`. No step between two solves is longer than `longest_step`: between them the
-    /// inputs change linearly, a turned field along the chord.
+    /// `span` is the range of the path parameter. No step between two solves is longer than `longest_step`: within a step the
+    /// inputs change linearly, and a rotated field changes along the chord.
     ///
     /// # Errors
     /// [`Error::Range`] for a span or a step that is not positive.
@@ -76,10 +76,10 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
     }
 
-    /// Follows the branch to `target` (the first time: from the unloaded shape), and locates the folds on the way.
+    /// Follows the branch to `target` and locates the folds on the way; the first call starts from the unloaded shape.
     ///
-    /// Where the branch ends, the outputs stay those of its last shape with [`Status::NotSolved`]. Farther on the
-    /// same way each call tries once to find a shape; the way back goes on from the last one.
+    /// Where the branch ends, the outputs remain those of its last shape, with [`Status::NotSolved`]. Each later call in the
+    /// same direction tries once to find a shape; a call in the opposite direction continues from the last shape.
     ///
     /// # Errors
     /// Those of the inputs and of [`Solve::solve`].
@@ -121,16 +121,16 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         self.manipulator.outputs()
     }
 
-    /// The folds that were met, in their order.
+    /// The folds met so far, in order.
     #[must_use]
     pub fn folds(&self) -> &[Fold] {
         &self.folds
     }
 
-    /// The value at which the branch is left, if it goes on as between the last three targets (two, if there are no more).
+    /// Predicted path parameter of the next fold, extrapolated from the last three targets (two if there are no more).
     ///
-    /// The stability margin goes to zero as a power of the distance: 1/2 before a fold, 1 where a symmetric shape turns
-    /// over, in between where it is nearly symmetric. `None` where the margin grows or is above 0.5.
+    /// The stability margin goes to zero as a power of the distance: 1/2 before a fold, 1 where a symmetric shape loses its
+    /// stability without one, in between where it is nearly symmetric. `None` where the margin grows or is above 0.5.
     #[must_use]
     pub fn predicted_fold(&self) -> Option<f64> {
         predicted(&self.margins)
@@ -142,8 +142,9 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(trial)
     }
 
-    /// Bisects between `here`, on the branch, and `next`, where `beyond` no longer is; goes to the shape beyond and
-    /// returns its value, or that of the last shape on the branch if none was found.
+    /// Locates the fold by bisection between `here`, on the branch, and `next`, where the solve `beyond` left it.
+    ///
+    /// Moves to the shape beyond and returns its path parameter, or that of the last shape on the branch if none was found.
     fn pass_fold(&mut self, here: f64, next: f64, beyond: &dyn Solve) -> Result<f64, Error> {
         let (mut on, mut off) = (here, next);
         let mut after = found(off, beyond);
@@ -153,7 +154,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
             if on_branch(trial.as_ref()) {
                 (self.manipulator, on) = (trial, middle);
             } else {
-                // Too close to the fold a fall may fail that ends well from farther on: that one is kept.
+                // A snap may fail to settle very close to the fold although it succeeds from farther on; that result is kept.
                 after = found(middle, trial.as_ref()).or(after);
                 off = middle;
             }
@@ -162,7 +163,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         let nearest = self.trial(off)?;
         if on_branch(nearest.as_ref()) {
             self.manipulator = nearest;
-            return Ok(off); // reached from closer by: no fold
+            return Ok(off); // reached with a smaller step: not a fold
         }
         self.margins.clear();
         let (after, outcome) = (found(off, nearest.as_ref()).or(after), nearest.outputs().outcome);
@@ -174,7 +175,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(reached)
     }
 
-    /// Tries to find a shape at `target`, beyond the end of the branch.
+    /// Tries to find a stable shape at `target`, beyond the end of the branch.
     fn search(&mut self, target: f64) -> Result<(), Error> {
         let trial = self.trial(target)?;
         if trial.outputs().status != Status::NotSolved {

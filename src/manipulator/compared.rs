@@ -1,4 +1,4 @@
-//! A manipulator whose shapes another method finds than the potential one.
+//! A manipulator solved by a comparison method instead of the potential method.
 
 use super::outputs::{Outputs, Resolution};
 use super::solve::Solve;
@@ -9,9 +9,9 @@ use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::methods::{self, Comparison, Method};
 
-/// A manipulator by one of the methods that are kept to compare with, which remembers its shape from one solve to the next.
+/// A manipulator solved by a comparison method; it keeps its shape from one solve to the next.
 ///
-/// It tells nothing of stability, error or derivatives.
+/// It provides no stability margin, error estimate or derivatives.
 #[derive(Debug, Clone)]
 pub struct Compared {
     comparison: Comparison,
@@ -19,7 +19,7 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// A manipulator of `design` near `magnet` (`None`: no external magnet), unsolved.
+    /// Creates an unsolved manipulator of `design` near `magnet` (`None`: no external magnet).
     ///
     /// # Errors
     /// As [`Comparison::new`].

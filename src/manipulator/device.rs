@@ -1,4 +1,4 @@
-//! The manipulator: a design, an external magnet, and the last shape.
+//! The manipulator: a design, an external magnet and the last solved shape.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,9 +11,9 @@ use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::methods::Method;
 
-/// A manipulator that remembers its shape from one solve to the next.
+/// A manipulator solved by the potential method; it keeps its shape from one solve to the next.
 ///
-/// A clone is a full snapshot: it answers bit for bit as the original would.
+/// A clone is a full snapshot: it gives bit for bit the same answers as the original.
 ///
 /// ```
 /// use mcm::design::{Design, Specification};
@@ -34,11 +34,11 @@ use crate::methods::Method;
 pub struct Manipulator {
     hierarchy: Hierarchy,
     outputs: Outputs,
-    /// Whether the outputs are those of a shape that was found.
+    /// Whether the outputs belong to a solved shape.
     has_shape: bool,
 }
 
-/// What a manipulator remembers of its past, in numbers.
+/// Serializable state of a manipulator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     models: hierarchy::HierarchySnapshot,
@@ -47,7 +47,7 @@ pub struct Snapshot {
 }
 
 impl Manipulator {
-    /// A manipulator of `design` near `magnet` (`None`: no external magnet), unsolved.
+    /// Creates an unsolved manipulator of `design` near `magnet` (`None`: no external magnet).
     ///
     /// `shape_points` is the number of centreline points in the outputs, at least 2.
     ///
@@ -64,9 +64,9 @@ impl Manipulator {
         Ok(Self { hierarchy, outputs, has_shape: false })
     }
 
-    /// Follows the equilibrium from the last inputs to `inputs` (the first time: from the unloaded shape).
+    /// Follows the equilibrium branch from the last inputs to `inputs`; the first call starts from the unloaded shape.
     ///
-    /// A solve that fails is no error: it says [`Status::NotSolved`] and keeps the last good outputs.
+    /// A failed solve is not an error: it reports [`Status::NotSolved`] and keeps the last good outputs.
     ///
     /// # Errors
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
@@ -81,22 +81,23 @@ impl Manipulator {
         Ok(&self.outputs)
     }
 
-    /// The outputs of the last solve; before the first, those of the straight unloaded shape at the origin.
+    /// The outputs of the last solve; before the first solve, those of the straight unloaded shape at the origin.
     #[must_use]
     pub fn outputs(&self) -> &Outputs {
         &self.outputs
     }
 
-    /// Whether any solve has succeeded since it was made or reset: before, the outputs are no answer.
+    /// Whether a solve has succeeded since creation or reset; until then the outputs are not a solution.
     #[must_use]
     pub fn has_shape(&self) -> bool {
         self.has_shape
     }
 
-    /// Follows the equilibrium along `path`, one point after the other; what happens on the way counts as one solve.
+    /// Follows the equilibrium branch along the points of `path`, reported as one solve.
     ///
-    /// It has snapped if there were more jumps than `snaps` in the end. If a point is not solved, the branch and all
-    /// outputs but how it ended are those from before the path; in [`Outputs::progress`] all points count equally.
+    /// The status is [`Status::Snapped`] if the count of jumps ends above `snaps`. If a point is not solved, the branch and all
+    /// outputs except how the solve ended are restored to those before the path; all points count equally in
+    /// [`Outputs::progress`].
     ///
     /// # Errors
     /// As [`Manipulator::solve`].
@@ -125,14 +126,14 @@ impl Manipulator {
         Ok(&self.outputs)
     }
 
-    /// What it remembers: from it another manipulator of the same design goes on bit for bit.
+    /// The state, from which another manipulator of the same design continues with bit-identical results.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
         let (models, outputs) = (self.hierarchy.snapshot(), self.outputs.clone());
         Snapshot { models, outputs, has_shape: self.has_shape }
     }
 
-    /// Remembers what another manipulator of the same design, magnet and settings did.
+    /// Restores the state of another manipulator of the same design, magnet and settings.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a snapshot that is not of this design; the manipulator is then reset.
@@ -149,8 +150,9 @@ impl Manipulator {
         Ok(())
     }
 
-    /// Measures the stability margin of the last solved shape, which a solve alone bounds from above, and puts
-    /// it into the outputs. The next solve is the same with and without.
+    /// Computes the stability margin of the last solved shape and stores it in the outputs.
+    ///
+    /// A solve alone gives an upper bound. The next solve is not affected.
     pub fn measure_margin(&mut self) -> &Outputs {
         if let Some(margin) = self.hierarchy.present().margin() {
             self.outputs.stability_margin = margin;
@@ -158,10 +160,10 @@ impl Manipulator {
         &self.outputs
     }
 
-    /// Derivatives of all outputs by all inputs at the last solved shape; see [`Jacobian`].
+    /// Derivatives of all outputs with respect to all inputs at the last solved shape; see [`Jacobian`].
     ///
-    /// Nothing changes: the next solve is the one that would have been. The actuation Jacobian of a magnet that a
-    /// robot arm holds, tip twist by magnet twist:
+    /// The state is not changed, and neither is the next solve. Example: the actuation Jacobian of a magnet held by a robot
+    /// arm, tip twist with respect to magnet twist:
     ///
     /// ```
     /// use mcm::manipulator::Scene;
@@ -186,7 +188,7 @@ impl Manipulator {
         self.hierarchy.present().jacobian()
     }
 
-    /// How far the tip may be, and be turned, from the converged answer of the model, m and rad; from the next solve on.
+    /// Sets the tolerances of tip position (m) and angle (rad) relative to the converged model, from the next solve on.
     ///
     /// # Errors
     /// [`Error::Range`] unless both are positive.
@@ -198,7 +200,7 @@ impl Manipulator {
         Ok(())
     }
 
-    /// Forgets the shape and the count of snaps.
+    /// Resets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.hierarchy.reset();
         self.outputs = Outputs::straight(self.hierarchy.present(), resolution(&self.hierarchy));
@@ -206,7 +208,7 @@ impl Manipulator {
     }
 }
 
-/// How much model answers.
+/// Interaction level, degree and error estimate of the model in use.
 fn resolution(hierarchy: &Hierarchy) -> Resolution {
     let settings = hierarchy.present().settings();
     Resolution {

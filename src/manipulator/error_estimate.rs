@@ -1,4 +1,4 @@
-//! What an answer was judged to be off by, and how long that holds.
+//! The error estimate of a model, and for how long it remains valid.
 
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
@@ -6,48 +6,48 @@ use serde::{Deserialize, Serialize};
 use crate::equilibrium::{Equilibrium, Inputs, Solution, TipDeviation};
 use crate::geometry::Pose;
 
-/// Part of the tolerance beyond which a cheaper model of the interaction is left.
+/// Fraction of the tolerance above which a cheaper interaction model is left.
 pub(super) const CLIMB: f64 = 0.5;
 
-/// Change of what surrounds or loads the manipulator, relative to its size, after which a model is judged again.
+/// Relative change of the field or of a load after which the error is estimated again.
 const CHANGED: f64 = 0.02;
 
-/// Displacement of the tip, relative to the length, and turn of the tip (rad), after which a model is judged again.
+/// Tip displacement, relative to the length, and tip rotation (rad) after which the error is estimated again.
 const MOVED: f64 = 0.02;
 
-/// How many times as long a model stands that is as much better than needed.
+/// Largest factor by which the interval between error estimates is extended when the error is far below the tolerance.
 const STANDING: f64 = 10.0;
 
-/// Power of the loads with which an error is taken to grow until it is judged again: that of strain modes of degree 2 grows with
-/// the fourth of a small bend, with the seventh from 65 to 87 deg a core.
+/// Power of the loads with which the error is assumed to grow between two estimates: that of strain modes of degree 2 grows
+/// with the fourth power of a small bending angle, with the seventh from 65 to 87 deg per core.
 const GROWTH: i32 = 5;
 
-/// When a model was judged last, and its error there.
+/// The last error estimate of a model, with the inputs, tip pose and field it was made at.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct ErrorEstimate {
     inputs: Inputs,
     tip: Pose,
     field: Vector3<f64>,
-    /// The error of the tip.
+    /// Estimated error of the tip pose (tip deviation).
     pub(super) gap: TipDeviation,
 }
 
 impl ErrorEstimate {
-    /// That the last answer of `model`, at `inputs`, is off by `gap`.
+    /// Records the tip deviation `gap` of the last solution of `model`, at `inputs`.
     pub(super) fn new(model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) -> Self {
         let tip = model.tip();
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
         Self { inputs: inputs.clone(), tip, field, gap }
     }
 
-    /// The same instead of an earlier one, without allocating.
+    /// Replaces the estimate by a new one without allocating.
     pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) {
         self.inputs.copy_from(inputs);
         (self.tip, self.gap) = (model.tip(), gap);
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
     }
 
-    /// How much has changed since: 1 where it is enough to judge again unless the model was much better than needed.
+    /// Change since the estimate, in units of the change that calls for a new one (for an error close to the tolerance).
     pub(super) fn age(&self, model: &Equilibrium, inputs: &Inputs, length: f64) -> f64 {
         let (tip, then) = (model.tip(), &self.inputs);
         let part =
@@ -55,7 +55,7 @@ impl ErrorEstimate {
         let other = |a: &Vector3<f64>, b: &Vector3<f64>| part((a - b).norm(), a.norm(), b.norm());
         let moved = TipDeviation::between(&tip, &self.tip);
         let Inputs {
-            // These change the field at the tip and its pose, which are looked at.
+            // These act through the field at the tip and the tip pose, which are compared below.
             magnet: _,
             magnet_strength: _,
             uniform_field: _,
@@ -81,12 +81,12 @@ impl ErrorEstimate {
         changes.into_iter().chain(forces).fold(0.0, f64::max)
     }
 
-    /// Whether that is enough to judge again: the better it was, beside the tolerance, the older it may be.
+    /// Whether a new estimate is due at that age: the smaller the error relative to the tolerance, the older it may be.
     pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {
         age > tolerance.room(&self.gap, CLIMB).clamp(1.0, STANDING)
     }
 
-    /// What the error may be at that age.
+    /// The error extrapolated to that age.
     pub(super) fn error(&self, age: f64) -> TipDeviation {
         self.gap.times((1.0 + CHANGED * age).powi(GROWTH))
     }

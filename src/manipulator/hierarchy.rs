@@ -1,14 +1,16 @@
-//! As much model as the tolerances need: a hierarchy of models of one design, from the cheapest to the richest.
+//! Model hierarchy: models of one design from the cheapest to the richest, chosen by the tolerances.
 //!
-//! Level `auto` has several models of the interaction, of which the richest is the judge: one Newton step of it from the shape
-//! of a cheaper one tells how far that is off. A fixed level has one. Above the richest stand finer discretisations of it, made
-//! when first needed: each tells how far the one below is from converged, see [`Refinement`]. Both parts together are the error
-//! that is told, and the cheapest model with an error that is small enough answers.
+//! Level `auto` has several interaction models. The richest is the reference: one of its Newton steps from the shape of a
+//! cheaper model estimates the error of that model. A fixed level has one model. Above the richest model stand finer
+//! discretisations of it, created when first needed; each estimates the discretisation error of the one below, see
+//! [`crate::equilibrium::Refinement`]. The error estimate is the sum of both parts, and the cheapest model whose estimate is small enough gives the
+//! answer.
 //!
-//! It is judged again once the shape, the field or the loads have changed by a few percent, and left when it is no longer
-//! good; a cheaper model of the interaction also when it does not solve, snaps or comes near a fold. A cheaper model is tried
-//! as seldom, and must be clearly better than needed, so that models do not alternate. Both models of a change are
-//! within the tolerance of the judge by [`CLIMB`], [`REFINE`] and [`DESCEND`], and so is the jump between them.
+//! The error is estimated again once the shape, the field or the loads have changed by a few percent, and the model is left
+//! when its error is too large; a cheaper interaction model is also left when it does not solve, snaps or comes near a fold. A
+//! cheaper model is tried as rarely, and its error must be clearly below the tolerance, so that models do not alternate. By
+//! [`CLIMB`], [`REFINE`] and [`DESCEND`], both models of a change are within the tolerance of the reference, and so is the jump
+//! between them.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,39 +21,39 @@ use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, 
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
-/// The same for a discretisation of the richest, whose error is told with a margin.
+/// Fraction of the tolerance above which a discretisation of the richest model is left; its estimate includes a safety factor.
 const REFINE: f64 = 1.0;
 
-/// Part of the tolerance within which a cheaper model is taken.
+/// Fraction of the tolerance within which a cheaper model is accepted.
 const DESCEND: f64 = 0.25;
 
-/// Residual of a cheaper model over the tolerances, lengths in those of the manipulator; and the most over the residual that
-/// is asked for.
+/// Residual tolerance of a cheaper model relative to the tip tolerances (lengths relative to the manipulator's), and its
+/// largest ratio to the residual tolerance of the settings.
 const RESIDUAL: f64 = 1e-2;
 const RELAXED: f64 = 1e4;
 
-/// Most changes that pass between two trials of a cheaper model: each failed one doubles their number.
+/// Largest number of changes between two trials of a cheaper model; each failed trial doubles the number.
 const PATIENCE: u32 = 16;
 
-/// The models of one design, the one that answers, and how far that is off.
+/// The models of one design, the one in use and its error estimate.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
     models: Models,
     present: usize,
     judged: Option<ErrorEstimate>,
-    /// How much has changed since.
+    /// Change since the last estimate, see [`ErrorEstimate::age`].
     age: f64,
     wait: Wait,
     length: f64,
     fold_margin: f64,
     time_budget: f64,
-    /// Largest error of the tip: position (m) and angle (rad).
+    /// Tolerance of the tip: position (m) and angle (rad).
     tolerance: TipDeviation,
-    /// The residual that is asked for of the richest model.
+    /// Residual tolerance of the richest model.
     residual: f64,
 }
 
-/// How many changes are still to pass, and after the next failure, before a cheaper model is tried.
+/// Number of changes before a cheaper model is tried: those left, and those after the next failure.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Wait {
     left: u32,
@@ -63,7 +65,7 @@ struct Wait {
 impl Wait {
     const NONE: Self = Self { left: 0, next: 1, counted: 0.0 };
 
-    /// Whether a cheaper model is to be tried at that age, which counts as a change where it is one older than at the last.
+    /// Whether a cheaper model is to be tried at that age; a change is counted once the age has grown by one.
     fn is_over(&mut self, age: f64) -> bool {
         if age - self.counted <= 1.0 {
             return false;
@@ -78,7 +80,7 @@ impl Wait {
     }
 }
 
-/// What a hierarchy remembers of its past.
+/// Serializable state of a hierarchy.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct HierarchySnapshot {
     present: usize,
@@ -116,7 +118,7 @@ impl Hierarchy {
         Ok(out)
     }
 
-    /// Lets the cheaper models end as soon as their residual is small beside the tolerances.
+    /// Relaxes the residual tolerances of the cheaper models to a small part of the tip tolerances.
     fn relax(&mut self) {
         let TipDeviation { distance, angle } = self.tolerance;
         let residual = RESIDUAL * (distance / self.length).min(angle);
@@ -124,23 +126,23 @@ impl Hierarchy {
         self.models.cheaper().iter_mut().for_each(|model| model.set_tolerance(residual));
     }
 
-    /// The model that answers.
+    /// The model in use.
     pub(super) fn present(&self) -> &Equilibrium {
         self.models.at(self.present)
     }
 
-    /// Stability margin below which a shape counts as close to a fold.
+    /// Stability margin below which a shape is reported as close to a fold.
     pub(super) fn fold_margin(&self) -> f64 {
         self.fold_margin
     }
 
-    /// Estimated distance of the tip (m) from the converged answer of the model; at most the length, which is told where
-    /// nothing is known.
+    /// Estimated distance of the tip (m) from the converged model; at most the length, which is returned where no estimate is
+    /// available.
     pub(super) fn error_estimate(&self) -> f64 {
         self.judged.as_ref().map_or(0.0, |judged| judged.error(self.age).distance.min(self.length))
     }
 
-    /// New tolerances; the next solve judges by them.
+    /// Sets the tolerances; the next solve estimates the error anew.
     pub(super) fn set_tolerance(&mut self, tolerance: TipDeviation) {
         if self.tolerance != tolerance {
             (self.tolerance, self.judged) = (tolerance, None);
@@ -148,19 +150,19 @@ impl Hierarchy {
         }
     }
 
-    /// Forgets the shape.
+    /// Resets the shape.
     pub(super) fn reset(&mut self) {
         (self.present, self.judged, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
         self.models.reset();
     }
 
-    /// Follows the branch to `inputs` on the cheapest model that is good enough.
+    /// Follows the branch to `inputs` on the cheapest model with a sufficiently small error.
     ///
     /// # Errors
     /// As [`Equilibrium::solve`].
     pub(super) fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         let (from, richest) = (self.present, self.models.richest());
-        // All models of one solve share its time.
+        // All models of one solve share its time budget.
         let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
             return self.ascend(0, inputs, &deadline, |models, level, from| {
@@ -178,7 +180,7 @@ impl Hierarchy {
                 model.solve_before(&deadline, inputs)
             });
         };
-        // The richest one needs no way back.
+        // If a cheaper model fails, a richer one starts from the shape before this solve; for the richest it is not needed.
         let way_back = (from < richest).then(|| (before.clone(), self.present().unknowns().to_vec()));
         let report = self.models.at_mut(from).solve_before(&deadline, inputs)?;
         let changed = report.solved() && self.has_changed(inputs);
@@ -203,8 +205,11 @@ impl Hierarchy {
         if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
     }
 
-    /// From model `first` up to one that is good enough, each solved by `solve`, which is told the one before where that has a sound
-    /// answer. Where a cheaper one finds nothing, the richest is asked.
+    /// Ascends from model `first` until the error is small enough.
+    ///
+    /// `solve` gets the index of the model to solve and that of the previous one if its solution is sound.
+    ///
+    /// Where a cheaper model finds no solution, the richest is solved next.
     fn ascend(
         &mut self,
         first: usize,
@@ -234,8 +239,9 @@ impl Hierarchy {
         }
     }
 
-    /// From the answer `report` of the richest model on to discretisations of it that are fine enough, or to the finest.
-    /// Where a finer one does not stay on the branch, the coarser answer stands, with its error.
+    /// Refines the discretisation from the solution `report` until the error is small enough or the finest is reached.
+    ///
+    /// Where a finer discretisation leaves the branch, the coarser solution is kept with its error estimate.
     fn refine(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let mut report = report;
         while self.present < self.models.last() && !deadline.has_passed() {
@@ -254,10 +260,10 @@ impl Hierarchy {
         Ok(report)
     }
 
-    /// Tries the next cheaper model; without success `report` stays the answer.
+    /// Tries the next cheaper model; if it is rejected, `report` remains the answer.
     fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
-        // The richer models forget their shapes as they judge.
+        // The richer models lose their branch when they estimate errors, so this one is saved.
         let kept = (from >= self.models.richest()).then(|| self.present().clone());
         let judged = (self.judged.clone(), self.age);
         self.models.warm_start(from - 1, from, inputs);
@@ -276,20 +282,22 @@ impl Hierarchy {
         Ok(report)
     }
 
-    /// Whether a cheaper model's answer may stand: solved, stable, without a jump and away from folds.
+    /// Whether the solution of a cheaper model is acceptable: solved, stable, without a snap and away from folds.
     fn is_sound(&self, report: &Report) -> bool {
         let held = report.stable.is_none_or(|stable| stable && report.margin >= self.fold_margin);
         report.solved() && held && report.snaps == 0
     }
 
-    /// Whether the present model may go on.
+    /// Whether the error of the present model is small enough to keep it.
     fn holds(&mut self, inputs: &Inputs, deadline: &Deadline) -> Result<bool, Error> {
         let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
         self.judge(inputs, part, deadline)
     }
 
-    /// Whether the present model is off by no more than that part of the tolerance. Where that cannot be told, a cheaper model
-    /// is not trusted, but a finer discretisation would be no help. An answer that took all the time is not judged.
+    /// Estimates the error of the present model; whether it is within the fraction `part` of the tolerance.
+    ///
+    /// Where no estimate is available, a cheaper model is rejected, but a discretisation of the richest is kept, as a finer one
+    /// would not help. No estimate is made for a solution of the richest model that used up the time budget.
     fn judge(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();
         let error = if late { None } else { self.models.error(self.present)? };
@@ -308,14 +316,14 @@ impl Hierarchy {
         }
     }
 
-    /// Whether enough has changed since the last estimate to judge again.
+    /// Whether enough has changed since the last error estimate to make a new one.
     fn has_changed(&mut self, inputs: &Inputs) -> bool {
         let Some(judged) = &self.judged else { return true };
         self.age = judged.age(self.models.at(self.present), inputs, self.length);
         judged.is_old(self.age, &self.tolerance)
     }
 
-    /// What it remembers.
+    /// The state.
     pub(super) fn snapshot(&self) -> HierarchySnapshot {
         let equilibrium = self.present().snapshot();
         HierarchySnapshot {
@@ -327,7 +335,7 @@ impl Hierarchy {
         }
     }
 
-    /// Goes on from there.
+    /// Restores a state.
     ///
     /// # Errors
     /// As [`Equilibrium::restore`].

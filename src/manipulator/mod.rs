@@ -1,4 +1,4 @@
-//! The device as its user sees it: inputs in, shape and forces out; it keeps its last shape.
+//! The device as its user sees it: inputs in, shape and forces out, with the last shape kept between solves.
 
 mod branch;
 mod compared;

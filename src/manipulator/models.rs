@@ -1,4 +1,4 @@
-//! The models that a level of interaction chooses from, and how far each is off.
+//! The models of an interaction level and their error estimates.
 
 use std::sync::Arc;
 
@@ -7,17 +7,17 @@ use crate::equilibrium::{Equilibrium, Inputs, Interaction, Refinement, Settings,
 use crate::error::Error;
 use crate::magnetics::Assembly;
 
-/// Iterations that a cheaper model may take for one solve: more would not be cheap.
+/// Largest number of iterations of a cheaper model per solve; with more it would not be cheap.
 const CHEAP: u32 = 100;
 
-/// Accuracy of the pairs on the coarse models.
+/// Pair accuracy of the coarse models.
 const COARSE: f64 = 1e-3;
 
-/// Finer discretisations that may answer; the next finer one only judges.
+/// Number of finer discretisations that may give the answer; the next finer one only estimates the error.
 const FINER: usize = 2;
 
-/// How many times as far off as its refinement says a discretisation is taken to be: what that says is of first order, and it is
-/// not converged itself. The example `estimate` records how often this covers the error.
+/// Safety factor on the discretisation error estimate, which is of first order and whose reference is itself not converged. The
+/// example `estimate` records how often this covers the error.
 const DOUBT: f64 = 2.0;
 
 /// Models of one design, cheapest first.
@@ -25,9 +25,9 @@ const DOUBT: f64 = 2.0;
 pub(super) struct Models {
     design: Arc<(Design, Option<Assembly>)>,
     shape_points: usize,
-    /// Models of the interaction, the richest last.
+    /// Interaction models, the richest last.
     whole: Vec<Equilibrium>,
-    /// Finer discretisations of that one, as far as they have been needed.
+    /// Finer discretisations of the richest model, as far as they have been needed.
     finer: Vec<Refinement>,
 }
 
@@ -54,23 +54,23 @@ impl Models {
         })
     }
 
-    /// Number of the richest model of the interaction, in the discretisation that the settings ask for.
+    /// Index of the richest interaction model, in the discretisation of the settings.
     pub(super) fn richest(&self) -> usize {
         self.whole.len() - 1
     }
 
-    /// Number of the last model that may answer.
+    /// Index of the last model that may give the answer.
     pub(super) fn last(&self) -> usize {
         self.richest() + FINER
     }
 
-    /// A model that has been made.
+    /// The model of that index, which must exist.
     pub(super) fn at(&self, number: usize) -> &Equilibrium {
         let finer = number.checked_sub(self.whole.len());
         finer.map_or_else(|| &self.whole[number], |finer| &self.finer[finer].model)
     }
 
-    /// The same, to be solved.
+    /// The same, mutable.
     pub(super) fn at_mut(&mut self, number: usize) -> &mut Equilibrium {
         match number.checked_sub(self.whole.len()) {
             Some(finer) => &mut self.finer[finer].model,
@@ -78,7 +78,7 @@ impl Models {
         }
     }
 
-    /// Makes models up to that number.
+    /// Creates the models up to that index.
     ///
     /// # Errors
     /// As [`Equilibrium::new`].
@@ -92,13 +92,13 @@ impl Models {
         Ok(())
     }
 
-    /// Those cheaper than the richest.
+    /// The models cheaper than the richest.
     pub(super) fn cheaper(&mut self) -> &mut [Equilibrium] {
         let richest = self.richest();
         &mut self.whole[..richest]
     }
 
-    /// Whether a model differs from another one by its discretisation alone.
+    /// Whether two models differ in discretisation alone.
     pub(super) fn is_refinement(&self, number: usize, of: usize) -> bool {
         let interaction = |number| {
             let settings = self.at(number).settings();
@@ -107,13 +107,13 @@ impl Models {
         interaction(number) == interaction(of)
     }
 
-    /// Forgets all shapes.
+    /// Resets all shapes.
     pub(super) fn reset(&mut self) {
         self.whole.iter_mut().for_each(Equilibrium::reset);
         self.finer.iter_mut().for_each(|finer| finer.model.reset());
     }
 
-    /// Lets model `to` take up a shape of model `from`, as [`Equilibrium::adopt`] does.
+    /// Transfers a shape of model `from` to model `to`, as [`Equilibrium::adopt`] does.
     pub(super) fn adopt(&mut self, to: usize, from: usize, unknowns: &[f64], inputs: &Inputs) {
         let finer = self.finer.iter_mut().map(|finer| &mut finer.model);
         let mut models: Vec<_> = self.whole.iter_mut().chain(finer).collect();
@@ -122,15 +122,15 @@ impl Models {
         }
     }
 
-    /// Lets model `to` start from the shape at which model `from` is.
+    /// Starts model `to` from the present shape of model `from`.
     pub(super) fn warm_start(&mut self, to: usize, from: usize, inputs: &Inputs) {
         let shape = self.at(from).unknowns().to_vec();
         self.adopt(to, from, &shape, inputs);
     }
 
-    /// How far the tip of a model, which has been solved, is from converged; `None` where that cannot be told.
+    /// Estimated tip deviation of a solved model from the converged one; `None` where no estimate is available.
     ///
-    /// The richest model forgets its branch where a cheaper one is judged.
+    /// Estimating the error of a cheaper model discards the branch of the richest.
     ///
     /// # Errors
     /// As [`Models::make`].
@@ -150,7 +150,7 @@ impl Models {
     }
 }
 
-/// Settings of the models that the level `auto` chooses from, cheapest first, for a design with free rings or without.
+/// Settings of the models that level `auto` chooses from, cheapest first, for a design with or without free rings.
 #[must_use]
 pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
     let coarse = settings.pair_accuracy.max(COARSE);

@@ -1,4 +1,4 @@
-//! What the manipulator answers, world frame, SI units.
+//! Outputs of the manipulator, in the world frame and SI units.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -13,7 +13,7 @@ use crate::methods::Method;
 pub enum Status {
     /// Solved, on the branch that was followed.
     Solved,
-    /// Solved, close to a fold: a little more load and the shape will snap.
+    /// Solved, close to a fold: a small increase of load makes the shape snap.
     NearFold,
     /// Solved, after a jump to another branch in this solve.
     Snapped,
@@ -21,7 +21,7 @@ pub enum Status {
     NotSolved,
 }
 
-/// The answer of one solve.
+/// The result of one solve.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Outputs {
     /// Angle between the tip's and the base's `d3`, rad, in `[0, pi]`.
@@ -50,20 +50,20 @@ pub struct Outputs {
     pub rings: Vec<Pose>,
     /// Bending angle of each core (of each element of a plain cylinder), rad.
     pub core_angles: Vec<f64>,
-    /// Whether the equilibrium is stable; `None` when the model has no potential to tell,
-    /// or the method does not ask.
+    /// Whether the equilibrium is stable; `None` when the model has no potential or the method does not compute it.
     pub stable: Option<bool>,
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold. An upper
-    /// bound, close near a fold and up to some percent old along small steps, until
-    /// [`super::Manipulator::measure_margin`] measures it.
+    /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
+    ///
+    /// An upper bound until [`super::Manipulator::measure_margin`] computes it: close near a fold, and outdated by up to some
+    /// percent along small steps.
     pub stability_margin: f64,
     /// Jumps to another branch since the first solve.
     pub snaps: u32,
     /// How the solve ended.
     pub status: Status,
-    /// The same in detail, with the reason where it is not solved.
+    /// Detailed outcome, with the reason where it is not solved.
     pub outcome: Outcome,
-    /// How far along the change of the inputs the last solve got, from 0 to 1; 1 where it is solved.
+    /// Fraction of the input change that the last solve completed, from 0 to 1; 1 where it is solved.
     pub progress: f64,
     /// Newton iterations of the last solve.
     pub iterations: u32,
@@ -71,32 +71,33 @@ pub struct Outputs {
     pub residual: f64,
     /// Potential energy, J.
     pub energy: f64,
-    /// Level of local interaction that was used.
+    /// Interaction level of the model in use.
     pub interaction: Interaction,
-    /// Method that was used.
+    /// Solution method.
     pub method: Method,
-    /// Degree of the strain modes of the model that answered: where the tolerances need it, higher than that of the settings.
+    /// Degree of the strain modes in use: higher than that of the settings where the tolerances need it.
     pub degree: usize,
-    /// Estimated distance of the tip from the converged answer of the model, m: by the degree of the strain modes, the
-    /// quadratures of the pairs, the residual and, under `auto`, the cheaper interaction. It is made at the first solve and anew
-    /// once shape, field or loads have changed by 2 % (by up to 20 % where it is far below the tolerance), and grows
-    /// meanwhile. The length where it cannot be told, as for a neutral shape; 0 by another method than the potential one,
-    /// which makes none.
+    /// Estimated distance of the tip from the converged model, m.
+    ///
+    /// It covers the degree of the strain modes, the pair quadratures, the residual and, under `auto`, the cheaper interaction.
+    /// It is computed at the first solve and again once shape, field or loads have changed by 2 % (by up to 20 % where it is
+    /// far below the tolerance), and grows in between. It equals the length where no estimate is available, as for a neutral
+    /// shape, and 0 for a comparison method, which computes none.
     pub error_estimate: f64,
 }
 
-/// How much model has answered.
+/// Interaction level, degree, method and error estimate of a solution.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Resolution {
     pub(super) interaction: Interaction,
     pub(super) degree: usize,
     pub(super) method: Method,
-    /// m.
+    /// Estimated distance of the tip from the converged model, m.
     pub(super) error_estimate: f64,
 }
 
 impl Outputs {
-    /// Those of the straight, unloaded manipulator at the origin, which a new or reset `solution` is.
+    /// Outputs of the straight, unloaded manipulator at the origin, the state of a new or reset `solution`.
     pub(super) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
         let zero = Vector3::zeros();
         let (shape_arc_length, shape) = solution.shape().unzip();
@@ -131,7 +132,7 @@ impl Outputs {
         }
     }
 
-    /// Takes over shape and wrenches of the last solve, at `inputs`, without allocating.
+    /// Reads the shape and wrenches of the last solve, at `inputs`, without allocating.
     pub(super) fn read(&mut self, solution: &impl Solution, inputs: &Inputs, resolution: Resolution) {
         self.tip = solution.tip();
         self.tip_angle = inputs.base.axis().angle(&self.tip.axis());
@@ -151,14 +152,14 @@ impl Outputs {
         self.error_estimate = error_estimate;
     }
 
-    /// Records how a solve ended; without a shape, the one before and what is known of it stay.
+    /// Records how a solve ended; without a solution, the previous shape and its quantities are kept.
     pub(super) fn record(&mut self, report: &Report, fold_margin: f64) {
         (self.outcome, self.progress) = (report.outcome, report.progress);
         (self.iterations, self.residual) = (report.iterations, report.residual);
         if !report.solved() {
             self.status = Status::NotSolved;
             if report.outcome == Outcome::OutOfBudget {
-                self.snaps += report.snaps; // the branch has gone as far as it got
+                self.snaps += report.snaps; // the branch has been followed up to there
             }
             return;
         }

@@ -1,11 +1,11 @@
-//! Inputs in, shape and forces out: what the potential method and the others have in common for those who compare them.
+//! Interface that the potential method and the comparison methods have in common.
 
 use std::fmt;
 
 use super::{Inputs, Jacobian, Manipulator, Outputs};
 use crate::error::Error;
 
-/// A manipulator by any method; see [`super::Scene::solver`].
+/// A manipulator solved by any method; see [`super::Scene::device`].
 pub trait Solve: fmt::Debug {
     /// As [`Manipulator::solve`].
     ///
@@ -16,19 +16,19 @@ pub trait Solve: fmt::Debug {
     /// As [`Manipulator::outputs`].
     fn outputs(&self) -> &Outputs;
 
-    /// Forgets the shape and the count of snaps.
+    /// Resets the shape and the count of snaps.
     fn reset(&mut self);
 
-    /// As [`Manipulator::measure_margin`]; methods that know no stability leave the outputs as they are.
+    /// As [`Manipulator::measure_margin`]; methods without a stability margin leave the outputs unchanged.
     fn measure_margin(&mut self) -> &Outputs;
 
     /// As [`Manipulator::jacobian`].
     ///
     /// # Errors
-    /// As [`Manipulator::jacobian`]; [`Error::NoDerivatives`] by any other method.
+    /// As [`Manipulator::jacobian`]; [`Error::NoDerivatives`] for any other method.
     fn jacobian(&self) -> Result<Jacobian, Error>;
 
-    /// A full snapshot: it answers bit for bit as the original would.
+    /// A full copy, which gives bit for bit the same answers as the original.
     fn duplicate(&self) -> Box<dyn Solve>;
 }
 

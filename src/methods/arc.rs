@@ -1,4 +1,4 @@
-//! One arc of constant curvature between rigid ends, and how its bending moves what it carries.
+//! One arc of constant curvature between rigid ends, and the motion that its bending imposes on what it carries.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -9,28 +9,28 @@ use crate::geometry::{Pose, RotationVector};
 /// The arc of one element: its core, or all of a plain rod.
 #[derive(Debug, Clone)]
 pub(super) struct Arc {
-    /// Number of the span that bends.
+    /// Index of the span that bends.
     pub(super) core: usize,
-    /// Rigid lengths before and after it, and its own, m.
+    /// Rigid lengths before and after the arc, and its own length, m.
     pub(super) before: f64,
     pub(super) after: f64,
     pub(super) length: f64,
-    /// Moment per angle, the discs' compliance lumped into it, N m.
+    /// Moment per angle, including the lumped compliance of the discs, N m.
     pub(super) stiffness: f64,
 }
 
-/// An arc bent by some angles, from its start to the part `t` of it.
+/// An arc bent by some angles, from its start to the fraction `part` of it.
 #[derive(Debug, Clone)]
 pub(super) struct Bent {
-    /// Axes of the start.
+    /// Axes of the arc's start.
     axes: Matrix3<f64>,
-    /// Its end.
+    /// Pose of its end.
     pub(super) pose: Pose,
-    /// Rotation and displacement of the end by both angles.
+    /// Derivatives of rotation and displacement of the end with respect to both angles.
     pub(super) turned: [Vector3<f64>; 2],
     pub(super) moved: [Vector3<f64>; 2],
     theta: RotationVector,
-    /// Rotation vector with the sign changed, whose right Jacobian is the left one.
+    /// Negative rotation vector: its right Jacobian equals the left Jacobian of `theta`.
     back: RotationVector,
     part: f64,
     length: f64,
@@ -51,7 +51,7 @@ impl Arc {
         }
     }
 
-    /// The part `part` of the arc that starts at `start`, whose whole bends by `angles` about `d1` and `d2`.
+    /// The fraction `part` of the arc that starts at `start` and bends in total by `angles` about `d1` and `d2`.
     pub(super) fn bent(&self, start: &Pose, angles: &Vector2<f64>, part: f64) -> Bent {
         let vector = Vector3::new(angles.x, angles.y, 0.0) * part;
         let theta = RotationVector::new(vector);
@@ -75,14 +75,14 @@ impl Arc {
 }
 
 impl Bent {
-    /// Derivative of [`Bent::turned`] by the angles: of `turned[c]` by angle `d`.
+    /// Derivative of `turned[c]`, see [`Bent::turned`], with respect to angle `d`.
     pub(super) fn turned_derivative(&self, c: usize, d: usize) -> Vector3<f64> {
         let mut unit = Vector3::zeros();
         unit[c] = 1.0;
         self.axes * self.theta.left_product_derivative(&unit).column(d) * (self.part * self.part)
     }
 
-    /// Derivative of `force . moved[c]` by angle `d`.
+    /// Derivative of `force . moved[c]` with respect to angle `d`.
     pub(super) fn moved_derivative(&self, force: &Vector3<f64>) -> Matrix3<f64> {
         let local = self.axes.tr_mul(force);
         self.back.contract_curvature(&local, &Vector3::z()) * (self.length * self.part.powi(3))

@@ -1,9 +1,9 @@
-//! Piecewise constant curvature: each core an arc, everything else rigid, neither torsion nor shear nor extension.
+//! Piecewise constant curvature: each core is an arc, all else is rigid, without torsion, shear or extension.
 //!
-//! Two angles an element. Their balance, stiffness times angle against the moment of all that the arc carries, is the
-//! gradient of the energy where there is one; its derivative is exact.
+//! Each element has two angles. Their balance, stiffness times angle against the moment of all loads that the arc carries, is
+//! the gradient of the energy where one exists; its derivative is exact.
 //!
-//! Source: Webster and Jones, Int. J. Robot. Res. 29, 2010 (kinematics).
+//! Source: Webster and Jones, Int. J. Robot. Res. 29, 2010, doi:10.1177/0278364910368147 (kinematics).
 
 use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
@@ -18,7 +18,7 @@ use crate::numerics::levenberg_marquardt::Ending;
 use crate::numerics::newton::{self, Equations};
 use crate::rod::Order;
 
-/// Links of an arc in the traced shape.
+/// Number of links per arc in the traced shape.
 const LINKS: usize = 8;
 
 /// The angles of the last solved shape, about `d1` and `d2` of each element.
@@ -28,7 +28,7 @@ pub(super) struct Arcs {
     angles: Vec<Vector2<f64>>,
 }
 
-/// Something with a load, and what it moves with: all arcs before `carriers`, and a part of the next one or none.
+/// A loaded body and what it moves with: all arcs before `carriers`, and possibly a part of the next one.
 struct Body {
     carriers: usize,
     part: Option<Bent>,
@@ -45,7 +45,7 @@ struct Balance<'a, 'b> {
     factors: Option<LU<f64, Dyn, Dyn>>,
 }
 
-/// Poses of nodes and the arcs between them.
+/// Poses of the nodes, and the bent arcs between them.
 fn place(arcs: &[Arc], angles: &[Vector2<f64>], base: &Pose) -> (Vec<Pose>, Vec<Bent>) {
     let (mut nodes, mut bent) = (vec![*base], Vec::new());
     for (k, (arc, angles)) in arcs.iter().zip(angles).enumerate() {
@@ -115,11 +115,11 @@ impl Arcs {
     }
 }
 
-/// Bodies, nodes (as numbers of bodies), bent arcs and what couples nodes.
+/// Bodies, nodes (as indices of bodies), bent arcs and the couplings between nodes.
 type Loaded = (Vec<Body>, Vec<usize>, Vec<Bent>, Vec<(usize, usize, Matrix6<f64>)>);
 
 impl Balance<'_, '_> {
-    /// All that has a load behind the base node.
+    /// All loaded bodies beyond the base node.
     fn bodies(&self, angles: &[Vector2<f64>], order: Order) -> Option<Loaded> {
         let (nodes, bent) = place(self.arcs, angles, &self.around.inputs.base);
         let (loads, totals) = self.around.nodes(&nodes, order)?;
@@ -128,7 +128,7 @@ impl Balance<'_, '_> {
             let start = nodes[element].advanced(arc.before);
             let table = &self.around.line.chain.elements[element];
             for station in &table.stations {
-                // From the arc's start, of which the element's start is a rigid length away.
+                // Measured from the arc's start, which is a rigid length away from the element's start.
                 let along = station.row.arc_length + table.offset - arc.before;
                 let part = (0.0..=arc.length)
                     .contains(&along)
@@ -164,7 +164,7 @@ impl Balance<'_, '_> {
         Some((bodies, numbers, bent, couplings))
     }
 
-    /// Displacement and rotation of a body by every angle.
+    /// Derivatives of a body's displacement and rotation with respect to every angle.
     fn columns(&self, body: &Body, bent: &[Bent]) -> DMatrix<f64> {
         let mut out = DMatrix::zeros(6, 2 * self.arcs.len());
         for (j, arc) in bent[..body.carriers].iter().enumerate() {
@@ -182,7 +182,7 @@ impl Balance<'_, '_> {
         out
     }
 
-    /// The balance in units of moment; `columns` are those of all bodies.
+    /// The balance in units of moment; `columns` are the derivatives of all bodies, see [`Balance::columns`].
     fn balance(&self, angles: &[Vector2<f64>], bodies: &[Body], columns: &[DMatrix<f64>]) -> DVector<f64> {
         let mut out =
             DVector::from_fn(2 * self.arcs.len(), |i, _| self.arcs[i / 2].stiffness * angles[i / 2][i % 2]);
@@ -193,11 +193,12 @@ impl Balance<'_, '_> {
     }
 }
 
-/// How the directions in which the angles move the bodies change with the angles, times the loads.
+/// Adds the geometric stiffness: derivatives of the bodies' displacement directions with respect to the angles, times the
+/// loads.
 fn geometric(out: &mut DMatrix<f64>, bodies: &[Body], bent: &[Bent]) {
     for (j, arc) in bent.iter().enumerate() {
         let (mut force, mut couple, mut arms) = (Vector3::zeros(), Vector3::zeros(), Matrix3::zeros());
-        // Levers of this arc's own motion: of forces, and of couples.
+        // Lever terms of this arc's own motion: of forces, and of couples.
         let mut levers = [[Vector3::zeros(); 2]; 2];
         for body in bodies {
             let pull: Vector3<f64> = body.gradient.fixed_rows::<3>(0).into_owned();

@@ -1,11 +1,12 @@
-//! Gauss collocation on a mesh, refined where the residual is large, solved as a whole by Newton's method.
+//! Gauss collocation on a residual-controlled mesh, all equations solved together by Newton's method.
 //!
 //! On each interval the rates of the local coordinates are a polynomial that satisfies the equations at the Gauss points.
-//! Newton's equations are almost block diagonal: an interval's rates are eliminated in place, the intervals of an element
-//! multiplied up, and what is left are the equations of the nodes.
+//! Newton's equations are almost block diagonal: the rates of each interval are condensed, the transition matrices of an
+//! element's intervals are multiplied, and the nodal equations remain.
 //!
-//! Sources: Ascher, Christiansen and Russell, ACM Trans. Math. Softw. 7, 1981 (COLSYS: collocation, elimination);
-//! Kierzenka and Shampine, ACM Trans. Math. Softw. 27, 2001 (bvp4c: control of the residual).
+//! Sources: Ascher, Christiansen and Russell, ACM Trans. Math. Softw. 7, 1981, doi:10.1145/355945.355950 (COLSYS: collocation,
+//! elimination); Kierzenka and Shampine, ACM Trans. Math. Softw. 27, 2001, doi:10.1145/502800.502801 (bvp4c: control of the
+//! residual).
 
 use nalgebra::Matrix6;
 
@@ -23,13 +24,13 @@ use crate::numerics::levenberg_marquardt::Ending;
 use crate::numerics::newton::{self, Equations};
 use crate::rod::Order;
 
-/// Rounds of refinement at most.
+/// Largest number of mesh refinements.
 const ROUNDS: u32 = 12;
 
-/// Intervals of an element at most.
+/// Largest number of intervals per element.
 const MOST_INTERVALS: usize = 400;
 
-/// Links of an interval in the traced shape: between the mesh points the polynomial is of higher degree than a link.
+/// Links per interval in the traced shape: between the mesh points the polynomial is of higher degree than a link.
 const LINKS: usize = 4;
 
 /// Mesh, polynomials and node states of the last solved shape.
@@ -39,14 +40,14 @@ pub(super) struct Collocation {
     guess: Guess,
 }
 
-/// The unknowns: nodes, and by element its intervals with their rates.
+/// The unknowns: node states, and the intervals of each element with their rates.
 #[derive(Debug, Clone)]
 struct Guess {
     shape: NodeShape,
     mesh: Vec<Vec<Interval>>,
 }
 
-/// The equations of one scene on one mesh.
+/// The collocation equations of one scene on one mesh.
 struct Collocated<'a, 'b> {
     around: &'a Surroundings<'b>,
     tableau: &'a Tableau,
@@ -55,7 +56,7 @@ struct Collocated<'a, 'b> {
     condensed: Vec<Condensed>,
     system: Option<NodeSystem<6>>,
     defects: Defects<6>,
-    /// By element and interval, what the rates lack at the stages.
+    /// Residuals of the rates at the stages, by element and interval.
     residuals: Vec<Vec<Vec<Vector12>>>,
 }
 
@@ -68,7 +69,7 @@ impl Collocation {
         Self { tableau: Tableau::new(settings.stages), guess }
     }
 
-    /// Solves and refines until no interval's residual is too large.
+    /// Solves and refines the mesh until no interval's residual is too large.
     pub(super) fn solve(&mut self, around: &Surroundings<'_>, settings: &Settings) -> Ending {
         let base = around.inputs.base;
         let turn = base.rotation * self.guess.shape.nodes[0].rotation.transpose();
@@ -134,7 +135,7 @@ impl<'a, 'b> Collocated<'a, 'b> {
         }
     }
 
-    /// Norm of all that the equations lack, the rates weighted by their share of an element.
+    /// Norm of all residuals, those of the rates weighted by their share of an element.
     fn size(&self, at: &Guess) -> f64 {
         let mut square = size(&self.defects).powi(2);
         for (intervals, residuals) in at.mesh.iter().zip(&self.residuals) {
@@ -157,7 +158,7 @@ impl<'a, 'b> Collocated<'a, 'b> {
         states
     }
 
-    /// Divides intervals whose residual is too large; whether there were any, `None` where that has no end.
+    /// Divides intervals whose residual is too large; whether there were any, `None` where their number exceeds the limit.
     fn refined(&self, guess: &mut Guess, tolerance: f64) -> Option<bool> {
         let mut refined = false;
         for element in 0..guess.mesh.len() {

@@ -1,4 +1,4 @@
-//! The equilibrium by another method: the same questions as to [`crate::equilibrium::Equilibrium`].
+//! The equilibrium by a comparison method, with the interface of [`crate::equilibrium::Equilibrium`].
 
 use std::sync::Arc;
 
@@ -22,13 +22,13 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::rod::Order;
 
-/// How often the rules of ring pairs may change at a solved shape.
+/// Largest number of changes of the pair quadrature at a solved shape.
 const RULE_CHOICES: u32 = 3;
 
-/// The equilibrium of a manipulator by one of the methods beside the potential one.
+/// The equilibrium of a manipulator by a comparison method.
 ///
-/// It starts straight, later from its own last solution. Where the whole change of the inputs does not converge, parts of
-/// it are tried ([`Settings::smallest_part`]). A clone is a full snapshot.
+/// The first solve starts from the straight shape, later ones from the last solution. Where the whole change of the inputs does
+/// not converge, parts of it are tried ([`Settings::smallest_part`]). A clone is a full snapshot.
 ///
 /// ```
 /// use mcm::design::{Design, Specification};
@@ -56,20 +56,21 @@ pub struct Comparison {
     state: State,
 }
 
-/// What a solve changes.
+/// The part of the state that a solve changes.
 #[derive(Debug, Clone)]
 struct State {
     engine: Engine,
     inputs: Option<Inputs>,
     shape: Shape,
-    /// What acts from outside, and what the clamp exerts.
+    /// Wrenches of the external loads, and that of the clamp.
     wrenches: TermWrenches,
     clamp: Wrench,
 }
 
 impl Comparison {
-    /// The straight manipulator; `shape_points` is the number of centreline points, at least 2. Of the settings of the model
-    /// those of the potential method alone (strain modes, following of branches) do not count.
+    /// Creates the straight manipulator; `shape_points` is the number of centreline points, at least 2.
+    ///
+    /// Model settings that concern the potential method alone (strain modes, branch following) are ignored.
     ///
     /// # Errors
     /// [`Error::Range`] for settings or a number of points out of range, [`Error::Unsupported`] for a method that cannot
@@ -108,7 +109,7 @@ impl Comparison {
         })
     }
 
-    /// Back to the straight shape at the origin; the last solution is forgotten.
+    /// Resets to the straight shape at the origin; the last solution is discarded.
     pub fn reset(&mut self) {
         if let Ok(state) = State::straight(&self.line, &self.settings) {
             self.state = state;
@@ -127,12 +128,12 @@ impl Comparison {
         &self.settings
     }
 
-    /// Solves at `inputs`, from the last solution or from straight. Nothing is said about stability.
+    /// Solves at `inputs`, from the last solution or the straight shape; stability is not computed.
     ///
     /// # Errors
-    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length,
-    /// [`Error::Unsupported`] for inputs that do not lie in a plane, if the method asks for that; the last solution is then
-    /// untouched, as it is when a solve fails, which is no error: see [`Report::solved`].
+    /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length, [`Error::Unsupported`]
+    /// for inputs that do not lie in a plane, if the method requires that. The last solution is kept then, as it is when a
+    /// solve fails, which is not an error: see [`Report::solved`].
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.line.chain.rings.len())?;
         if self.settings.method == Method::Planar {
@@ -178,7 +179,7 @@ impl Comparison {
         placed.contact(&self.model, self.magnet.as_ref(), inputs, |k, s| shape.trace.pose(starts[k] + s))
     }
 
-    /// One solve without further parts; whether it succeeded.
+    /// One solve without subdivision of the input change; whether it succeeded.
     fn attempt(&mut self, inputs: &Inputs, report: &mut Report) -> bool {
         let settings = self.settings;
         let mut state = self.state.clone();
@@ -193,7 +194,7 @@ impl Comparison {
             }
             let Some(shape) = state.engine.shape(&around, &settings) else { return false };
             state.shape = shape;
-            // The rules must be those of the solved shape, or the answer would depend on the way to it.
+            // The quadrature must be that of the solved shape, or the result would depend on the path to it.
             if !self.rules.choose(&self.line.chain, &state.shape.nodes) {
                 break;
             }
@@ -210,7 +211,7 @@ impl Comparison {
         }
     }
 
-    /// Energy (J) of a shape, what acts on it from outside, and what the clamp exerts.
+    /// Energy (J) of a shape, the wrenches of the external loads and that of the clamp.
     fn answers(&self, inputs: &Inputs) -> Option<(f64, TermWrenches, Wrench)> {
         let around = self.around(inputs);
         let shape = &self.state.shape;

@@ -1,6 +1,6 @@
-//! Elimination of the rates of an element's collocation intervals.
+//! Static condensation of the rates of an element's collocation intervals.
 //!
-//! Everything is in coordinates of one size: a state's change over its units, a rate's over its unit per element length.
+//! All coordinates are nondimensional: a state's change relative to its units, a rate relative to its unit per element length.
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
@@ -10,19 +10,19 @@ use super::node_system::{Block, Link};
 use super::strong_form::{Matrix12, Stage, State, Vector12, join, split};
 use super::surroundings::Surroundings;
 
-/// One interval: its rates by what comes in.
+/// One interval: its rates as functions of the change of its start.
 #[derive(Debug)]
 struct Eliminated {
     factors: LU<f64, Dyn, Dyn>,
-    /// Rates by the change of the interval's start.
+    /// Derivative of the rates with respect to the interval's start.
     by_start: DMatrix<f64>,
-    /// Change of the local coordinates at the end by that of each rate: quadrature weights.
+    /// Derivatives of the local coordinates at the end with respect to each rate: quadrature weights.
     weights: Vec<f64>,
     /// Local coordinates at the end.
     end: Vector12,
 }
 
-/// All intervals of an element, and how a change at its start arrives at its end.
+/// All intervals of an element, and the map of a change from its start to its end.
 #[derive(Debug)]
 pub(super) struct Condensed {
     intervals: Vec<Eliminated>,
@@ -43,7 +43,7 @@ impl Condensed {
         Self { intervals: Vec::new(), units, length: around.line.length, offset, own: offset }
     }
 
-    /// Eliminates the rates of the next interval; `None` where they are not determined.
+    /// Eliminates the rates of the next interval; `None` where they are indeterminate (singular matrix).
     pub(super) fn add(&mut self, tableau: &Tableau, interval: &Interval, stages: &[Stage]) -> Option<()> {
         let size = 12 * stages.len();
         let (units, length) = (self.units, self.length);
@@ -55,7 +55,7 @@ impl Condensed {
                 let mut block = matrix.fixed_view_mut::<12, 12>(12 * j, 12 * l);
                 block -= by_local * (interval.length * weight);
             }
-            // The rotation of the start does not move the local rotation vector, which starts at zero.
+            // A rotation of the start does not change the local rotation vector, which is zero there.
             let mut columns = by_local;
             for a in 0..12 {
                 for b in 0..3 {
@@ -73,13 +73,13 @@ impl Condensed {
         solved.then_some(())
     }
 
-    /// The element in the equations of the nodes; `next` is not set.
+    /// The linearised element for the nodal equations; `next` is not set.
     pub(super) fn link(&self) -> Link<6> {
         let own = |row: usize, column: usize| self.own.fixed_view::<6, 6>(row, column).into_owned();
         Link { pose: [own(0, 0), own(0, 6)], wrench: [own(6, 0), own(6, 6)], next: Block::identity() }
     }
 
-    /// The rates' change, interval by interval, that removes their residuals when nothing comes in.
+    /// Particular solution: the change of the rates, by interval, that removes their residuals for an unchanged interval start.
     pub(super) fn particular(&self, residuals: &[Vec<Vector12>]) -> Option<Vec<DVector<f64>>> {
         let own = self.intervals.iter().zip(residuals).map(|(interval, stages)| {
             let mut right = DVector::from_iterator(
@@ -91,7 +91,7 @@ impl Condensed {
         own.collect()
     }
 
-    /// Carries the change of the node at the start to the element's end; appends the rates' changes to `step`.
+    /// Maps a change of the start node to the element's end; appends the changes of the rates to `step`.
     pub(super) fn cross(
         &self,
         particular: &[DVector<f64>],
@@ -115,7 +115,7 @@ impl Condensed {
 }
 
 impl Eliminated {
-    /// Carries columns of changes from the interval's start to its end.
+    /// Maps columns of changes from the interval's start to its end.
     fn carried(&self, start: &Matrix12) -> Matrix12 {
         let (mut sum, turned) = split(start);
         for (j, weight) in self.weights.iter().enumerate() {

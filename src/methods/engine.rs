@@ -1,4 +1,4 @@
-//! What the methods have in common: they solve in given surroundings, from their own last solution.
+//! Common interface of the comparison methods: each solves in given surroundings from its own last solution.
 
 use super::arcs::Arcs;
 use super::collocation::Collocation;
@@ -26,7 +26,7 @@ pub(super) enum Engine {
 }
 
 impl Engine {
-    /// Straight; `None` for the potential method, which is none of these.
+    /// The straight shape; `None` for the potential method, which is not a comparison method.
     pub(super) fn new(line: &Line, settings: &Settings) -> Option<Self> {
         match settings.method {
             Method::Potential => None,
@@ -39,7 +39,7 @@ impl Engine {
         }
     }
 
-    /// Solves from the last solution, which stays as it was if that fails.
+    /// Solves from the last solution, which is kept if that fails.
     pub(super) fn solve(&mut self, around: &Surroundings<'_>, settings: &Settings) -> Ending {
         let base = &around.inputs.base;
         let (tolerance, iterations) = (settings.tolerance, settings.iterations);
@@ -63,7 +63,7 @@ impl Engine {
         }
     }
 
-    /// The last solution, in the surroundings in which it was found.
+    /// The shape of the last solution, in the surroundings in which it was found.
     pub(super) fn shape(&self, around: &Surroundings<'_>, settings: &Settings) -> Option<Shape> {
         let of_nodes =
             |shape: &NodeShape, trace| Shape { nodes: shape.nodes.clone(), base: shape.wrenches[0], trace };

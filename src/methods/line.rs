@@ -1,4 +1,4 @@
-//! The chain as differential equations see it: rigid offset and spans of each element, one after another.
+//! The chain as a domain of differential equations: rigid offset and spans of each element, in sequence.
 
 use crate::design::{Design, Span};
 use crate::equilibrium::{Chain, Interaction, Settings};
@@ -7,9 +7,9 @@ use crate::error::Error;
 /// A place on the deformable part of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// Number of the element.
+    /// Index of the element.
     pub(super) element: usize,
-    /// Number of the span in it.
+    /// Index of the span in the element.
     pub(super) piece: usize,
     /// Arc length from the span's start, m.
     pub(super) s: f64,
@@ -24,7 +24,7 @@ pub(super) struct Line {
     pub(super) spans: Vec<Vec<Span>>,
     /// Length of an element, the unit of lengths, m.
     pub(super) length: f64,
-    /// Moment that bends an element by a radian, the unit of moments, N m.
+    /// Moment that bends an element by one radian, the unit of moments, N m.
     pub(super) moment: f64,
 }
 
@@ -51,7 +51,7 @@ impl Line {
         self.spans.len()
     }
 
-    /// Units of force (N) and moment (N m): those that bend an element by a radian.
+    /// Units of force (N) and moment (N m): those that bend an element by one radian.
     pub(super) fn wrench_units(&self) -> [f64; 6] {
         let force = self.moment / self.length;
         [force, force, force, self.moment, self.moment, self.moment]

@@ -1,4 +1,4 @@
-//! The collocation polynomial on an interval, and how an interval is divided.
+//! The collocation polynomial on an interval, and the subdivision of intervals.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,10 +9,10 @@ use crate::design::SpanKind;
 use crate::geometry::{RotationVector, rotation_log};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
-/// Parts at most into which an interval is divided at once.
+/// Largest number of parts into which an interval is divided at once.
 const MOST_PARTS: usize = 4;
 
-/// Gauss nodes on [0, 1] and what integrates the polynomial through them.
+/// Gauss nodes on [0, 1] and the integration weights of the polynomial through them.
 #[derive(Debug, Clone)]
 pub(super) struct Tableau {
     pub(super) nodes: Vec<f64>,
@@ -23,12 +23,12 @@ pub(super) struct Tableau {
     symmetric: Vec<f64>,
 }
 
-/// A part of a span on which the rates of the local coordinates are a polynomial.
+/// Part of a span on which the rates of the local coordinates are a polynomial.
 #[derive(Debug, Clone)]
 pub(super) struct Interval {
     pub(super) place: Place,
     pub(super) length: f64,
-    /// Rates at the Gauss nodes, in the coordinates that start at the interval's start.
+    /// Rates at the Gauss nodes, in local coordinates relative to the interval's start.
     pub(super) rates: Vec<Vector12>,
 }
 
@@ -44,7 +44,7 @@ impl Tableau {
         }
     }
 
-    /// Values at `x` in [0, 1] of the polynomials through the nodes.
+    /// Values at `x` in [0, 1] of the Lagrange polynomials through the nodes.
     fn values(&self, x: f64) -> Vec<f64> {
         lagrange::values(&self.symmetric, 2.0 * x - 1.0)
     }
@@ -65,7 +65,7 @@ fn turn(local: &Vector12) -> RotationVector {
 }
 
 impl Interval {
-    /// Intervals of an element of a straight, unloaded line.
+    /// The intervals of an element of a straight, unloaded chain.
     pub(super) fn straight(line: &Line, element: usize, intervals: usize, stages: usize) -> Vec<Self> {
         let mut rate = Vector12::zeros();
         rate[2] = 1.0;
@@ -82,7 +82,7 @@ impl Interval {
         out
     }
 
-    /// Local coordinates at stage `j`, and at the end.
+    /// Local coordinates at stage `j`.
     pub(super) fn local(&self, tableau: &Tableau, j: usize) -> Vector12 {
         sum(&self.rates, &tableau.inner[j]) * self.length
     }
@@ -96,17 +96,17 @@ impl Interval {
         self.at(tableau.nodes[j])
     }
 
-    /// Place at the part `x`.
+    /// Place at the fraction `x`.
     pub(super) fn at(&self, x: f64) -> Place {
         Place { s: self.place.s + x * self.length, ..self.place }
     }
 
-    /// Local coordinates at the part `x`.
+    /// Local coordinates at the fraction `x`.
     pub(super) fn local_at(&self, tableau: &Tableau, x: f64) -> Vector12 {
         sum(&self.rates, &tableau.integrals(x)) * self.length
     }
 
-    /// What the equations lack at the ends of the interval, where the polynomial is worst, in units of one.
+    /// Nondimensional residual of the equations at the ends of the interval, where that of the polynomial is largest.
     pub(super) fn residual(
         &self,
         around: &Surroundings<'_>,
@@ -123,14 +123,14 @@ impl Interval {
         Some(worst)
     }
 
-    /// The same polynomial on as many equal parts as bring a residual that is `excess` times too large down.
+    /// The same polynomial on equal parts, enough to reduce a residual that is `excess` times too large.
     pub(super) fn divided(&self, tableau: &Tableau, excess: f64) -> Vec<Self> {
         let stages = tableau.nodes.len() as f64;
         let parts = (2..MOST_PARTS).find(|n| (*n as f64).powf(stages) >= excess).unwrap_or(MOST_PARTS);
         (0..parts).map(|part| self.part(tableau, part as f64 / parts as f64, 1.0 / parts as f64)).collect()
     }
 
-    /// The part from `from` on, `width` wide.
+    /// The part of relative width `width` that starts at the fraction `from`.
     fn part(&self, tableau: &Tableau, from: f64, width: f64) -> Self {
         let start: Matrix3<f64> = turn(&self.local_at(tableau, from)).matrix();
         let rate = |node: &f64| {
@@ -150,7 +150,7 @@ impl Interval {
         }
     }
 
-    /// The same in axes turned by `turn`.
+    /// The interval rotated by `turn`.
     pub(super) fn turned(&self, turn: &Matrix3<f64>) -> Self {
         let rate = |rate: &Vector12| {
             let mut out = *rate;

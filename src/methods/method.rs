@@ -1,26 +1,26 @@
-//! The methods by name.
+//! The solution methods and their names.
 
 use serde::{Deserialize, Serialize};
 
 use crate::equilibrium::Interaction;
 
-/// How the equilibrium is found. All but the potential method are kept for comparison.
+/// Method that solves for the equilibrium; all but the potential method serve for comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Method {
-    /// Minimum of the potential over strain modes, see [`crate::equilibrium::Equilibrium`].
+    /// Minimum of the potential energy over strain modes, see [`crate::equilibrium::Equilibrium`].
     Potential,
     /// Single shooting with the classical Runge-Kutta method, Levenberg-Marquardt on the base wrench and a Jacobian by
     /// forward differences, as in the paper.
     ShootingPaper,
-    /// The same with the exact derivative of the Runge-Kutta map.
+    /// Single shooting with the exact derivative of the Runge-Kutta map.
     ShootingExact,
-    /// Shooting from ring to ring, damped Newton.
+    /// Multiple shooting from ring to ring, damped Newton.
     MultipleShooting,
-    /// Gauss collocation on a mesh that is refined where the equations' residual is large, damped Newton.
+    /// Gauss collocation on a mesh refined where the residual of the equations is large, damped Newton.
     Collocation,
-    /// One arc of constant curvature for each core, discs rigid, neither torsion nor shear nor extension.
+    /// One arc of constant curvature per core with rigid discs, without torsion, shear or extension.
     ConstantCurvature,
-    /// Multiple shooting in the plane that holds load and field.
+    /// Multiple shooting in the plane that contains the loads and the field.
     Planar,
 }
 
@@ -48,16 +48,16 @@ impl Method {
         Self::ALL.iter().find(|row| row.1 == name).map(|row| row.0)
     }
 
-    /// Its name in scene files and on the command line.
+    /// The name of the method in scene files and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         Self::ALL.iter().find(|row| row.0 == self).map_or("", |row| row.1)
     }
 
-    /// Whether it can solve scenes with this level of interaction.
+    /// Whether the method can solve scenes with this level of interaction.
     ///
-    /// Where rings act on spans the differential equations are no longer local: what a ring feels is an integral over the
-    /// shapes of others. Only the potential method takes that in, and with it [`Interaction::Auto`], which may come to that.
+    /// Where rings act on spans the differential equations are no longer local: the load on a ring is an integral over the
+    /// shapes of others. Only the potential method includes this, and with it [`Interaction::Auto`], which may need it.
     #[must_use]
     pub fn supports(self, interaction: Interaction) -> bool {
         self == Self::Potential || matches!(interaction, Interaction::None | Interaction::Rings)

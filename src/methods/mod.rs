@@ -1,4 +1,4 @@
-//! Other methods, kept beside the potential one for a fair comparison: same scene in, same equilibrium out.
+//! Comparison methods: they solve the same scene for the same equilibrium as the potential method.
 
 mod arc;
 mod arcs;

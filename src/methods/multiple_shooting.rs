@@ -1,4 +1,4 @@
-//! Multiple shooting from node to node: short integrations, in which no error grows, joined by Newton's method.
+//! Multiple shooting from node to node: short integrations, over which errors stay small, joined by Newton's method.
 
 use super::node_shape::{Basis, NodeShape, couplings, flat, size};
 use super::node_system::{Defects, Link, NodeSystem};
@@ -10,17 +10,17 @@ use crate::numerics::newton::{self, Equations};
 use crate::rod::Order;
 use nalgebra::Matrix6;
 
-/// How an element is crossed: in space, or in a plane.
+/// Integration over an element, in space or in a plane.
 pub(super) trait Crossing<const D: usize> {
     /// The coordinates of nodes and wrenches.
     fn basis(&self) -> &Basis<D>;
-    /// From the state at a node to that before the next.
+    /// Maps the state at a node to the state just before the next node.
     fn cross(&self, element: usize, state: &State, trace: Option<&mut Trace>) -> Option<State>;
-    /// The same with its derivative; `next` is not set.
+    /// The same map with its derivative; `next` is not set.
     fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<D>)>;
 }
 
-/// Shooting through space.
+/// Integration in space.
 pub(super) struct Spatial<'a, 'b> {
     pub(super) around: &'a Surroundings<'b>,
     pub(super) basis: Basis<6>,
@@ -48,7 +48,7 @@ impl Crossing<6> for Spatial<'_, '_> {
     }
 }
 
-/// The equations of one scene.
+/// The matching conditions of one scene.
 struct Joined<'a, 'b, C, const D: usize> {
     around: &'a Surroundings<'b>,
     crossing: &'a C,
@@ -91,7 +91,7 @@ impl<C: Crossing<D>, const D: usize> Equations for Joined<'_, '_, C, D> {
     }
 }
 
-/// Solves from `shape`, which is kept if that succeeds.
+/// Solves from `shape`, which is replaced on success.
 pub(super) fn solve<C: Crossing<D>, const D: usize>(
     around: &Surroundings<'_>,
     crossing: &C,

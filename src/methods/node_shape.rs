@@ -1,4 +1,4 @@
-//! Poses and wrenches at the nodes: the unknowns of shooting from node to node, and the equations between them.
+//! Poses and wrenches at the nodes: the unknowns of multiple shooting and the matching conditions between them.
 
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 
@@ -9,13 +9,13 @@ use super::surroundings::{NodeLoad, column};
 use super::trace::Trace;
 use crate::geometry::{Pose, RotationVector, rotation_log};
 
-/// Which displacements and wrenches there are, in coordinates of one size.
+/// Admissible displacements and wrenches, in nondimensional coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Basis<const D: usize> {
-    /// Displacement (m, rad) and wrench (N, N m) by their coordinates.
+    /// Maps from coordinates to displacement (m, rad) and wrench (N, N m).
     pub(super) pose: SMatrix<f64, 6, D>,
     pub(super) wrench: SMatrix<f64, 6, D>,
-    /// Coordinates by displacement and wrench.
+    /// Maps from displacement and wrench to coordinates.
     pub(super) pose_part: SMatrix<f64, D, 6>,
     pub(super) wrench_part: SMatrix<f64, D, 6>,
 }
@@ -38,8 +38,7 @@ impl<const D: usize> Basis<D> {
         Self { pose, wrench, pose_part, wrench_part }
     }
 
-    /// What leads from the start of an element to its end, `next` left at one, from its derivative by displacement and
-    /// wrench.
+    /// The linearised element of the transition matrix `own` (by displacement and wrench); `next` is left at identity.
     pub(super) fn link(&self, own: &Matrix12) -> Link<D> {
         let own = |row: usize, column: usize| own.fixed_view::<6, 6>(row, column).into_owned();
         Link {
@@ -49,7 +48,7 @@ impl<const D: usize> Basis<D> {
         }
     }
 
-    /// Derivative of a wrench by a displacement.
+    /// Derivative of a wrench with respect to a displacement.
     pub(super) fn stiffness(&self, matrix: &Matrix6<f64>) -> Block<D> {
         self.wrench_part * matrix * self.pose
     }
@@ -63,12 +62,12 @@ pub(super) struct NodeShape {
 }
 
 impl NodeShape {
-    /// Straight and without wrenches.
+    /// The straight shape without wrenches.
     pub(super) fn straight(line: &Line) -> Self {
         Self { wrenches: vec![Vector6::zeros(); line.count()], nodes: Trace::straight(line).1 }
     }
 
-    /// The same shape with its base at `base`.
+    /// The shape moved rigidly so that its base is at `base`.
     pub(super) fn carried(&self, base: &Pose) -> Self {
         let old = self.nodes[0];
         let turn = base.rotation * old.rotation.transpose();
@@ -88,7 +87,7 @@ impl NodeShape {
         State { pose: self.nodes[element], wrench: self.wrenches[element] }
     }
 
-    /// What the ends of the elements, under these loads on the nodes, lack to the states that follow.
+    /// Defects between the ends of the elements, with these nodal loads, and the states that follow.
     pub(super) fn defects<const D: usize>(
         &self,
         basis: &Basis<D>,
@@ -106,8 +105,8 @@ impl NodeShape {
         out
     }
 
-    /// What turns the displacement of the node after element `k` into the defect's axes: the derivative of the logarithm,
-    /// less what both sides share.
+    /// Transformation of the displacement of the node after element `k` to the axes of the defect: the derivative of the
+    /// logarithm, without the factor that both sides share.
     pub(super) fn next<const D: usize>(&self, basis: &Basis<D>, k: usize, end: &State) -> Block<D> {
         let mut turn = Matrix6::identity();
         let across = end.pose.rotation * self.nodes[k + 1].rotation.transpose();
@@ -115,7 +114,7 @@ impl NodeShape {
         basis.pose_part * turn * basis.pose
     }
 
-    /// Moved by the part `factor` of a step in the order of [`flat`].
+    /// The shape moved by the fraction `factor` of a step in the order of [`flat`].
     pub(super) fn moved<const D: usize>(&self, basis: &Basis<D>, step: &[f64], factor: f64) -> Self {
         let part = |number: usize| {
             SVector::<f64, D>::from_column_slice(&step[D * number..D * (number + 1)]) * factor
@@ -135,18 +134,18 @@ impl NodeShape {
     }
 }
 
-/// A solution as one list: node poses, then wrenches.
+/// A solution as one list: node displacements, then wrenches.
 pub(super) fn flat<const D: usize>(solution: &Solution<D>) -> Vec<f64> {
     solution.poses.iter().chain(&solution.wrenches).flat_map(|part| part.iter().copied()).collect()
 }
 
-/// Norm of all defects.
+/// Euclidean norm of all defects.
 pub(super) fn size<const D: usize>(defects: &Defects<D>) -> f64 {
     let squares = defects.pose.iter().chain(&defects.wrench).map(SVector::norm_squared);
     squares.sum::<f64>().sqrt()
 }
 
-/// Derivatives of the nodes' balances by the displacements of nodes, the clamped base left out.
+/// Derivatives of the nodal balances with respect to the nodal displacements, without the clamped base.
 pub(super) fn couplings<const D: usize>(basis: &Basis<D>, loads: &[NodeLoad]) -> Vec<Coupling<D>> {
     let mut out = Vec::new();
     let mut add = |node: usize, by: usize, matrix: &Matrix6<f64>| {

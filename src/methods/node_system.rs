@@ -1,46 +1,46 @@
-//! Newton's equations of shooting from node to node, condensed to the nodes' displacements.
+//! Newton's equations of multiple shooting, condensed to the displacements of the nodes.
 //!
-//! Element `k` leads from the pose `x_k` and wrench `w_k` at its start to its end; the wrenches follow from the poses at both
-//! ends by the element's compliance, which leaves one equation of balance for each node. Without interaction the
-//! equations are block tridiagonal, with rings acting on rings they are full.
+//! Element `k` maps the pose `x_k` and wrench `w_k` at its start to its end. The wrenches follow from the poses at both ends by
+//! the element's compliance, which leaves one balance equation per node. Without interaction the equations are block
+//! tridiagonal; with ring interaction they are dense.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 /// A block of the equations; `D` is 6 in space, 3 in the plane.
 pub(super) type Block<const D: usize> = SMatrix<f64, D, D>;
 
-/// One element, linearised: change of its end by that of its start.
+/// One linearised element: change of its end with respect to its start.
 #[derive(Debug, Clone)]
 pub(super) struct Link<const D: usize> {
-    /// End pose by start pose and by start wrench.
+    /// Derivatives of the end pose with respect to start pose and start wrench.
     pub(super) pose: [Block<D>; 2],
-    /// End wrench by both.
+    /// Derivatives of the end wrench with respect to both.
     pub(super) wrench: [Block<D>; 2],
-    /// What turns the next node's displacement into the axes of the defect.
+    /// Transformation of the next node's displacement to the axes of the defect.
     pub(super) next: Block<D>,
 }
 
-/// The derivative of a node's balance by the displacement of a node, both counted from 1 on.
+/// Derivative of a node's balance with respect to the displacement of a node, both counted from 1.
 pub(super) struct Coupling<const D: usize> {
     pub(super) node: usize,
     pub(super) by: usize,
     pub(super) block: Block<D>,
 }
 
-/// What an equation lacks.
+/// Residuals (defects) of the matching conditions.
 #[derive(Debug, Clone)]
 pub(super) struct Defects<const D: usize> {
-    /// End pose less the pose of the next node, by element.
+    /// End pose minus the pose of the next node, by element.
     pub(super) pose: Vec<SVector<f64, D>>,
-    /// Wrench at the element's end and load of the next node less the wrench after it.
+    /// Wrench at the element's end plus load of the next node minus the wrench after it.
     pub(super) wrench: Vec<SVector<f64, D>>,
 }
 
-/// The factorised equations.
+/// The factorised linear system.
 #[derive(Debug)]
 pub(super) struct NodeSystem<const D: usize> {
     links: Vec<Link<D>>,
-    /// Start wrench by end pose: the inverse of the element's compliance.
+    /// Derivative of the start wrench with respect to the end pose: the inverse of the element's compliance.
     stiffness: Vec<Block<D>>,
     factors: Factors<D>,
 }
@@ -52,14 +52,14 @@ enum Factors<const D: usize> {
     Full(nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>),
 }
 
-/// Change of all nodes after the base, and of the wrench at the start of each element.
+/// Changes of all nodes after the base, and of the wrench at the start of each element.
 pub(super) struct Solution<const D: usize> {
     pub(super) poses: Vec<SVector<f64, D>>,
     pub(super) wrenches: Vec<SVector<f64, D>>,
 }
 
 impl<const D: usize> NodeSystem<D> {
-    /// Factorises; `None` where the equations are singular.
+    /// Factorises the system; `None` where it is singular.
     pub(super) fn new(links: Vec<Link<D>>, couplings: &[Coupling<D>]) -> Option<Self> {
         let count = links.len();
         let stiffness: Option<Vec<Block<D>>> = links.iter().map(|link| link.pose[1].try_inverse()).collect();
@@ -68,7 +68,8 @@ impl<const D: usize> NodeSystem<D> {
         let mut blocks: Vec<(usize, usize, Block<D>)> =
             couplings.iter().map(|c| (c.node - 1, c.by - 1, c.block)).collect();
         for (k, (link, stiff)) in links.iter().zip(&stiffness).enumerate() {
-            // The wrench at the start of element k by poses: what it adds to the balance of its end and of its start.
+            // Derivative of the wrench at the start of element k with respect to the poses, added to the balances of its end
+            // and its start.
             let mut by_pose = vec![(k, stiff * link.next)];
             if k > 0 {
                 by_pose.push((k - 1, -(stiff * link.pose[0])));
@@ -94,7 +95,7 @@ impl<const D: usize> NodeSystem<D> {
         Some(Self { links, stiffness, factors })
     }
 
-    /// The correction for some defects.
+    /// The Newton correction for these defects.
     pub(super) fn solve(&self, defects: &Defects<D>) -> Option<Solution<D>> {
         let count = self.links.len();
         let mut right: Vec<SVector<f64, D>> = defects.wrench.iter().map(|defect| -defect).collect();

@@ -1,4 +1,4 @@
-//! Planar reduction: where load and field lie in a plane with the straight manipulator, three displacements a node do.
+//! Planar reduction to three displacements per node, for loads and fields in one plane with the straight manipulator.
 //!
 //! With the coordinates `x1` across and `x2` along the base's axis, the angle `theta` of the tangent, forces `n1`, `n2` and the
 //! moment `m` about the normal, `d = (sin theta, cos theta)` and `t = (cos theta, -sin theta)`:
@@ -7,7 +7,7 @@
 //! x' = d (1 + n.d / EA) + t (n.t / GA)    theta' = m / EI    n' = -f    m' = x1' n2 - x2' n1 - l
 //! ```
 //!
-//! The spiral's material is spread around the core: what its sector does out of the plane is lost.
+//! The spiral's material is averaged around the core: out-of-plane effects of its sector are neglected.
 
 use nalgebra::{Matrix6, SMatrix, SVector, Vector3, Vector6};
 
@@ -23,7 +23,7 @@ use super::trace::Trace;
 use crate::geometry::{Pose, RotationVector};
 use crate::rod::{Order, SectionMaterial};
 
-/// Crosses elements in a plane.
+/// Integration over elements in a plane.
 pub(super) struct InPlane<'a, 'b> {
     around: &'a Surroundings<'b>,
     plane: Plane,
@@ -32,7 +32,7 @@ pub(super) struct InPlane<'a, 'b> {
     steps: usize,
 }
 
-/// Rates of the six coordinates, and their derivative.
+/// Rates of the six coordinates, and their derivatives.
 type Linear = (Vector6<f64>, Matrix6<f64>);
 
 impl<'a, 'b> InPlane<'a, 'b> {
@@ -115,7 +115,7 @@ impl<'a, 'b> InPlane<'a, 'b> {
         Some((end, by_start))
     }
 
-    /// The rates as those of a rod in space.
+    /// The rates in the form of those of a rod in space.
     fn spatial(&self, place: &Place, y: &Vector6<f64>) -> Option<Rates> {
         let (rates, _) = self.rates(place, y, Order::Gradient)?;
         let pose = self.axes * rates.fixed_rows::<3>(0);
@@ -173,7 +173,7 @@ impl Crossing<3> for InPlane<'_, '_> {
 }
 
 impl Plane {
-    /// Pose in the plane with the tangent at this angle.
+    /// Pose in the plane with its tangent at this angle.
     fn pose(&self, position: Vector3<f64>, angle: f64) -> Pose {
         let turn = RotationVector::new(self.normal * angle);
         Pose { position, rotation: turn.matrix() * self.base.rotation }
@@ -184,7 +184,7 @@ impl Plane {
         tangent.dot(&self.across).atan2(tangent.dot(&self.base.axis()))
     }
 
-    /// Displacements across, along, and the rotation about the normal.
+    /// Unit displacements across and along the base's axis, and the rotation about the normal.
     fn axes(&self) -> SMatrix<f64, 6, 3> {
         let zero = Vector3::zeros();
         SMatrix::from_columns(&[
@@ -194,7 +194,7 @@ impl Plane {
         ])
     }
 
-    /// A shape bent in some plane through its base, put into this one: the way round that turns it less.
+    /// Rotates a shape bent in a plane through its base into this plane, by the smaller of the two rotations.
     pub(super) fn carried(&self, shape: &NodeShape) -> NodeShape {
         let moved = shape.carried(&self.base);
         let axis = self.base.axis();

@@ -1,4 +1,4 @@
-//! The plane that holds base axis, field and loads, if there is one.
+//! The plane that contains base axis, field and loads, if there is one.
 
 use nalgebra::Vector3;
 
@@ -7,14 +7,14 @@ use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::LinearField;
 
-/// How far a direction may stand out of the plane, relative to its size: rounding of orientations.
+/// Tolerance of a vector's out-of-plane component relative to its norm: rounding of orientations.
 const SLACK: f64 = 1e-9;
 
 /// A plane through the base and its axis.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub(super) base: Pose,
-    /// Unit vector in the plane, across the base's axis; towards it a turn about the normal is positive.
+    /// Unit vector in the plane, perpendicular to the base's axis; positive rotations about the normal are towards it.
     pub(super) across: Vector3<f64>,
     pub(super) normal: Vector3<f64>,
 }
@@ -23,7 +23,7 @@ impl Plane {
     /// The plane of these inputs, with or without an external magnet.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] naming what stands out of any such plane.
+    /// [`Error::Unsupported`] naming the quantity that lies outside any such plane.
     pub(super) fn of(inputs: &Inputs, magnet: bool) -> Result<Self, Error> {
         let base = inputs.base;
         let axis = base.axis();
@@ -40,7 +40,7 @@ impl Plane {
             inside.push(("magnet's axis", inputs.magnet.axis()));
             inside.push(("magnet's position", inputs.magnet.position - base.position));
         }
-        // Where a moment turns the tangent.
+        // Direction in which the tip moment rotates the tangent.
         let turned = ("tip moment", inputs.tip_moment.cross(&axis));
         let aside = |v: &Vector3<f64>| v - axis * v.dot(&axis);
         let steep = |v: &Vector3<f64>| aside(v).norm() / v.norm().max(f64::MIN_POSITIVE);
@@ -49,7 +49,7 @@ impl Plane {
         let across = across.unwrap_or_else(|| base.rotation.column(1).into_owned());
         let normal = axis.cross(&across);
         inside.push(("field gradient", gradient * across));
-        // A gradient that leads out of the plane shows in two products of a matrix that is large.
+        // Out-of-plane field gradients appear in two products, so they are compared with the norm of the whole matrix.
         let size = |name: &str, v: &Vector3<f64>| {
             if name == "field gradient" { gradient.norm() } else { v.norm() }
         };

@@ -6,13 +6,13 @@ use super::surroundings::Surroundings;
 use super::trace::Trace;
 use crate::design::SpanKind;
 
-/// Where the four stages lie in a step, and how much of the stage before they take.
+/// Nodes of the four stages in a step, also the coefficients of the preceding stage.
 pub(super) const NODES: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
 
 /// Weights of the stages.
 pub(super) const WEIGHTS: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-/// Parts of a core's steps that a disc gets: it carries some percent of the compliance.
+/// Ratio of the steps per core to those per disc, which carries some percent of the compliance.
 const DISC_SHARE: usize = 4;
 
 /// One step: its place, start and length.
@@ -23,14 +23,16 @@ pub(super) struct Step {
 }
 
 impl Surroundings<'_> {
-    /// Steps of a span, when a core has `steps`.
+    /// Number and length of the steps of a span, when a core has `steps`.
     pub(super) fn steps(&self, element: usize, piece: usize, steps: usize) -> (usize, f64) {
         let span = &self.line.spans[element][piece];
         let count = if span.kind == SpanKind::Disc { steps.div_ceil(DISC_SHARE) } else { steps };
         (count, span.length / count as f64)
     }
 
-    /// Carries `state` from the node at the start of `element` to the next. `None` where the equations are not defined: inside a magnet, or beyond a full turn in one step.
+    /// Integrates `state` from the node at the start of `element` to the next node.
+    ///
+    /// `None` where the equations are not defined: inside a magnet, or beyond a full turn in one step.
     pub(super) fn cross(
         &self,
         element: usize,
@@ -55,7 +57,7 @@ impl Surroundings<'_> {
         state.is_finite().then_some(state)
     }
 
-    /// Carries `state` over the rigid part of `element`.
+    /// Moves `state` over the rigid part of `element`.
     pub(super) fn offset(&self, element: usize, state: &State, trace: Option<&mut Trace>) -> State {
         let offset = self.line.chain.elements[element].offset;
         if let Some(trace) = trace {
@@ -74,7 +76,7 @@ impl Surroundings<'_> {
         Some(step.start.displaced(&end))
     }
 
-    /// The same as [`Surroundings::cross`], with the derivative of the end by displacement and wrench.
+    /// As [`Surroundings::cross`], with the derivative of the end with respect to displacement and wrench.
     pub(super) fn cross_linear(
         &self,
         element: usize,
@@ -93,7 +95,7 @@ impl Surroundings<'_> {
         state.is_finite().then_some((state, own))
     }
 
-    /// A step, and the changes in the columns of `own` carried over it.
+    /// One step, which also maps the changes in the columns of `own` from its start to its end.
     fn step_linear(&self, step: &Step, own: &Matrix12) -> Option<(State, Matrix12)> {
         let (local, turned) = split(own);
         let (mut end, mut rate) = (Vector12::zeros(), Vector12::zeros());

@@ -1,32 +1,35 @@
-//! All knobs of the methods, in one place.
+//! All settings of the comparison methods.
 
 use super::method::Method;
 use crate::error::{Error, check};
 
-/// Which method, and the resolution and limits of those beside the potential one, whose settings are
-/// [`crate::equilibrium::Settings`].
+/// Solution method, and the resolution and limits of the comparison methods.
+///
+/// The settings of the potential method are [`crate::equilibrium::Settings`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// How the equilibrium is found; default [`Method::Potential`].
+    /// Solution method; default [`Method::Potential`].
     pub method: Method,
-    /// Runge-Kutta steps of a core (or of one element of a plain cylinder), 1 to 10000; default 16. A disc takes a
-    /// quarter as many.
+    /// Runge-Kutta steps per core (or per element of a plain cylinder), 1 to 10000; default 16. A disc takes a quarter as many.
     pub steps: usize,
-    /// Gauss points of a collocation interval, 1 to 8; default 3. The order at the mesh points is twice that.
+    /// Gauss points per collocation interval, 1 to 8; default 3. The order at the mesh points is twice that.
     pub stages: usize,
-    /// Collocation intervals of a core at the start, 1 to 1000; default 2. A disc has one.
+    /// Initial number of collocation intervals per core, 1 to 1000; default 2. A disc has one.
     pub intervals: usize,
-    /// Residual of the differential equations between the collocation points at which an interval is not divided
-    /// further, relative to one unit (moment over bending stiffness: a curvature of one radian per element); default
-    /// 1e-3.
+    /// Tolerance of the residual of the differential equations between the collocation points; default 1e-3.
+    ///
+    /// An interval with a larger residual is divided. Relative to one unit (moment over bending stiffness: a curvature of one
+    /// radian per element).
     pub mesh_tolerance: f64,
-    /// Norm of the residual at which a shape is solved, in element lengths, radians, and the wrench that bends an element
-    /// by a radian; default 1e-9.
+    /// Residual norm at which a shape counts as solved; default 1e-9.
+    ///
+    /// In element lengths, radians, and the wrench that bends an element by one radian.
     pub tolerance: f64,
-    /// Iterations at most of one attempt; default 100.
+    /// Largest number of iterations of one attempt; default 100.
     pub iterations: u32,
-    /// Smallest part of an input change that is tried when the whole does not converge; default 1/64. One means that
-    /// only the whole change is tried.
+    /// Smallest fraction of an input change tried when the whole change does not converge; default 1/64.
+    ///
+    /// One means that only the whole change is tried.
     pub smallest_part: f64,
 }
 
@@ -46,10 +49,10 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// The same, checked.
+    /// The settings, after a check of their ranges.
     ///
     /// # Errors
-    /// [`Error::Range`] naming the first knob out of range.
+    /// [`Error::Range`] naming the first setting out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let count = |name: &str, value: usize, most: f64, allowed: &str| {
             check(name, value as f64, |v| (1.0..=most).contains(&v), allowed)

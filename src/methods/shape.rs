@@ -1,4 +1,4 @@
-//! What every method leaves.
+//! The result of every comparison method.
 
 use nalgebra::Vector6;
 
@@ -9,7 +9,7 @@ use crate::geometry::Pose;
 #[derive(Debug, Clone)]
 pub(super) struct Shape {
     pub(super) nodes: Vec<Pose>,
-    /// Internal wrench behind the base node.
+    /// Internal wrench just after the base node.
     pub(super) base: Vector6<f64>,
     pub(super) trace: Trace,
 }

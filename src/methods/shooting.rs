@@ -1,7 +1,7 @@
-//! Single shooting: integrate from the base, and find the base wrench with which the tip ends as loaded.
+//! Single shooting: integration from the base, and the base wrench for which the tip carries its load.
 //!
-//! Where rings pull back on those before them, the wrenches of these reactions are further unknowns: what they turn out to
-//! be along the shape is their residual. So every load is known when the integration meets it.
+//! Where later rings act back on preceding ones, the wrenches of these reactions are additional unknowns; their difference to
+//! the reactions computed along the shape is the residual. So every load is known when the integration reaches it.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector6};
 
@@ -13,8 +13,9 @@ use crate::geometry::Pose;
 use crate::numerics::levenberg_marquardt::{self, Ending, LeastSquares};
 use crate::rod::Order;
 
-/// The unknowns of the last solved shape, in the axes of the base and in units of [`super::line::Line::wrench_units`]: the
-/// base wrench, then the reactions on the rings between the first and the last.
+/// The unknowns of the last solved shape: the base wrench, then the reactions on the rings between the first and the last.
+///
+/// In the axes of the base and in units of [`super::line::Line::wrench_units`].
 #[derive(Debug, Clone)]
 pub(super) struct Shooting {
     unknowns: DVector<f64>,
@@ -26,12 +27,12 @@ pub(super) struct Shooting {
 struct Shot {
     /// Poses of all nodes.
     nodes: Vec<Pose>,
-    /// Internal wrench at the start of each element; after the last node what is left over.
+    /// Internal wrench at the start of each element; the entry after the last node is the residual at the tip.
     wrenches: Vec<Vector6<f64>>,
     loads: Vec<NodeLoad>,
-    /// What earlier rings feel from later ones.
+    /// Reactions of later rings on preceding ones.
     reactions: Vec<Vector6<f64>>,
-    /// Columns of each node's displacement by the unknowns, and those of what is left over; empty unless asked for.
+    /// Derivatives of each node's displacement and of the tip residual with respect to the unknowns; empty unless requested.
     columns: Vec<DMatrix<f64>>,
 }
 
@@ -47,10 +48,10 @@ impl Shooting {
         Self { unknowns: DVector::zeros(0), exact, steps }
     }
 
-    /// Solves from the last unknowns; they are kept if that succeeds.
+    /// Solves from the last unknowns, which are replaced on success.
     pub(super) fn solve(&mut self, around: &Surroundings<'_>, tolerance: f64, iterations: u32) -> Ending {
         let mut problem = Problem { around, exact: self.exact, steps: self.steps };
-        // Straight and without wrenches at first.
+        // The first solve starts straight and without wrenches.
         self.unknowns.resize_vertically_mut(problem.size(), 0.0);
         let mut unknowns = self.unknowns.clone();
         let end = levenberg_marquardt::solve(&mut problem, &mut unknowns, tolerance, iterations);
@@ -70,7 +71,7 @@ impl Shooting {
 }
 
 impl Problem<'_, '_> {
-    /// Number of nodes between the first and the last that get a reaction.
+    /// Number of nodes between the first and the last with a reaction.
     fn reacting(&self) -> usize {
         if self.around.has_pairs() { self.around.line.count() - 1 } else { 0 }
     }
@@ -79,7 +80,7 @@ impl Problem<'_, '_> {
         6 + 6 * self.reacting()
     }
 
-    /// A wrench among the unknowns, and its derivative by them.
+    /// The wrench of that number among the unknowns.
     fn wrench(&self, unknowns: &DVector<f64>, number: usize) -> Vector6<f64> {
         let units = self.around.line.wrench_units();
         let scaled = Vector6::from_fn(|i, _| unknowns[6 * number + i] * units[i]);
@@ -161,7 +162,7 @@ impl Problem<'_, '_> {
         Some(shot)
     }
 
-    /// Scaled and in the axes of the base.
+    /// Writes a wrench to `out`, scaled and in the axes of the base.
     fn put(&self, out: &mut DVector<f64>, number: usize, wrench: &Vector6<f64>) {
         let units = self.around.line.wrench_units();
         let local = turned(&self.around.inputs.base.rotation.transpose(), wrench);
@@ -200,7 +201,7 @@ impl Problem<'_, '_> {
         Some(out)
     }
 
-    /// Forward differences with the step that halves the digits.
+    /// Forward differences with a relative step of the square root of the machine epsilon.
     fn difference_jacobian(&mut self, x: &DVector<f64>, residual: &DVector<f64>) -> Option<DMatrix<f64>> {
         let mut out = DMatrix::zeros(x.len(), x.len());
         let mut moved = x.clone();
@@ -226,7 +227,7 @@ impl LeastSquares for Problem<'_, '_> {
     }
 }
 
-/// A wrench in turned axes.
+/// A wrench in rotated axes.
 fn turned(rotation: &Matrix3<f64>, wrench: &Vector6<f64>) -> Vector6<f64> {
     column(&(rotation * wrench.fixed_rows::<3>(0)), &(rotation * wrench.fixed_rows::<3>(3)))
 }

@@ -1,6 +1,6 @@
-//! The static Cosserat rod as differential equations, with their exact derivative.
+//! The static Cosserat rod as differential equations, with their exact derivatives.
 //!
-//! With position `p`, rotation `R`, internal force `n` and moment `m` (what lies beyond exerts on what lies before), all in
+//! With position `p`, rotation `R`, internal force `n` and moment `m` (exerted by the distal on the proximal part), all in
 //! fixed axes, force `f` and couple `l` per length, stretch `v` and curvature `u` in the directors:
 //!
 //! ```text
@@ -8,8 +8,8 @@
 //! v = e3 + K_se^-1 R^T n                     u = K_bt^-1 R^T m
 //! ```
 //!
-//! Rotations are integrated as rotation vectors `theta` since the start of an interval, `R = exp(theta) R_start`,
-//! `J_l(theta) theta' = w`, so that every `R` is a rotation (Munthe-Kaas, BIT 38, 1998).
+//! Rotations are integrated as rotation vectors `theta` relative to the start of an interval, `R = exp(theta) R_start`,
+//! `J_l(theta) theta' = w`, so that every `R` is a rotation (Munthe-Kaas, BIT 38, 1998, doi:10.1007/BF02510919).
 //!
 //! Source: Antman, Nonlinear Problems of Elasticity, ch. 8; Richter et al., Eq. 9 and 10.
 
@@ -24,10 +24,10 @@ use crate::rod::{Load, Order};
 /// Position, rotation (vector), force and moment, three each.
 pub(super) type Vector12 = SVector<f64, 12>;
 
-/// A matrix between such vectors.
+/// A linear map between such vectors.
 pub(super) type Matrix12 = SMatrix<f64, 12, 12>;
 
-/// What the rest of the chain continues from.
+/// State of the rod at a cross section, the initial value for the rest of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct State {
     pub(super) pose: Pose,
@@ -35,14 +35,14 @@ pub(super) struct State {
     pub(super) wrench: Vector6<f64>,
 }
 
-/// Derivatives of a state by arc length.
+/// Derivatives of a state with respect to arc length.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Rates {
-    /// Of the position, `p'`.
+    /// Derivative of the position, `p'`.
     pub(super) tangent: Vector3<f64>,
-    /// `w`, the rate of the rotation, 1/m.
+    /// Rate of rotation `w`, 1/m.
     pub(super) turning: Vector3<f64>,
-    /// Of force and moment.
+    /// Derivatives of force and moment.
     pub(super) wrench: Vector6<f64>,
 }
 
@@ -71,7 +71,7 @@ impl State {
         Self { pose: self.pose.advanced(distance), wrench: column(&self.force(), &moment) }
     }
 
-    /// Derivative of [`State::advanced`] by displacement and wrench.
+    /// Derivative of [`State::advanced`] with respect to displacement and wrench.
     pub(super) fn advance_derivative(&self, distance: f64) -> Matrix12 {
         let arm = hat(&(self.pose.axis() * distance));
         let mut out = Matrix12::identity();
@@ -87,7 +87,7 @@ impl State {
     }
 }
 
-/// Compliances `R K^-1 R^T` in fixed axes, against force and moment.
+/// Compliances `R K^-1 R^T` in fixed axes, to force and to moment.
 fn compliances(rotation: &Matrix3<f64>, k: &Stiffness) -> [Matrix3<f64>; 2] {
     let turned = |across: f64, along: f64| {
         let axis = rotation.column(2);
@@ -96,7 +96,7 @@ fn compliances(rotation: &Matrix3<f64>, k: &Stiffness) -> [Matrix3<f64>; 2] {
     [turned(k.shear, k.axial), turned(k.bending, k.torsion)]
 }
 
-/// The right-hand sides for a load per length.
+/// The right-hand sides of the rod equations for a load per length.
 fn rates(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load) -> Rates {
     let force = state.force();
     let tangent = state.pose.axis() + compliances[0] * force;
@@ -105,14 +105,14 @@ fn rates(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load) -> Rates {
     Rates { tangent, turning, wrench }
 }
 
-/// Their derivative by displacement (position, rotation) and wrench.
+/// Derivative of the right-hand sides with respect to displacement (position, rotation) and wrench.
 fn rates_derivative(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load, rates: &Rates) -> Matrix12 {
     let (force, moment) = (hat(&state.force()), hat(&state.moment()));
     let by_turn = compliances[0] * force - hat(&rates.tangent);
     let mut out = Matrix12::zeros();
     out.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
     out.fixed_view_mut::<3, 3>(0, 6).copy_from(&compliances[0]);
-    // Of `w` itself; turning with the frame is part of the local coordinates' derivative.
+    // Derivative of `w` itself; its rotation with the frame is part of the local coordinates' derivative.
     out.fixed_view_mut::<3, 3>(3, 3).copy_from(&(compliances[1] * moment - hat(&rates.turning)));
     out.fixed_view_mut::<3, 3>(3, 9).copy_from(&compliances[1]);
     let mut loads = out.fixed_view_mut::<6, 6>(6, 0);
@@ -124,14 +124,14 @@ fn rates_derivative(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load,
     out
 }
 
-/// A point inside an interval: the equations there in the interval's local coordinates.
+/// The equations at a point inside an interval, in the interval's local coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Stage {
-    /// Derivative of the local coordinates by arc length that the equations ask for.
+    /// Derivative of the local coordinates with respect to arc length, as given by the equations.
     pub(super) rate: Vector12,
-    /// Derivative of that rate by the local coordinates there.
+    /// Derivative of that rate with respect to the local coordinates there.
     pub(super) by_local: Matrix12,
-    /// Derivative by a rotation of the interval's start.
+    /// Derivative of that rate with respect to a rotation of the interval's start.
     pub(super) by_start: SMatrix<f64, 12, 3>,
 }
 
@@ -151,7 +151,7 @@ impl Surroundings<'_> {
         Some(assembled(&rates.tangent, &rate, &rates.wrench))
     }
 
-    /// The same with its derivatives.
+    /// The rate of the local coordinates with its derivatives.
     pub(super) fn stage(&self, place: &Place, start: &State, local: &Vector12) -> Option<Stage> {
         let state = start.displaced(local);
         let load = self.along(place, &state.pose, Order::Hessian)?;
@@ -185,8 +185,9 @@ fn assembled(tangent: &Vector3<f64>, turning: &Vector3<f64>, wrench: &Vector6<f6
     out
 }
 
-/// Splits the columns of a state's change into local coordinates, in which the rotation vector starts at zero, and the
-/// rotation of the start.
+/// Splits the columns of a state's change into local coordinates and the rotation of the interval's start.
+///
+/// The local rotation vector is zero at the start.
 pub(super) fn split<const C: usize>(
     columns: &SMatrix<f64, 12, C>,
 ) -> (SMatrix<f64, 12, C>, SMatrix<f64, 3, C>) {
@@ -196,7 +197,7 @@ pub(super) fn split<const C: usize>(
     (local, turned)
 }
 
-/// Joins them again at the end of an interval, where the local coordinates are `end`.
+/// Recombines both parts at the end of an interval, where the local coordinates are `end`.
 pub(super) fn join<const C: usize>(
     end: &Vector12,
     local: &SMatrix<f64, 12, C>,

@@ -1,7 +1,7 @@
-//! What acts on the chain at given inputs: loads along the spans and on the nodes, with their derivatives.
+//! Loads on the chain at given inputs, along the spans and at the nodes, with their derivatives.
 //!
-//! Derivatives are those of force and moment in fixed axes by displacements `p + pi`, `exp(omega) R` of the bodies: other
-//! than second derivatives of an energy they are not symmetric where a moment acts.
+//! Derivatives are those of force and moment in fixed axes with respect to displacements `p + pi`, `exp(omega) R` of the
+//! bodies: unlike second derivatives of an energy they are not symmetric where a moment acts.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -10,7 +10,7 @@ use crate::equilibrium::{Frame, Inputs, TermWrenches, Terms, blocks};
 use crate::geometry::{Pose, hat};
 use crate::rod::{Load, Order, SectionMaterial};
 
-/// Everything that the loads on a shape depend on.
+/// All quantities that determine the loads on a shape.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     pub(super) line: &'a Line,
@@ -18,29 +18,29 @@ pub(super) struct Surroundings<'a> {
     pub(super) terms: Terms<'a>,
 }
 
-/// What acts on a node: the ring there and, at the last one, the tip.
+/// The load on a node: on its ring and, at the last node, on the tip.
 #[derive(Debug, Clone)]
 pub(super) struct NodeLoad {
-    /// Energy, that of the pairs included, J.
+    /// Energy including that of the pairs, J.
     pub(super) energy: f64,
-    /// Derivative of the energy by the node's displacement: minus force (N) and moment (N m).
+    /// Derivative of the energy with respect to the node's displacement: minus force (N) and moment (N m).
     pub(super) gradient: Vector6<f64>,
-    /// Derivative of `gradient` by the node's own displacement.
+    /// Derivative of `gradient` with respect to the node's own displacement.
     pub(super) own: Matrix6<f64>,
-    /// The rings before it that act on it.
+    /// Interactions with the preceding rings.
     pub(super) pairs: Vec<Pair>,
 }
 
-/// How a ring before acts on the ring of a node, and that back on it.
+/// Interaction of the ring of a node with a preceding ring, and its reaction.
 #[derive(Debug, Clone)]
 pub(super) struct Pair {
-    /// Node of the ring before.
+    /// Node of the preceding ring.
     pub(super) node: usize,
-    /// Derivative of the gradient of the later node by this one's displacement.
+    /// Derivative of the gradient of the later node with respect to the displacement of this one.
     pub(super) by_first: Matrix6<f64>,
-    /// The reaction on the ring before, as a gradient.
+    /// The reaction on the preceding ring, as a gradient.
     pub(super) reaction: Vector6<f64>,
-    /// Derivative of the reaction by both nodes' displacements, the earlier first.
+    /// Derivatives of the reaction with respect to both nodes' displacements, the earlier node first.
     pub(super) reaction_by: [Matrix6<f64>; 2],
 }
 
@@ -54,37 +54,37 @@ pub(super) fn gradient(load: &Load) -> Vector6<f64> {
     column(&load.force, &load.moment())
 }
 
-/// Derivative of a load's gradient by the displacement of its frame.
+/// Derivative of a load's gradient with respect to the displacement of its frame.
 pub(super) fn derivative(load: &Load) -> Matrix6<f64> {
     let n = &load.couple;
     let turned = load.rotation_rotation + n.transpose() - Matrix3::identity() * n.trace();
     blocks(&load.position_position, &load.position_rotation, &load.position_rotation.transpose(), &turned)
 }
 
-/// What a symmetric second derivative lacks to the derivative of a gradient with this moment.
+/// Difference between the derivative of a gradient with this moment and the symmetric second derivative.
 fn turning_of(moment: &Vector3<f64>) -> Matrix6<f64> {
     let zero = Matrix3::zeros();
     blocks(&zero, &zero, &zero, &(hat(moment) * -0.5))
 }
 
 impl Surroundings<'_> {
-    /// Whether rings act on one another.
+    /// Whether rings interact.
     pub(super) fn has_pairs(&self) -> bool {
         self.terms.pairs.each().next().is_some()
     }
 
-    /// Load per length at a place with the pose `pose`, in fixed axes.
+    /// Load per length in fixed axes on the section at a place with the pose `pose`.
     pub(super) fn along(&self, place: &Place, pose: &Pose, order: Order) -> Option<Load> {
         let span = &self.line.spans[place.element][place.piece];
         self.external(&SectionMaterial::section(span, place.s), pose, order)
     }
 
-    /// Load of all that acts from outside on some material.
+    /// Total external load on section material.
     pub(super) fn external(&self, material: &SectionMaterial, pose: &Pose, order: Order) -> Option<Load> {
         self.on(&Frame::Section(material), pose, order, &mut TermWrenches::none())
     }
 
-    /// Load of all that acts from outside on a frame, in fixed axes; adds each term's wrench about the base to `wrenches`.
+    /// Total external load on a frame, in fixed axes; adds each term's wrench about the base to `wrenches`.
     pub(super) fn on(
         &self,
         frame: &Frame<'_>,
@@ -95,7 +95,7 @@ impl Surroundings<'_> {
         self.terms.load(frame, pose, &Matrix3::identity(), order, (&self.inputs.base.position, wrenches))
     }
 
-    /// What acts from outside on all that the nodes carry.
+    /// External wrenches on the bodies carried by the nodes.
     pub(super) fn node_wrenches(&self, poses: &[Pose]) -> Option<TermWrenches> {
         let mut out = TermWrenches::none();
         for (node, frame) in self.line.chain.frames() {
@@ -123,7 +123,7 @@ impl Surroundings<'_> {
         Some(out)
     }
 
-    /// Adds the load of an earlier ring on a later one.
+    /// Adds the interaction of a preceding ring with a later one.
     fn add_pair(&self, out: &mut NodeLoad, rings: [usize; 2], poses: &[Pose], order: Order) -> Option<()> {
         let [first, second] = rings.map(|ring| self.line.chain.rings[ring].node);
         let load = self.terms.pairs.load(rings, [&poses[first], &poses[second]], order)?;

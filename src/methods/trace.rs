@@ -1,4 +1,4 @@
-//! A solved shape as poses and strains along the arc, whatever the method: what the outputs are read from.
+//! A solved shape as poses and strains along the arc length, independent of the method; the outputs are evaluated from it.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -11,14 +11,15 @@ use crate::geometry::{Pose, RotationVector, rotation_log};
 use crate::numerics::quadrature::gauss_legendre;
 use crate::rod::{Order, SectionMaterial};
 
-/// Gauss points of a link when loads and energies are added up.
+/// Gauss points per link for the quadrature of loads and energies.
 const LINK_POINTS: usize = 3;
 
-/// A part of the centreline between two places where position and rotation are known with their rates: cubic in
-/// position and rotation vector.
+/// A part of the centreline between two places with known position, rotation and rates.
+///
+/// Interpolated by cubics (Hermite) in position and rotation vector.
 #[derive(Debug, Clone)]
 struct Link {
-    /// Where on the chain; `None` on a rigid part.
+    /// Place on the chain; `None` on a rigid part.
     place: Option<Place>,
     /// Unstrained arc length from the base to its start, and its length, m.
     from: f64,
@@ -26,7 +27,7 @@ struct Link {
     start: Pose,
     /// Displacement from start to end, m, and rotation vector.
     whole: [Vector3<f64>; 2],
-    /// Rates of both at start and end, times the length.
+    /// Rates of both with respect to arc length at start and end, times the length.
     rates: [[Vector3<f64>; 2]; 2],
 }
 
@@ -36,14 +37,14 @@ pub(super) struct Trace {
     links: Vec<Link>,
 }
 
-/// What acts from outside on the spans, and their energy (J).
+/// External wrenches on the spans, and their energy (J).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Totals {
     pub(super) wrenches: TermWrenches,
     pub(super) energy: f64,
 }
 
-/// Values of the cubic from `0` to `whole` with the slopes `rates`, and its slope.
+/// Value and slope of the cubic from `0` to `whole` with end slopes `rates`.
 fn cubic(whole: &Vector3<f64>, rates: [&Vector3<f64>; 2], x: f64) -> [Vector3<f64>; 2] {
     let (square, cube) = (x * x, x * x * x);
     let value = whole * (3.0 * square - 2.0 * cube)
@@ -56,7 +57,7 @@ fn cubic(whole: &Vector3<f64>, rates: [&Vector3<f64>; 2], x: f64) -> [Vector3<f6
 }
 
 impl Link {
-    /// Pose at the part `x` of the link, with the rates of position and rotation (fixed axes) by `x`.
+    /// Pose at the fraction `x` of the link, with the derivatives of position and rotation (fixed axes) with respect to `x`.
     fn at(&self, x: f64) -> (Pose, Vector3<f64>, Vector3<f64>) {
         let component = |c: usize| cubic(&self.whole[c], [&self.rates[0][c], &self.rates[1][c]], x);
         let ([position, tangent], [theta, rate]) = (component(0), component(1));
@@ -68,7 +69,7 @@ impl Link {
 }
 
 impl Trace {
-    /// The straight shape at the origin, and its nodes.
+    /// The straight shape at the origin and its nodes.
     pub(super) fn straight(line: &Line) -> (Self, Vec<Pose>) {
         let mut trace = Self::default();
         let mut nodes = vec![Pose::identity()];
@@ -146,7 +147,7 @@ impl Trace {
         line.chain.cores.iter().map(angle).collect()
     }
 
-    /// Adds up what the spans feel and store.
+    /// External wrenches and energy of the spans, integrated along the shape.
     pub(super) fn totals(&self, around: &Surroundings<'_>) -> Option<Totals> {
         let (points, weights) = gauss_legendre(LINK_POINTS);
         let mut out = Totals { wrenches: TermWrenches::none(), energy: 0.0 };

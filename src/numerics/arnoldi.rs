@@ -4,22 +4,22 @@ use nalgebra::{DMatrix, Schur};
 
 use super::eigenvalue::inner;
 
-/// Sweeps of the QR algorithm at most, by row.
+/// Largest number of sweeps of the QR algorithm, per row.
 const SWEEPS: usize = 100;
 
-/// Relative size of a subdiagonal entry that counts as zero, tried one after the other: clusters of nearly defective eigenvalues
-/// do not come apart to rounding.
+/// Relative sizes of a subdiagonal entry that count as zero, tried in turn: clusters of nearly defective eigenvalues cannot be
+/// separated to rounding.
 const NEGLIGIBLE: [f64; 3] = [1e-13, 1e-11, 1e-9];
 
-/// Norm of what is left of a vector, relative to what it was, from which on it is rounding.
+/// Relative norm of an orthogonalised vector below which it is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// The smallest real part of the eigenvalues, by `vectors` Arnoldi vectors at most; `start` is the first one.
+/// The smallest real part of the eigenvalues, by at most `vectors` Arnoldi vectors starting from `start`.
 ///
 /// `solve` replaces its argument by `H^-1` times it. The method is Arnoldi's on `H^-1 K` in the inner product of the diagonal
 /// `K`, orthogonalised twice (Golub and Van Loan, Matrix Computations, 10.5). The eigenvalues nearest to zero and those of
-/// negative real part lie at the rim of that operator's spectrum, which is found first; with as many vectors as rows all
-/// are found. `None` where something is not finite or the QR algorithm does not end.
+/// negative real part lie at the boundary of that operator's spectrum, which is found first; with as many vectors as rows all
+/// are found. `None` where a value is not finite or the QR algorithm does not converge.
 pub fn smallest_real_part(
     metric: &[f64],
     start: &[f64],
@@ -33,7 +33,7 @@ pub fn smallest_real_part(
     for column in 0..most {
         let norm = inner(metric, &next, &next).sqrt();
         if column > 0 && norm <= ROUNDING * projected.column(column - 1).amax() {
-            // The vectors span an invariant space: its eigenvalues are all that the start can tell.
+            // The vectors span an invariant subspace: its eigenvalues are all that this start vector can reach.
             projected = projected.view((0, 0), (column, column)).into_owned();
             break;
         }

@@ -1,8 +1,8 @@
-//! Where a property of one variable ends.
+//! Bisection for the boundary of a property of one variable.
 
-/// The ends of the interval in which `holds` stops to, halved so many times: at the first it does, at the second it does not.
+/// Interval in which `holds` changes, after so many halvings: it is true at the first end and false at the second.
 ///
-/// `from` and `to` are taken to do so; of several places between them it finds one.
+/// It is assumed to be true at `from` and false at `to`; of several changes between them one is found.
 ///
 /// ```
 /// use mcm::numerics::bisection::bisect;

@@ -1,4 +1,4 @@
-//! Cholesky factorisation in place, without allocation: the test of positive definiteness and the solver.
+//! Cholesky factorisation in place, without allocation: linear solver and test of positive definiteness.
 
 /// Factorises a symmetric matrix in place into its lower Cholesky factor.
 ///

@@ -1,115 +1,116 @@
-//! Continuation of the stationary points of a potential by pseudo-arclength: through folds, stable or not.
+//! Pseudo-arclength continuation of the stationary points of a potential: through folds, stable or not.
 //!
-//! The branch `g(x, p) = 0` is followed by its arc length in the space of `x` and `p` together, in which a fold is no
-//! special place: each point is predicted along the tangent and corrected by Newton's method across it. The method is
-//! H. B. Keller's (Applications of Bifurcation Theory, Academic Press 1977); see also Allgower and Georg, Introduction
-//! to Numerical Continuation Methods, SIAM 2003, chapters 2, 6 and 9.
+//! The branch `g(x, p) = 0` is followed by its arc length in the joint space of `x` and `p`, in which a fold is a regular
+//! point: each point is predicted along the tangent and corrected by Newton's method normal to it. The method is H. B. Keller's
+//! (Applications of Bifurcation Theory, Academic Press 1977); see also Allgower and Georg, Introduction to Numerical
+//! Continuation Methods, SIAM 2003, doi:10.1137/1.9780898719154, chapters 2, 6 and 9.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::{Error, check};
 
-/// Newton corrections of one point at most.
+/// Largest number of Newton corrections per point.
 const CORRECTIONS: u32 = 8;
 
-/// A correction that shrinks by less than this from one to the next is given up, and the step shortened.
+/// Largest ratio of successive corrections; beyond it the corrector is stopped and the step shortened.
 const CONTRACTION: f64 = 0.5;
 
-/// So short a correction is the last one: what is left is its square.
+/// Norm of a correction at which the corrector has converged: the remaining error is its square.
 const SETTLED: f64 = 1e-8;
 
-/// Steps grow while the tangent turns by less than this (rad), and shrink beyond.
+/// Rotation of the tangent (rad) per step below which steps grow, and above which they shrink.
 const TURN: f64 = 0.1;
 
-/// A step along which the tangent turns by more (rad) is taken again, shorter.
+/// Rotation of the tangent (rad) above which a step is repeated with a shorter length.
 const LARGEST_TURN: f64 = 0.3;
 
-/// Factors between the lengths of two steps.
+/// Factors by which the step length changes.
 const SHRINK: f64 = 0.5;
 const GROW: f64 = 1.6;
 
-/// The first step and the shortest, relative to the longest.
+/// The first and the shortest step, relative to the longest.
 const FIRST: f64 = 0.1;
 const SHORTEST: f64 = 1e-6;
 
-/// A singular point is located until what vanishes there is this small, or its interval this part of the step.
+/// Tolerance of the vanishing quantity at a singular point, or of its interval relative to the step.
 const VANISHED: f64 = 1e-10;
 
-/// What does not vanish to this has jumped: the step has led to another branch.
+/// Value of that quantity above which the corrector has jumped to another branch.
 const JUMPED: f64 = 1e-6;
 
-/// Secants at most on the way to a singular point.
+/// Largest number of secant steps to a singular point.
 const SECANTS: u32 = 60;
 
-/// A potential that depends on one parameter, in variables that are scaled to order one.
+/// A potential with one parameter, in variables scaled to order one.
 pub trait Family {
     /// Derivatives at `x`; `None` where the potential is not defined.
     ///
     /// # Errors
-    /// Those of whatever the parameter stands for: they end the continuation.
+    /// Those of the parametrised model; they end the continuation.
     fn at(&mut self, x: &DVector<f64>, parameter: f64) -> Result<Option<Local>, Error>;
 }
 
 /// Derivatives of a potential at a point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Local {
-    /// Gradient `g` by `x`.
+    /// Gradient `g` with respect to `x`.
     pub gradient: DVector<f64>,
-    /// Hessian by `x`.
+    /// Hessian with respect to `x`.
     pub hessian: DMatrix<f64>,
-    /// Derivative of the gradient by the parameter.
+    /// Derivative of the gradient with respect to the parameter.
     pub drift: DVector<f64>,
 }
 
-/// Where to go.
+/// Start, range and step limits of a continuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Walk {
     /// The parameter at the first point.
     pub from: f64,
-    /// The first step goes to larger parameters.
+    /// Whether the first step goes to larger parameters.
     pub upwards: bool,
-    /// Smallest and largest parameter: the walk ends where it leaves them.
+    /// Smallest and largest parameter: the continuation ends where it leaves them.
     pub range: [f64; 2],
-    /// Longest step in the space of `x` and parameter.
+    /// Longest step in the joint space of `x` and parameter.
     pub longest_step: f64,
-    /// Points at most.
+    /// Largest number of points.
     pub points: usize,
 }
 
-/// What is special about a point.
+/// Type of a point of the branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PointKind {
-    /// Nothing.
+    /// A regular point.
     Regular,
-    /// The parameter turns back: beyond it there is no such stationary point.
+    /// A fold: the parameter turns back, and beyond it this stationary point does not exist.
     Fold,
-    /// So many directions lose or gain their stability while the parameter goes on: other branches cross or begin.
+    /// A branching point: so many directions lose or gain stability while the parameter continues; other branches cross or
+    /// begin.
     Branching(usize),
 }
 
 /// A stationary point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Point {
-    /// Where it is.
+    /// Location.
     pub x: DVector<f64>,
-    /// At which parameter.
+    /// Parameter.
     pub parameter: f64,
-    /// Unit tangent of the branch: by `x`, then by the parameter.
+    /// Unit tangent of the branch: components of `x`, then of the parameter.
     pub tangent: DVector<f64>,
     /// Eigenvalues of the Hessian, ascending.
     pub eigenvalues: Vec<f64>,
-    /// What is special about it.
+    /// Type of the point.
     pub kind: PointKind,
 }
 
-/// Why a walk ended.
+/// Reason why a continuation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// It reached the end of the range: its last point is there.
+    /// It reached an end of the range, where its last point is.
     Range,
-    /// No shorter step finds a next point: the potential ends, or the branch has a corner.
+    /// No next point is found with the shortest step: the potential ends, or the branch has a corner.
     Stuck,
-    /// It has as many points as were asked for.
+    /// The largest number of points is reached.
     Points,
 }
 
@@ -126,7 +127,7 @@ impl Point {
         self.eigenvalues.first().copied().unwrap_or(f64::NAN)
     }
 
-    /// The change of the parameter along the branch, from -1 to 1; 0 at a fold.
+    /// Derivative of the parameter along the branch, from -1 to 1; 0 at a fold.
     #[must_use]
     pub fn slope(&self) -> f64 {
         self.tangent[self.x.len()]
@@ -137,9 +138,10 @@ impl Point {
     }
 }
 
-/// Follows the branch through the stationary point next to `x`: its points, folds and branching points among them.
+/// Follows the branch through the stationary point next to `x`: its points, including folds and branching points.
 ///
-/// The potential is asked for a step's length beyond the range, too. No points are found where none is close to `x`.
+/// The potential is also evaluated up to one step beyond the range. No points are returned if no stationary point is close to
+/// `x`.
 ///
 /// # Errors
 /// [`Error::Range`] for a walk that starts outside its range or has no steps; those of the family.
@@ -177,7 +179,7 @@ pub fn follow(family: &mut impl Family, x: &DVector<f64>, walk: &Walk) -> Result
     Ok((points, End::Points))
 }
 
-/// The point a step ahead, and the length of the next step; `None` if the step is too long.
+/// The point one step ahead, and the length of the next step; `None` if the step is too long.
 fn advance(family: &mut impl Family, here: &Point, step: f64) -> Result<Option<(Point, f64)>, Error> {
     let guess = here.place() + &here.tangent * step;
     let Some((next, corrections)) = correct(family, guess, &here.tangent)? else { return Ok(None) };
@@ -189,7 +191,7 @@ fn advance(family: &mut impl Family, here: &Point, step: f64) -> Result<Option<(
     Ok(Some((next, factor * step)))
 }
 
-/// Newton's method in the plane across `normal` through `guess`; the corrections that it took.
+/// Newton's method in the plane normal to `normal` through `guess`; also returns the number of corrections.
 fn correct(
     family: &mut impl Family,
     guess: DVector<f64>,
@@ -216,7 +218,7 @@ fn correct(
     Ok(None)
 }
 
-/// Tangent and eigenvalues at a solved place.
+/// Completes a converged point with its tangent and eigenvalues.
 fn finish(
     family: &mut impl Family,
     place: &DVector<f64>,
@@ -238,7 +240,7 @@ fn finish(
     }))
 }
 
-/// The matrix of Newton's method on the branch and in the plane across `normal`: regular at folds, too.
+/// Bordered matrix of Newton's method on the branch and in the plane normal to `normal`: regular at folds, too.
 fn bordered(local: &Local, normal: &DVector<f64>) -> DMatrix<f64> {
     let size = local.gradient.len();
     let mut out = local.hessian.clone().resize(size + 1, size + 1, 0.0);
@@ -247,8 +249,10 @@ fn bordered(local: &Local, normal: &DVector<f64>) -> DMatrix<f64> {
     out
 }
 
-/// The singular point within a step, if it has one; `None` if there are several, or none where there should be one
-/// because the step has led to another branch: a shorter one tells.
+/// The singular point within a step, if it has one; `None` if a shorter step is needed.
+///
+/// That is the case if there are several, or none is found where there should be one because the step has led to another
+/// branch.
 fn between(
     family: &mut impl Family,
     here: &Point,
@@ -271,8 +275,8 @@ fn between(
     Ok(found.map(|point| vec![point]))
 }
 
-/// Finds where `measure` vanishes within a step: by secants that keep the zero between them (the Illinois rule: M. Dowell
-/// and P. Jarratt, BIT 11, 1971).
+/// Locates the zero of `measure` within a step by bracketing secants (Illinois rule: M. Dowell and P. Jarratt, BIT 11, 1971,
+/// doi:10.1007/BF01934364).
 fn locate(
     family: &mut impl Family,
     here: &Point,
@@ -303,7 +307,7 @@ fn locate(
     Ok(found)
 }
 
-/// The point of a step at this parameter.
+/// The point within a step at this parameter.
 fn at_limit(
     family: &mut impl Family,
     here: &Point,

@@ -2,13 +2,13 @@
 
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
-/// So few vectors need no storage on the heap for their tridiagonal matrix.
+/// Number of vectors up to which the tridiagonal matrix needs no heap storage.
 const FEW: usize = 8;
 
-/// How hard the eigenvalue is looked for.
+/// Limits of the eigenvalue search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Lanczos vectors at most.
+    /// Largest number of Lanczos vectors.
     pub vectors: usize,
     /// Residual of the eigenvector, relative to its eigenvalue, at which the search ends; the eigenvalue's
     /// error is of second order in it.
@@ -21,7 +21,7 @@ pub fn inner(metric: &[f64], a: &[f64], b: &[f64]) -> f64 {
     metric.iter().zip(a).zip(b).map(|((k, x), y)| k * x * y).sum()
 }
 
-/// The search, with storage that makes the next one allocate nothing.
+/// Lanczos solver with reusable storage, so that later searches do not allocate.
 #[derive(Debug, Clone, Default)]
 pub struct Lanczos {
     basis: Vec<Vec<f64>>,
@@ -32,12 +32,12 @@ pub struct Lanczos {
 }
 
 impl Lanczos {
-    /// The smallest `lambda`, and its vector (`x^T K x = 1`) in `vector`, which is also the first guess.
+    /// The smallest `lambda`; its eigenvector (`x^T K x = 1`) replaces the initial guess in `vector`.
     ///
-    /// `solve` replaces its argument by `(H + shift K)^-1` times it and must belong to a positive definite matrix;
-    /// the method is Lanczos' on `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation
-    /// (Golub and Van Loan, Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. A
-    /// search that ends early answers an upper bound. NaN for a vector or a solver that is not finite.
+    /// `solve` replaces its argument by `(H + shift K)^-1` times it, for a positive definite matrix. The method is Lanczos' on
+    /// `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation (Golub and Van Loan, Matrix Computations,
+    /// 10.1), which finds the eigenvalues nearest to `-shift` first. A search that ends early returns an upper bound. NaN for a
+    /// vector or a solution that is not finite.
     pub fn smallest(
         &mut self,
         metric: &[f64],
@@ -76,7 +76,7 @@ impl Lanczos {
             }
             solve(image);
             diagonal.push(inner(&basis[count - 1], image));
-            // Once more against rounding.
+            // Orthogonalised twice against rounding.
             for earlier in basis[..count].iter().chain(&basis[..count]) {
                 let along = inner(earlier, image);
                 for (entry, e) in image.iter_mut().zip(earlier) {
@@ -86,7 +86,7 @@ impl Lanczos {
             let value = largest(diagonal, beside, weights);
             let rest = inner(image, image).sqrt();
             let last = weights.last().copied().unwrap_or(0.0).abs();
-            // One vector alone is its own guess: it is confirmed by a second.
+            // A single vector is only its own guess: a second one must confirm it.
             let settled = count > 1 && rest * last <= search.settled * value;
             if settled || count == most || rest <= f64::EPSILON * value {
                 vector.fill(0.0);
@@ -101,7 +101,7 @@ impl Lanczos {
     }
 }
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix, with its vector in `weights`.
+/// Largest eigenvalue of a symmetric tridiagonal matrix, with its eigenvector in `weights`.
 fn largest(diagonal: &[f64], beside: &[f64], weights: &mut Vec<f64>) -> f64 {
     let size = diagonal.len();
     let entry = |i: usize, j: usize| match i.abs_diff(j) {
@@ -112,7 +112,7 @@ fn largest(diagonal: &[f64], beside: &[f64], weights: &mut Vec<f64>) -> f64 {
     };
     weights.clear();
     if size <= FEW {
-        // The zeros around it do no harm: the largest eigenvalue is positive.
+        // Padding with zeros is harmless: the largest eigenvalue is positive.
         let eigen = SymmetricEigen::new(SMatrix::<f64, FEW, FEW>::from_fn(entry));
         let top = eigen.eigenvalues.imax();
         weights.extend(eigen.eigenvectors.column(top).iter().take(size));

@@ -1,27 +1,28 @@
-//! Levenberg-Marquardt: a root by least squares, damped where the residual is far from linear.
+//! Levenberg-Marquardt method: a root by least squares, damped where the residual is far from linear.
 //!
 //! ```text
 //! (J^T J + lambda D^2) s = -J^T r,     lambda = mu |r|,     D = column norms of J, the largest so far
 //! ```
 //!
-//! solved by an orthogonal factorisation, because the normal equations would square a condition that shooting makes large.
-//! `mu` follows the ratio of actual to predicted decrease. Sources: Moré, Lect. Notes Math. 630, 1978 (scaling,
-//! factorisation); Fan and Yuan, Computing 74, 2005 (`lambda` in step with the residual, so that the end is quadratic).
+//! solved by an orthogonal factorisation, because the normal equations would square the condition number, which shooting makes
+//! large. `mu` follows the ratio of actual to predicted decrease. Sources: Moré, Lect. Notes Math. 630, 1978,
+//! doi:10.1007/BFb0067700 (scaling, factorisation); Fan and Yuan, Computing 74, 2005 (`lambda` proportional to the residual, so
+//! that the final convergence is quadratic).
 
 use nalgebra::{DMatrix, DVector};
 
-/// What is brought to zero.
+/// System of equations whose residual is brought to zero.
 pub trait LeastSquares {
     /// Residual at `x`; `None` where it is not defined.
     fn residual(&mut self, x: &DVector<f64>) -> Option<DVector<f64>>;
-    /// Its derivative at `x`, where it is `residual`.
+    /// Derivative of the residual at `x`; `residual` is its value there.
     fn jacobian(&mut self, x: &DVector<f64>, residual: &DVector<f64>) -> Option<DMatrix<f64>>;
 }
 
-/// How a search for a root ended.
+/// Result of a root search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ending {
-    /// Whether the residual came under the tolerance.
+    /// Whether the residual fell below the tolerance.
     pub converged: bool,
     /// Iterations used.
     pub iterations: u32,
@@ -29,16 +30,16 @@ pub struct Ending {
     pub residual: f64,
 }
 
-/// First damping over the norm of the residual.
+/// Initial damping relative to the norm of the residual.
 const FIRST: f64 = 1e-2;
 
-/// Bounds of the same: below, nothing is damped; above, no step can help.
+/// Bounds of the relative damping: below, it has no effect; above, no step can help.
 const BOUNDS: [f64; 2] = [1e-8, 1e12];
 
 /// Factor by which the damping changes.
 const FACTOR: f64 = 4.0;
 
-/// Ratios of actual to predicted decrease: a step is taken, it was worse, it was better than expected.
+/// Thresholds of the ratio of actual to predicted decrease: to accept a step, to increase and to decrease the damping.
 const RATIOS: [f64; 3] = [1e-4, 0.25, 0.75];
 
 /// Moves `x` to a root of `system`, in at most `iterations`.

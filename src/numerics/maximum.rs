@@ -1,14 +1,13 @@
 //! The maximum of a function of one variable.
 
-/// Golden section steps: they leave 4e-11 of an interval.
+/// Golden-section steps: they reduce an interval to 4e-11 of its width.
 const STEPS: usize = 50;
 
-/// Largest value of `f` between `low` and `high`, and where it is taken.
+/// Largest value of `f` between `low` and `high`, and its location.
 ///
-/// The interval is looked at in so many `parts`; around each of their ends that is higher than its neighbours and above
-/// `worth`, a golden section goes on (J. Kiefer, Proc. AMS 4, 1953, doi:10.2307/2032161). It finds a maximum that is alone
-/// in its two parts: of a function that rises and then falls, with one part, the maximum itself, its place to 4e-11 of the
-/// interval.
+/// The interval is sampled in so many `parts`; around each of their ends that is higher than its neighbours and above `worth`,
+/// a golden-section search follows (J. Kiefer, Proc. AMS 4, 1953, doi:10.2307/2032161). It finds a maximum that is the only one
+/// in its two parts: for a unimodal function, with one part, the maximum itself, located to 4e-11 of the interval.
 ///
 /// ```
 /// use mcm::numerics::maximum::largest;
@@ -35,7 +34,7 @@ pub fn largest(mut f: impl FnMut(f64) -> f64, [low, high]: [f64; 2], parts: usiz
     best
 }
 
-/// The maximum inside an interval in which `f` rises and then falls.
+/// The maximum inside an interval in which `f` rises and then falls (is unimodal).
 fn golden(f: &mut impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let inner = |low: f64, high: f64| (high - ratio * (high - low), low + ratio * (high - low));

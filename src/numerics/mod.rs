@@ -1,4 +1,4 @@
-//! Numerical methods that know no physics.
+//! Numerical methods, independent of the physics.
 
 pub mod arnoldi;
 pub mod bisection;

@@ -1,29 +1,29 @@
 //! Newton's method, damped by the natural monotonicity test.
 //!
-//! A step is shortened until the *next* correction with the same derivative is smaller than the last: the size of a
-//! correction, other than that of a residual, does not depend on how the equations are scaled, and says how far the root
-//! is. Source: Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, ch. 3 (algorithm NLEQ-ERR).
+//! A step is shortened until the *next* correction with the same derivative is smaller than the last: unlike the norm of a
+//! residual, the norm of a correction does not depend on the scaling of the equations, and it estimates the distance to the
+//! root. Source: Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, ch. 3 (algorithm NLEQ-ERR).
 
 use super::levenberg_marquardt::Ending;
 
-/// Equations in an unknown that may live on a manifold.
+/// Nonlinear equations in an unknown that may lie on a manifold.
 pub trait Equations {
     /// The unknown.
     type Point: Clone;
-    /// Computes the residual at a point and keeps it; its norm, or `None` where it is not defined.
+    /// Computes and stores the residual at a point; returns its norm, or `None` where it is not defined.
     fn evaluate(&mut self, at: &Self::Point) -> Option<f64>;
-    /// Computes residual and derivative and keeps the derivative factorised; the residual's norm.
+    /// Computes and stores the residual and the factorised derivative; returns the residual's norm.
     fn linearise(&mut self, at: &Self::Point) -> Option<f64>;
-    /// The correction for the last residual with the last derivative, in coordinates of one size.
+    /// The correction for the last residual with the last derivative, in nondimensional coordinates.
     fn correction(&mut self) -> Option<Vec<f64>>;
-    /// The point moved by the part `factor` of a correction.
+    /// The point moved by the fraction `factor` of a correction.
     fn moved(&self, at: &Self::Point, step: &[f64], factor: f64) -> Self::Point;
 }
 
-/// Smallest part of a correction that is tried.
+/// Smallest damping factor that is tried.
 const SMALLEST: f64 = 1e-4;
 
-/// A correction this small (in the coordinates' unit) moves by rounding alone.
+/// Norm of a correction (in the coordinates' unit) below which it is rounding alone.
 const ROUNDING: f64 = 1e-11;
 
 fn norm(step: &[f64]) -> f64 {
@@ -32,12 +32,12 @@ fn norm(step: &[f64]) -> f64 {
 
 /// Moves `x` to a root, in at most `iterations` linearisations.
 ///
-/// It has converged when the residual's norm is at most `tolerance`. Where rounding keeps it above, the last correction
-/// decides, as long as the residual is within a thousand tolerances.
+/// Converged when the residual's norm is at most `tolerance`. Where rounding keeps it above, convergence is decided by the last
+/// correction, as long as the residual is within a thousand tolerances.
 pub fn solve<E: Equations>(equations: &mut E, x: &mut E::Point, tolerance: f64, iterations: u32) -> Ending {
     let mut end = Ending { converged: false, iterations: 0, residual: f64::INFINITY };
     let mut damping = 1.0_f64;
-    // Length of the last correction, and the simplified one that followed it.
+    // Norm of the last correction, and the simplified correction that followed it.
     let mut last: Option<(f64, Vec<f64>)> = None;
     while end.iterations < iterations {
         let Some(residual) = equations.linearise(x) else { break };
@@ -57,7 +57,7 @@ pub fn solve<E: Equations>(equations: &mut E, x: &mut E::Point, tolerance: f64, 
             break;
         }
         if let Some((before, simplified)) = &last {
-            // How much the derivative has changed over the last step foretells how far this one may go.
+            // The change of the derivative over the last step predicts the damping of this one.
             let change: Vec<f64> = simplified.iter().zip(&step).map(|(a, b)| a - b).collect();
             let guess = before * norm(simplified) / (norm(&change) * length).max(f64::MIN_POSITIVE) * damping;
             damping = guess.clamp(SMALLEST, 1.0);

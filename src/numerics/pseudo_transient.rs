@@ -1,26 +1,28 @@
-//! Pseudo-transient continuation: the overdamped motion `K dx/dt = -g(x)` followed by implicit Euler steps until it rests.
+//! Pseudo-transient continuation: implicit Euler steps of the overdamped motion `K dx/dt = -g(x)` to rest.
 //!
-//! It finds the equilibrium that a slow, damped motion ends at, also where the forces have no potential to descend. The steps
-//! grow as the residual shrinks, so that the end is Newton's method. Source: Kelley and Keyes, SIAM J. Numer. Anal. 35, 508
-//! (1998), doi:10.1137/S0036142996304796.
+//! It finds the equilibrium in which a slow, damped motion ends, also where the forces are not conservative and there is no
+//! potential to minimise. The steps grow as the residual shrinks, so that the method becomes Newton's at the end. Source:
+//! Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998), doi:10.1137/S0036142996304796.
 
 use super::trust_region::{Minimum, Objective, Region, dual_norm, norm};
 
-/// First shift, the inverse of the first step in time: some tenths of the time constant of the elastic forces.
+/// Initial shift, the inverse of the first time step: some tenths of the time constant of the elastic forces.
 const FIRST: f64 = 2.0;
 
-/// Growth of the shift after a step that was refused, and its least decrease after one that was taken.
+/// Growth of the shift after a rejected step, and its minimum decrease after an accepted one.
 const GROWTH: f64 = 4.0;
 const DECREASE: f64 = 0.5;
 
-/// Largest growth of the residual in one step: on the way over a hill it grows.
+/// Largest growth of the residual in one step: it grows while a hill is crossed.
 const UPHILL: f64 = 2.0;
 
-/// Largest shift: steps so short lead nowhere.
+/// Largest shift; with such short steps there is no progress.
 const LARGEST: f64 = 1e8;
 
-/// Moves `x` along the damped motion until the gradient's dual norm is within the tolerance of `region`, no step being longer
-/// than its first radius, as long as `proceed` is true before a step. `converged` tells nothing about stability.
+/// Moves `x` along the damped motion until the gradient's dual norm is within the tolerance of `region`.
+///
+/// No step is longer than the initial radius; stops early when `proceed` is false before a step. `converged` does not imply
+/// stability.
 pub fn settle(
     objective: &mut impl Objective,
     x: &mut [f64],

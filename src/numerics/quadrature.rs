@@ -37,7 +37,7 @@ pub fn gauss_legendre(points: usize) -> (Vec<f64>, Vec<f64>) {
     (nodes, weights)
 }
 
-/// The zero of `P_n` next to `guess`, and the slope of `P_n` there.
+/// The zero of `P_n` closest to `guess`, and the slope of `P_n` there.
 fn legendre_zero(n: usize, guess: f64) -> (f64, f64) {
     let mut x = guess;
     let mut slope = legendre(n, x).1;

@@ -1,24 +1,24 @@
 //! Minimisation by Newton's method in a trust region, measured in the norm of a given diagonal metric `K`.
 //!
-//! The step of each iteration minimises the quadratic model inside the region: `(H + shift K) s = -g` with the
-//! `shift` that puts `s` on the rim (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983). It ends at a
-//! minimum, not at a saddle: from a saddle it leaves along the direction of negative curvature. A step that the model
-//! predicts badly is bent to follow the valley.
+//! The step of each iteration minimises the quadratic model inside the region: `(H + shift K) s = -g` with the `shift` that
+//! puts `s` on the boundary (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983, doi:10.1137/0904038). It ends at a minimum,
+//! not at a saddle: a saddle is left along the direction of negative curvature. A step that the model predicts poorly is
+//! corrected to follow a curved valley.
 
 use super::eigenvalue::{Lanczos, Search, inner};
 
-/// What is minimised.
+/// Function to be minimised.
 pub trait Objective {
-    /// Computes the gradient at `x` and keeps it, beside the Hessian of the last linearisation; the value, or `None` where it
-    /// is not defined.
+    /// Computes and stores the gradient at `x`, keeping the Hessian of the last linearisation; returns the value, or `None`
+    /// where it is not defined.
     fn slope(&mut self, x: &[f64]) -> Option<f64>;
-    /// Computes gradient and Hessian at `x` and keeps them; the value, or `None` where it is not defined.
+    /// Computes and stores gradient and Hessian at `x`; returns the value, or `None` where it is not defined.
     fn linearise(&mut self, x: &[f64]) -> Option<f64>;
-    /// The gradient of the last linearisation or slope.
+    /// The gradient of the last call of `slope` or `linearise`.
     fn gradient(&self) -> &[f64];
-    /// Factorises `H + shift K`; whether it is positive definite.
+    /// Factorises `H + shift K`; returns whether it is positive definite.
     fn factorise(&mut self, shift: f64) -> bool;
-    /// Whether the damped motion along the last factorised matrix loses energy in every direction.
+    /// Whether the damped motion with the last factorised matrix dissipates energy in every direction.
     fn dissipates(&self) -> bool {
         true
     }
@@ -28,20 +28,20 @@ pub trait Objective {
     fn metric(&self) -> &[f64];
 }
 
-/// Knobs of the trust region; all lengths are in the norm of `K`.
+/// Settings of the trust region; all lengths are in the norm of `K`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Region {
-    /// First radius.
+    /// Initial radius.
     pub radius: f64,
     /// Largest radius.
     pub largest: f64,
-    /// The gradient's dual norm at which a point is stationary.
+    /// Dual norm of the gradient at which a point counts as stationary.
     pub tolerance: f64,
-    /// Iterations at most.
+    /// Largest number of iterations.
     pub iterations: u32,
 }
 
-/// How a minimisation ended.
+/// Result of a minimisation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Minimum {
     /// Whether a stationary point with positive definite Hessian was reached.
@@ -50,38 +50,38 @@ pub struct Minimum {
     pub iterations: u32,
     /// Dual norm of the last gradient.
     pub residual: f64,
-    /// Whether a saddle was left along a direction that its symmetry leaves open (a tie).
+    /// Whether a saddle was left in a direction that symmetry leaves undetermined (a tie).
     pub tie: bool,
 }
 
-/// Smallest radius, relative to the first, before the search is given up.
+/// Radius, relative to the initial one, below which the search is given up.
 const SMALLEST: f64 = 1e-10;
 
-/// Change of the value, relative to it, below which its rounding spoils a comparison: values are sums that cancel.
+/// Relative change of the value below which its rounding spoils a comparison: values are sums with cancellation.
 const ROUNDING: f64 = 1e-8;
 
-/// Width of the bracket of the shift, relative to it, at which a step that is still inside the region is the hard case.
+/// Relative width of the bracket of the shift at which a step still inside the region is the hard case.
 const HARD: f64 = 1e-3;
 
-/// Decrease of the radius after a step that was refused.
+/// Factor on the radius after a rejected step.
 const SHRINKING: f64 = 0.4;
 
-/// Ratio of the real to the predicted decrease above which the quadratic model is good.
+/// Ratio of actual to predicted decrease above which the quadratic model is good.
 const GOOD: f64 = 0.75;
 
-/// The same for a bent step, of whose decrease the model knows less.
+/// The same for a corrected step, whose decrease the model predicts less well.
 const FAIR: f64 = 0.4;
 
-/// Stiffness, relative to the metric, from which on a direction is a wall of a valley.
+/// Stiffness, relative to the metric, above which a direction counts as a wall of a valley.
 const STIFF: f64 = 0.05;
 
-/// Part of a step by which it was bent last where it follows the valley.
+/// Size of the last correction, relative to the step, below which the step follows the valley.
 const BENT: f64 = 0.05;
 
-/// How often a step is bent at most.
+/// Largest number of corrections of a step.
 const BENDS: u32 = 8;
 
-/// Shifts at most that are tried for one step.
+/// Largest number of shifts tried for one step.
 const SHIFTS: u32 = 40;
 
 /// Norm of `x` in the metric.
@@ -96,7 +96,7 @@ pub fn dual_norm(metric: &[f64], g: &[f64]) -> f64 {
     metric.iter().zip(g).map(|(k, v)| v * v / k).sum::<f64>().sqrt()
 }
 
-/// Moves `x` to a minimum of `objective`, as long as `proceed` is true before an iteration.
+/// Moves `x` to a minimum of `objective`; stops early when `proceed` is false before an iteration.
 pub fn minimise(
     objective: &mut impl Objective,
     x: &mut [f64],
@@ -122,7 +122,7 @@ pub fn minimise(
         let Model { decrease, shift } = model_step(objective, &gradient, definite, radius, &mut step);
         let length = norm(objective.metric(), &step);
         trial.iter_mut().zip(x.iter().zip(&step)).for_each(|(t, (a, b))| *t = a + b);
-        // Near the rounding of the value the gradients tell the decrease, by the trapezoidal rule.
+        // Where rounding dominates the value, the decrease is computed from the gradients by the trapezoidal rule.
         let rounding = decrease.abs() <= ROUNDING * value.abs();
         let gain_at = |objective: &mut dyn Objective, trial: &[f64]| {
             let next = objective.slope(trial)?;
@@ -168,10 +168,12 @@ pub fn minimise(
     end
 }
 
-/// Writes to `back` how a step is to be bent, so that it follows a curved valley, and returns how far: back down its stiff walls
-/// from where it has led to, `-(H + (shift + STIFF) K)^-1 (g' + shift K s)`, as the quadratic model leaves the gradient
-/// `-shift K s` there. It is the second-order correction of trust regions (Conn, Gould and Toint, Trust-Region Methods,
-/// SIAM 2000, section 15.3.2.3) for walls that are stiff and not rigid.
+/// Writes the second-order correction of a step to `back`, so that it follows a curved valley; returns its norm.
+///
+/// It moves from the end of the step back down the stiff walls, `-(H + (shift + STIFF) K)^-1 (g' + shift K s)`, as the
+/// quadratic model leaves the gradient `-shift K s` there. It is the second-order correction of trust regions (Conn, Gould and
+/// Toint, Trust-Region Methods, SIAM 2000, doi:10.1137/1.9780898719857, section 15.3.2.3) for walls that are stiff and not
+/// rigid.
 fn bend(objective: &mut impl Objective, shift: f64, step: &[f64], back: &mut [f64]) -> f64 {
     let metric = objective.metric();
     for (((b, g), k), s) in back.iter_mut().zip(objective.gradient()).zip(metric).zip(step) {
@@ -181,11 +183,11 @@ fn bend(objective: &mut impl Objective, shift: f64, step: &[f64], back: &mut [f6
     norm(objective.metric(), back)
 }
 
-/// What the quadratic model tells of its step.
+/// Prediction of the quadratic model for its step.
 struct Model {
-    /// The decrease that it predicts.
+    /// Predicted decrease.
     decrease: f64,
-    /// The shift with which the step was found.
+    /// Shift of the step.
     shift: f64,
 }
 
@@ -240,13 +242,13 @@ fn model_step(
             *s *= radius / length;
         }
     }
-    // g.s + s.H s / 2 with H s = -g - shift K s holds for the unscaled step; scaling errs on the safe side.
+    // g.s + s.H s / 2 with H s = -g - shift K s holds for the unscaled step; for a scaled step it is conservative.
     let linear: f64 = gradient.iter().zip(step.iter()).map(|(g, s)| g * s).sum();
     let length = norm(objective.metric(), step);
     Model { decrease: 0.5 * (shift * length * length - linear), shift }
 }
 
-/// Between the bounds of the shift; the eigenvalues relative to the metric are of order one.
+/// A value between the bounds of the shift; the eigenvalues relative to the metric are of order one.
 fn middle(low: f64, high: f64) -> f64 {
     if high.is_finite() {
         (low * high).sqrt().max(0.5 * low + 0.01 * high).min(0.5 * (low + high).max(low))
@@ -255,9 +257,10 @@ fn middle(low: f64, high: f64) -> f64 {
     }
 }
 
-/// Lengthens `step`, which solves `(H + shift K) s = -g` inside the region, to its rim along the direction `z` of most
-/// negative curvature `lambda`: the hard case of Moré and Sorensen, as at a saddle. Returns the decrease that the model
-/// predicts, with `H s = -g - shift K s`.
+/// Extends `step` to the boundary of the region along the direction of most negative curvature (hard case).
+///
+/// `step` solves `(H + shift K) s = -g` inside the region; the direction `z` has curvature `lambda`: the hard case of Moré and
+/// Sorensen, as at a saddle. Returns the decrease that the model predicts, with `H s = -g - shift K s`.
 fn along_negative_curvature(
     objective: &mut impl Objective,
     gradient: &[f64],
@@ -288,7 +291,7 @@ fn along_negative_curvature(
     inside + decrease(tau)
 }
 
-/// Adds to `x` a fixed vector of norm `size` in the metric with a part in every direction.
+/// Adds to `x` a fixed vector of norm `size` in the metric with a component in every direction.
 pub fn spread(metric: &[f64], x: &mut [f64], size: f64) {
     let golden = 0.618_033_988_749_894_9;
     let scale = size / (metric.len() as f64).sqrt();

@@ -1,16 +1,16 @@
 //! Strain modes of an element: a stress resultant times the local compliance.
 //!
-//! One element spans a whole segment, stiff discs and soft core alike. Along the core the resultant is a
-//! Legendre polynomial; along a disc it keeps the value at the core's end, may vary linearly where a distributed
-//! couple makes it, and may jump where windings that touch bear their part along the core. Orthogonal in the elastic
-//! energy, all modes but the first leave the element's ends where they are.
+//! One element spans a whole segment, stiff discs and soft core alike. Along the core the resultant is a Legendre polynomial.
+//! Along a disc it keeps the value at the core's end, may vary linearly where required by a distributed couple, and may jump
+//! where touching windings carry a part of it along the core. The modes are orthogonal in the elastic energy; all but the first
+//! leave the element's ends unchanged.
 
 use crate::numerics::quadrature::gauss_legendre;
 
-/// A part of an element with one compliance.
+/// A part of an element with constant compliance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Part {
-    /// Where it starts, m.
+    /// Arc length of its start, m.
     pub(super) start: f64,
     /// Its length, m.
     pub(super) length: f64,
@@ -18,14 +18,14 @@ pub(super) struct Part {
     pub(super) compliance: f64,
 }
 
-/// How the resultant in the discs follows from that at the core's ends.
+/// Variation of the resultant in the discs relative to that at the core's ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ends {
-    /// It is the same.
+    /// Equal to it.
     Constant,
-    /// It may vary linearly from there.
+    /// Linear variation from there.
     Linear,
-    /// It may jump by the same amount at both ends of the core, and vary linearly from there.
+    /// A jump, the same at both ends of the core, and linear variation from there.
     Jump,
 }
 
@@ -40,7 +40,7 @@ pub(super) struct Modes {
     degree: usize,
     ends: Ends,
     total: f64,
-    /// Each mode's coefficients of the raw functions.
+    /// Coefficients of each mode in terms of the raw functions.
     coefficients: Vec<Vec<f64>>,
 }
 
@@ -63,8 +63,9 @@ impl Modes {
         1.0 / self.total
     }
 
-    /// Part, arc length and weight of quadrature points that integrate products of two resultants exactly, up to those of
-    /// this degree; the weights, with the compliance in them, add up to one.
+    /// Part, arc length and weight of points that integrate products of two resultants of this degree exactly.
+    ///
+    /// The weights include the compliance and add up to one.
     fn points(&self, degree: usize) -> impl Iterator<Item = (usize, f64, f64)> {
         let (nodes, weights) = gauss_legendre(degree + 2);
         let rule: Vec<(f64, f64)> = nodes.into_iter().zip(weights).collect();
@@ -77,8 +78,10 @@ impl Modes {
         })
     }
 
-    /// By own mode and mode of `other`, for the same parts: the amplitudes whose strain is nearest, in the elastic energy, to
-    /// that of a unit amplitude of each of the others; the same strain where the degree is at least as high.
+    /// Projection of the modes of `other`, for the same parts, onto these, by own mode and mode of `other`.
+    ///
+    /// The amplitudes whose strain is nearest, in the elastic energy, to that of a unit amplitude of each other mode; the same
+    /// strain where the degree is at least as high.
     pub(super) fn projection(&self, other: &Self) -> Vec<Vec<f64>> {
         let mut out = vec![vec![0.0; other.count()]; self.count()];
         for (part, s, weight) in self.points(self.degree.max(other.degree)) {
@@ -94,7 +97,7 @@ impl Modes {
         out
     }
 
-    /// Gram-Schmidt, twice for full precision, with exact quadrature.
+    /// Gram-Schmidt orthogonalisation, applied twice for full precision, with exact quadrature.
     fn orthogonalise(&mut self) {
         let samples: Vec<(Vec<f64>, f64)> =
             self.points(self.degree).map(|(part, s, weight)| (self.raw(part, s), weight)).collect();
@@ -120,7 +123,7 @@ impl Modes {
         }
     }
 
-    /// Raw functions at `s` in part `index`: Legendre polynomials clamped to the core, one slope a disc, and a jump.
+    /// Raw functions at `s` in part `index`: Legendre polynomials constant outside the core, one slope per disc, and a jump.
     fn raw(&self, index: usize, s: f64) -> Vec<f64> {
         let core = self.parts[self.core];
         let x = match index.cmp(&self.core) {

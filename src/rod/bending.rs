@@ -1,4 +1,4 @@
-//! Elastic bending and torsion of a station, by the rotation vector and its rate.
+//! Elastic bending and torsion energy of a station as a function of the rotation vector and its rate.
 //!
 //! The curvature is `J_r(theta) theta'`, so that the energy density `1/2 u^T K_bt u` (Richter et al., Eq. 12) depends on
 //! both.
@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::kinematics::StationState;
 use crate::design::Stiffness;
 
-/// First and second derivatives.
+/// First and second derivatives of the energy with respect to rotation vector and rate.
 pub(super) struct Bending {
     pub(super) slope: Vector3<f64>,
     pub(super) rate_slope: Vector3<f64>,
@@ -18,7 +18,7 @@ pub(super) struct Bending {
 }
 
 impl Bending {
-    /// At a station with quadrature weight `weight`, m.
+    /// Derivatives at a station with quadrature weight `weight`, m.
     pub(super) fn new(state: &StationState, stiffness: &Stiffness, weight: f64) -> Self {
         let right = state.left.transpose();
         let curvature = right * state.rate;
@@ -43,7 +43,7 @@ fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
     Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
 }
 
-/// Derivatives of a station's bending and torsion energy by rotation vector and rate.
+/// Derivatives of a station's bending and torsion energy with respect to rotation vector and rate.
 pub(super) fn gradient(
     state: &StationState,
     stiffness: &Stiffness,

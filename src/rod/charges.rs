@@ -1,11 +1,11 @@
-//! Magnetic charges in one plane across a frame's axis: their energy from a few sums of potential, field and gradient.
+//! Magnetic charges in a plane normal to a frame's axis: their energy from weighted sums of potential, field and gradient.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::load::Load;
 use crate::geometry::hat;
 
-/// Sums over the charges of a plane, weighted with the charges and with the coordinates `x`, `y` along `d1`, `d2`.
+/// Sums over the charges of a plane, weighted with the charges and with their coordinates `x`, `y` along `d1`, `d2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Charges {
     potential: f64,
@@ -16,7 +16,7 @@ pub struct Charges {
 }
 
 impl Charges {
-    /// No charges; `stiff` where second derivatives are summed too.
+    /// No charges; `stiff` if second derivatives are summed too.
     #[must_use]
     pub fn new(stiff: bool) -> Self {
         Self {
@@ -26,8 +26,9 @@ impl Charges {
         }
     }
 
-    /// Adds a charge (A m: magnetisation times area) at `position` (m) in a field (T) with this potential (T m) and, for the
-    /// second derivatives, this gradient (T/m).
+    /// Adds a charge (A m: magnetisation times area) at `position` (m).
+    ///
+    /// `potential` (T m), `field` (T) and, for the second derivatives, `gradient` (T/m) are the values there.
     pub fn add(
         &mut self,
         charge: f64,
@@ -47,11 +48,11 @@ impl Charges {
         }
     }
 
-    /// The energy `sum q psi` as a load on a frame whose directors are the columns of `directors` and along whose axis the
-    /// plane is at `height` (m).
+    /// The energy `sum q psi` as a load on a frame with the columns of `directors` as directors.
     ///
-    /// A charge follows the displacement of its place `p + A r` alone: with the arm `a = A r` its energy has the derivative
-    /// `-q B` by `p`, `-q B a^T` by `A`, and the second derivative `-q G` by the place.
+    /// The plane is at `height` (m) along the frame's axis. The energy of a charge depends on its position `p + A r` alone:
+    /// with the arm `a = A r` its derivative is `-q B` with respect to `p` and `-q B a^T` with respect to `A`, and its second
+    /// derivative with respect to the position is `-q G`.
     #[must_use]
     pub fn load(&self, directors: &Matrix3<f64>, height: f64) -> Load {
         let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| directors.column(i).into_owned());

@@ -1,8 +1,8 @@
 //! Quadrature over an element's material for the field of a ring, with as few points as its distance allows.
 //!
-//! The field is smooth over the material, the turning spiral is not: along the arc and around the centreline the spiral is
-//! integrated exactly against polynomials and harmonics through the points (product integration), so that only the
-//! field decides how many there are.
+//! The field is smooth over the material, unlike the helical spiral. Along the arc length and around the centreline the spiral
+//! is therefore integrated exactly against polynomials and harmonics through the points (product integration), so that their
+//! number depends on the field alone.
 
 use core::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ use crate::numerics::{lagrange, quadrature::gauss_legendre};
 pub struct SectionPoint {
     /// Position along `d1`, `d2`, m.
     pub position: Vector2<f64>,
-    /// Volume, m3; that of a single point may be negative.
+    /// Volume, m3; may be negative for a single point.
     pub volume: f64,
 }
 
-/// The points of one station.
+/// Quadrature points of one station.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StationQuadrature {
-    /// Number of the station.
+    /// Index of the station.
     pub station: usize,
     /// Magnetisation, A/m.
     pub magnetisation: f64,
@@ -37,7 +37,7 @@ pub struct StationQuadrature {
 }
 
 impl Element {
-    /// The points at which the energy of this element, made of `pieces`, in the field of a ring is summed up.
+    /// Quadrature points for the energy of this element, made of `pieces`, in the field of a ring.
     #[must_use]
     pub fn samples(&self, pieces: &[Piece<'_>], sight: &SourceGeometry) -> Vec<StationQuadrature> {
         let mut out = Vec::new();
@@ -69,10 +69,10 @@ impl Element {
     }
 }
 
-/// At least `count` of the nodes, spread like the Gauss points of their number and as symmetric.
+/// Selects at least `count` of the nodes, symmetric and distributed like that many Gauss points.
 fn subset(nodes: &[f64], count: usize) -> Vec<usize> {
     let even = nodes.len().is_multiple_of(2);
-    // The centre is only there to be taken if the number of nodes is odd.
+    // A centre node exists only if the number of nodes is odd.
     let count = if even { count.next_multiple_of(2) } else { count };
     if count >= nodes.len() {
         return (0..nodes.len()).collect();
@@ -94,7 +94,7 @@ fn subset(nodes: &[f64], count: usize) -> Vec<usize> {
     chosen
 }
 
-/// The section of a piece at one of the nodes that represent it.
+/// Section of a piece at one of the nodes that represent it.
 struct Section<'a> {
     piece: &'a Piece<'a>,
     nodes: &'a [f64],
@@ -121,14 +121,14 @@ impl Section<'_> {
                 SpiralKind::Axisymmetric => {
                     self.add_circle(&mut out, sector, spiral.sector_angle, radial, harmonics);
                 }
-                // The odd harmonics are no polynomials of the squared radius.
+                // The odd harmonics are not polynomials of the squared radius.
                 SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial.max(2), harmonics),
             }
         }
         out
     }
 
-    /// Weight (m) of this node in the integral along the piece of what varies like `value(arc length)`.
+    /// Passes the arc length and weight (m) of this node for each fine point of the integral along the piece to `value`.
     fn along(&self, mut value: impl FnMut(f64, f64)) {
         let half = 0.5 * self.piece.length;
         for (x, weight, polynomials) in self.fine {
@@ -136,7 +136,8 @@ impl Section<'_> {
         }
     }
 
-    /// The four points that carry the moments. Of a node with a negative weight no points of equal volume do.
+    /// The four-point rule with the moments of the section; `None` for a node with a negative weight, which may have no such
+    /// points of equal volume.
     fn moments(&self) -> Option<Vec<SectionPoint>> {
         let mut moments = SectionMoments::zero();
         self.along(|s, weight| moments.add_section(self.piece.span, s, weight));
@@ -145,7 +146,7 @@ impl Section<'_> {
         moments.are_of_material().then(points)
     }
 
-    /// An annulus of which `filled` (rad) is material, spread evenly.
+    /// Adds the points of an annulus of which `filled` (rad) is material, averaged around it.
     fn add_circle(
         &self,
         out: &mut Vec<SectionPoint>,
@@ -162,7 +163,7 @@ impl Section<'_> {
         }
     }
 
-    /// The turning sector: around the centreline its points integrate the harmonics exactly.
+    /// Adds the points of the helical sector, which integrate the harmonics around the centreline exactly.
     fn add_spiral(
         &self,
         out: &mut Vec<SectionPoint>,
@@ -188,7 +189,7 @@ impl Section<'_> {
     }
 }
 
-/// Part of the sector from `angle` to `angle + width` that falls to the point at angle zero, one of `points`, rad.
+/// Share (rad) of the sector from `angle` to `angle + width` assigned to the point at angle zero, one of `points`.
 fn part(angle: f64, width: f64, points: usize) -> f64 {
     let sum: f64 = (1..=points / 2)
         .map(|m| ((m as f64 * (angle + width)).sin() - (m as f64 * angle).sin()) / m as f64)
@@ -201,7 +202,7 @@ fn direction(k: usize, points: usize) -> Vector2<f64> {
     Vector2::new(cosine, sine)
 }
 
-/// Gauss points in the squared radius: radius and area per radian.
+/// Gauss points in the squared radius, as radius and area per radian.
 fn radii(bounds: [f64; 2], points: usize) -> impl Iterator<Item = (f64, f64)> {
     let [inner, outer] = bounds.map(|r| r * r);
     let (nodes, weights) = gauss_legendre(points);

@@ -1,4 +1,4 @@
-//! An element: the deformable spans between two nodes, with the tables of its modes and stations.
+//! An element: the deformable spans between two nodes, with tables of its modes and stations.
 
 use core::ops::Range;
 
@@ -15,26 +15,26 @@ use super::stop::{Contact, Stop};
 use crate::design::{SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
-/// Curvature about `d3`, whose modes are all polynomials.
+/// Component of the curvature about `d3`, all of whose modes are polynomials.
 const TORSION: usize = 2;
 
-/// Gauss points of a disc: its strain is some percent of the core's.
+/// Gauss points per disc: its strain is some percent of the core's.
 const DISC_POINTS: usize = 2;
 
-/// Gauss points of a core or rod beyond the number of modes, at least.
+/// Minimum number of Gauss points of a core or rod beyond the number of modes.
 const EXTRA_POINTS: usize = 1;
 
-/// Part of a mode that is left out when it is written by the modes of another element: rounding.
+/// Size below which a coefficient of the projection between elements is dropped as rounding.
 const NEGLIGIBLE: f64 = 1e-13;
 
-/// How finely an element is resolved.
+/// Resolution of an element: degree of the modes and quadrature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resolution {
     /// Polynomial degree of the strain modes; at least two more Gauss points are taken.
     pub degree: usize,
-    /// The nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
+    /// Geometry of the nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
     pub nearest: Option<SourceGeometry>,
-    /// Whether windings that touch stiffen a core.
+    /// Whether touching windings stiffen a core (bending stop).
     pub bending_stop: bool,
 }
 
@@ -47,16 +47,17 @@ pub struct Station {
     pub weight: f64,
     /// Section stiffness.
     pub stiffness: Stiffness,
-    /// The material that this station stands for.
+    /// Material represented by this station.
     pub material: SectionMaterial,
-    /// Its centroid and four points, for fields that are linear and quadratic over the section, m.
+    /// Centroid and four-point rule for fields that are linear and quadratic over the section, m.
     pub points: ([Vector2<f64>; 1], [Vector2<f64>; 4]),
     /// Mean square distance of the material from its centroid, m2.
     pub spread: f64,
 }
 
-/// Tables of one element; the unknowns are the mode amplitudes: the six constant modes first, which the end
-/// poses determine, then the others.
+/// Tables of one element.
+///
+/// The unknowns are the mode amplitudes: first the six constant modes, which are determined by the end poses, then the others.
 #[derive(Debug, Clone)]
 pub struct Element {
     /// Distance from the node before (proximal face of its ring) to the element's start, m.
@@ -69,9 +70,9 @@ pub struct Element {
     pub metric: Vec<f64>,
     /// Strain component of each degree of freedom, 0 to 5.
     pub component: Vec<usize>,
-    /// The same as runs: component and degrees of freedom.
+    /// The components as runs: component and range of degrees of freedom.
     pub runs: Vec<(usize, Range<usize>)>,
-    /// Rows at the ends of the core (or of the whole element, for a plain rod).
+    /// Mode tables at the ends of the core (or of the whole element, for a plain rod).
     pub core_ends: [Row; 2],
     stop: Option<Stop>,
     modes: [Modes; COMPONENTS],
@@ -147,8 +148,9 @@ impl Element {
         self.metric.len()
     }
 
-    /// By strain component, the degrees of freedom of its polynomial modes by degree: those that elements of the same
-    /// pieces share, whatever else they have.
+    /// Degrees of freedom of the polynomial modes, by strain component and degree.
+    ///
+    /// These are common to all elements of the same pieces, whatever other modes they have.
     #[must_use]
     pub fn polynomials(&self) -> [Vec<usize>; COMPONENTS] {
         let of = |c: usize| (0..self.freedoms()).filter(move |i| self.component[*i] == c);
@@ -156,8 +158,10 @@ impl Element {
         core::array::from_fn(|c| of(c).take(count).collect())
     }
 
-    /// Degrees of freedom here and of `other`, an element of the same pieces, and how much of a unit amplitude of the second
-    /// the first one takes up: the same strains where the degree is at least as high, else the nearest.
+    /// Projection of the modes of `other`, an element of the same pieces: own and other degree of freedom with coefficient.
+    ///
+    /// The coefficient is the own amplitude per unit amplitude of the other: the same strains where the degree is at least as
+    /// high, else the nearest.
     #[must_use]
     pub fn projection(&self, other: &Self) -> Vec<(usize, usize, f64)> {
         let of = |element: &Self, c: usize| -> Vec<usize> {
@@ -174,7 +178,7 @@ impl Element {
         out
     }
 
-    /// What the core's windings add to the elastic energy; `None` where they do not touch.
+    /// Contact energy of the core's windings; `None` where they do not touch.
     pub(super) fn contact(&self, amplitudes: &[f64]) -> Option<Contact> {
         self.stop.as_ref()?.contact(&self.core_ends, amplitudes, &self.component)
     }
@@ -240,8 +244,8 @@ impl Element {
     }
 }
 
-/// A table by mode, put in the order of the degrees of freedom: the first modes of all components, the other
-/// rotation modes, the other strain modes.
+/// Arranges a table by mode in the order of the degrees of freedom: the first modes of all components, the other rotation
+/// modes, the other strain modes.
 fn order<T>(tables: [Vec<T>; COMPONENTS]) -> Vec<T> {
     let mut columns = tables.map(Vec::into_iter);
     let mut out: Vec<T> = columns.iter_mut().filter_map(Iterator::next).collect();

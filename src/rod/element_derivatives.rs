@@ -1,8 +1,7 @@
-//! Gradient and Hessian of an element's energy by its mode amplitudes and by the pose of its start node.
+//! Element derivatives: gradient and Hessian of an element's energy by its mode amplitudes and the pose of its start node.
 //!
-//! Columns 0..3 are a displacement of the start node, 3..6 its rotation (both in the node's axes), the
-//! others the mode amplitudes. Everything is exact: the second variation of the rotation vector's
-//! exponential is the geometric stiffness.
+//! Columns 0..3 are a displacement of the start node, 3..6 its rotation (both in the node's axes), the others the mode
+//! amplitudes. All derivatives are exact: the second variation of the rotation vector's exponential is the geometric stiffness.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -13,7 +12,7 @@ use super::load::{Load, turning};
 use super::row::{COMPONENTS, ROTATIONS, Row};
 use super::stop::Contact;
 
-/// How far an evaluation goes.
+/// Order of the derivatives to evaluate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     /// Gradient only.
@@ -22,10 +21,10 @@ pub enum Order {
     Hessian,
 }
 
-/// Columns that belong to the start node.
+/// Number of columns of the start node.
 pub const START: usize = 6;
 
-/// First and second derivatives of one element's part of the Lagrangian.
+/// First and second derivatives of one element's contribution to the Lagrangian.
 #[derive(Debug, Clone)]
 pub struct ElementDerivatives {
     /// Rows and columns: six of the start node and the element's freedoms.
@@ -34,18 +33,18 @@ pub struct ElementDerivatives {
     pub gradient: Vec<f64>,
     /// Hessian, row by row, symmetric.
     pub hessian: Vec<f64>,
-    /// Displacement of the end by each amplitude, for a fixed start, m.
+    /// Derivative of the end's position with respect to each amplitude, for a fixed start, m.
     pub end_position: Vec<Vector3<f64>>,
-    /// Change of each station's tangent by the amplitudes: three rows a station.
+    /// Derivatives of each station's tangent with respect to the amplitudes: three rows per station.
     tangents: Vec<f64>,
-    /// Displacement and rotation of one station by every column: six rows.
+    /// Derivatives of one station's displacement and rotation with respect to every column: six rows.
     motion: Vec<f64>,
-    /// Force and moment that answer to them: six rows.
+    /// The station's load stiffness times these: six rows.
     answer: Vec<f64>,
 }
 
 impl ElementDerivatives {
-    /// Storage for `element`.
+    /// Allocates storage for `element`.
     #[must_use]
     pub fn new(element: &Element) -> Self {
         let freedoms = element.freedoms();
@@ -61,8 +60,9 @@ impl ElementDerivatives {
         }
     }
 
-    /// Adds up the elastic energy, the station loads and the wrench `(end_force, end_moment)` that the rest
-    /// of the chain puts on the end (derivatives of its energy), all in the axes of the start node.
+    /// Assembles the elastic energy, the station loads and the wrench `(end_force, end_moment)` on the end.
+    ///
+    /// That wrench is the load of the rest of the chain (derivatives of its energy). All are in the axes of the start node.
     pub fn assemble(
         &mut self,
         element: &Element,
@@ -86,7 +86,7 @@ impl ElementDerivatives {
             whole += load.couple + load.force * state.position.transpose();
             start_force += load.force;
             start_moment += state.position.cross(&load.force) + load.moment();
-            // Force that everything beyond this station puts on its tangent.
+            // Force of everything beyond this station on its tangent.
             let mut beyond = end.0 * element.stations[index].weight;
             for (other, distant) in element.stations.iter().zip(loads) {
                 beyond += distant.force * other.row.position[index];
@@ -120,7 +120,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// The turning of the start node, the stiffness against strain, and the lower triangle.
+    /// Adds the second-order rotation of the start node and the strain stiffness, and fills the lower triangle.
     fn complete(&mut self, element: &Element, whole: &Matrix3<f64>) {
         let turned = turning(whole);
         for i in 0..3 {
@@ -140,7 +140,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// Changes of each station's tangent, and of the end, by the amplitudes.
+    /// Computes the derivatives of each station's tangent and of the end with respect to the amplitudes.
     fn fill_tangents(&mut self, element: &Element, configuration: &Configuration) {
         let freedoms = element.freedoms();
         for (index, (state, station)) in configuration.stations.iter().zip(&element.stations).enumerate() {
@@ -161,7 +161,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// The part of a station in the gradient alone.
+    /// Adds the contribution of a station to the gradient alone.
     fn add_station_gradient(
         &mut self,
         element: &Element,
@@ -183,7 +183,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// Elastic bending of a station, and the second variation of its directors and tangent.
+    /// Adds the elastic bending of a station and the second variation of its directors and tangent.
     fn add_station(
         &mut self,
         element: &Element,
@@ -206,7 +206,7 @@ impl ElementDerivatives {
         for (i, (phi_i, psi_i)) in phi.iter().zip(psi).enumerate() {
             let a = element.component[i];
             let row = START + i;
-            // What this row adds per integral (phi) and per value (psi) of a column's mode, by component.
+            // Contribution of this row per integral (phi) and per value (psi) of a column's mode, by component.
             let (mut per_phi, mut per_psi) = ([0.0; COMPONENTS], [0.0; COMPONENTS]);
             if a < ROTATIONS {
                 self.gradient[row] += slope[a] * phi_i + bend.rate_slope[a] * psi_i;
@@ -251,12 +251,12 @@ impl ElementDerivatives {
         }
     }
 
-    /// Displacement and rotation of a station by every column, in the start node's axes: six rows.
+    /// Derivatives of a station's displacement and rotation with respect to every column, in the start node's axes: six rows.
     pub fn station_motion(&mut self, element: &Element, index: usize, state: &StationState) -> &[f64] {
         self.motion(element, &element.stations[index].row, &state.position, &state.left)
     }
 
-    /// The same for any place of the element, whose tables are `row` and whose position and left Jacobian are given.
+    /// The same derivatives at any arc length of the element, given its table `row`, position and left Jacobian.
     pub fn motion(
         &mut self,
         element: &Element,
@@ -293,7 +293,7 @@ impl ElementDerivatives {
         &self.motion
     }
 
-    /// Second derivatives of a station's load by its own position and directors.
+    /// Adds the second derivatives of a station's load with respect to its own position and directors.
     fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
         self.station_motion(element, index, state);
         let size = self.size;
@@ -315,7 +315,7 @@ impl ElementDerivatives {
         }
         for i in 0..size {
             let target = &mut self.hessian[i * size + i..][..size - i];
-            // Strains do not turn the station: their second pass is empty.
+            // Shear and extension do not rotate the station, so their second pass is empty.
             for half in [0, 3] {
                 let factor: [f64; 3] = core::array::from_fn(|k| self.motion[(half + k) * size + i]);
                 if factor.iter().all(|entry| *entry == 0.0) {
@@ -330,7 +330,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// Closed windings act on the rotation vectors at both ends of the core.
+    /// Adds the contact of closed windings, which acts on the rotation vectors at both ends of the core.
     fn add_contact(&mut self, element: &Element, contact: &Contact, second: bool) {
         let [near, far] = &element.core_ends;
         for (i, a) in element.component.iter().enumerate().filter(|(_, a)| **a < ROTATIONS) {
@@ -352,7 +352,7 @@ impl ElementDerivatives {
         }
     }
 
-    /// The moment on the end acts on the rotation vector from start to end alone.
+    /// Adds the moment on the end, which acts on the rotation vector from start to end alone.
     fn add_end(&mut self, configuration: &Configuration, moment: &Vector3<f64>, second: bool) {
         let theta = &configuration.end_theta;
         let left = theta.left_jacobian();

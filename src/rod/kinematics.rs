@@ -1,4 +1,4 @@
-//! Where an element's stations and its end are, seen from its start node.
+//! Kinematics of an element: poses of its stations and its end relative to its start node.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -6,12 +6,12 @@ use super::element::Element;
 use super::row::{COMPONENTS, ROTATIONS, Row};
 use crate::geometry::{Pose, RotationVector};
 
-/// A Gauss point of a deformed element, in the frame of the node before it.
+/// A Gauss point of a deformed element, in the frame of the preceding node.
 #[derive(Debug, Clone)]
 pub struct StationState {
-    /// Rotation vector since the start.
+    /// Rotation vector relative to the start.
     pub theta: RotationVector,
-    /// Its derivative by arc length, 1/m.
+    /// Derivative of the rotation vector with respect to arc length, 1/m.
     pub rate: Vector3<f64>,
     /// Directors `A = exp(theta)`.
     pub directors: Matrix3<f64>,
@@ -19,13 +19,13 @@ pub struct StationState {
     pub left: Matrix3<f64>,
     /// `v = e3 +` shear and extension, in the directors.
     pub stretch: Vector3<f64>,
-    /// Derivative of the position by arc length, `A v`.
+    /// Derivative of the position with respect to arc length, `A v`.
     pub tangent: Vector3<f64>,
     /// Position, m.
     pub position: Vector3<f64>,
 }
 
-/// A deformed element, in the frame of the node before it.
+/// A deformed element, in the frame of the preceding node.
 #[derive(Debug, Clone)]
 pub struct Configuration {
     /// The Gauss points.
@@ -36,7 +36,7 @@ pub struct Configuration {
     pub end: Pose,
 }
 
-/// Sum of a row of mode values, by component: rotation, then strain.
+/// Sum of mode values times amplitudes, by component: rotation, then strain.
 fn components(element: &Element, row: &[f64], amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
     let mut out = [0.0; COMPONENTS];
     for ((component, value), amplitude) in element.component.iter().zip(row).zip(amplitudes) {
@@ -67,7 +67,7 @@ impl Configuration {
         out
     }
 
-    /// Recomputes everything for the mode amplitudes `amplitudes`.
+    /// Updates all states for the mode amplitudes `amplitudes`.
     pub fn update(&mut self, element: &Element, amplitudes: &[f64]) {
         let start = Vector3::new(0.0, 0.0, element.offset);
         let mut end = start;
@@ -97,7 +97,7 @@ impl Configuration {
         sum
     }
 
-    /// The pose at a tabulated arc length, in the frame of the node before.
+    /// The pose at a tabulated arc length, in the frame of the preceding node.
     #[must_use]
     pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
         let start = Vector3::new(0.0, 0.0, element.offset);
@@ -105,7 +105,7 @@ impl Configuration {
         Pose { position: start + self.integrate(row), rotation }
     }
 
-    /// The rotation vector there.
+    /// The rotation vector at a tabulated arc length.
     #[must_use]
     pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
         RotationVector::new(components(element, &row.integral, amplitudes).0)

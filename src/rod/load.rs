@@ -1,28 +1,28 @@
-//! The energy of a load on a moving frame, to second order in the frame's displacement.
+//! Potential energy of a load on a moving frame, to second order in the frame's displacement.
 
 use nalgebra::{Matrix3, Vector3};
 
 use crate::geometry::{axial, hat};
 
-/// Energy of a load on a frame at `p` with directors `A`, and its derivatives in fixed axes.
+/// Potential energy of a load on a frame at `p` with directors `A`, and its derivatives in fixed axes.
 ///
-/// The frame is displaced to `p + pi`, `exp(omega) A`. The derivatives by positions and directors are
-/// kept apart from the turning of the directors themselves, because the chain rule needs both.
+/// The frame is displaced to `p + pi`, `exp(omega) A`. The derivatives with respect to position and directors are kept apart
+/// from the second-order rotation of the directors, because the chain rule needs both.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Load {
     /// Potential energy, J.
     pub energy: f64,
-    /// Derivative by `p`: minus the force, N.
+    /// Derivative with respect to `p`: minus the force, N.
     pub force: Vector3<f64>,
-    /// Derivative by `A`, times the transpose of `A`, N m.
+    /// Derivative with respect to `A`, times the transpose of `A`, N m.
     pub couple: Matrix3<f64>,
-    /// Second derivative by the position, N/m.
+    /// Second derivative with respect to the position, N/m.
     pub position_position: Matrix3<f64>,
-    /// Mixed second derivative, first-order changes of the directors only, N.
+    /// Mixed second derivative, for first-order changes of the directors only, N.
     pub position_rotation: Matrix3<f64>,
-    /// Second derivative, first-order changes of the directors only, N m.
+    /// Second derivative with respect to the rotation, for first-order changes of the directors only, N m.
     pub rotation_rotation: Matrix3<f64>,
-    /// Whether one of the second derivatives is not zero.
+    /// Whether any of the second derivatives is nonzero.
     pub stiff: bool,
 }
 
@@ -41,7 +41,7 @@ impl Load {
         }
     }
 
-    /// A dead force (N) at `arm` (m, fixed axes) from the frame's origin at `origin`.
+    /// A fixed force (N) at `arm` (m, fixed axes) from the frame's origin at `origin`.
     #[must_use]
     pub fn dead_force(force: &Vector3<f64>, origin: &Vector3<f64>, arm: &Vector3<f64>) -> Self {
         Self {
@@ -52,26 +52,27 @@ impl Load {
         }
     }
 
-    /// Derivative of the energy by `omega`: minus the torque about `p`, N m.
+    /// Derivative of the energy with respect to `omega`: minus the torque about `p`, N m.
     #[must_use]
     pub fn moment(&self) -> Vector3<f64> {
         axial(&self.couple)
     }
 
-    /// Force and moment alone, without energy or any second derivative: of a pair, whose turning is in second
-    /// derivatives of its own.
+    /// Force and moment alone, without energy or second derivatives.
+    ///
+    /// For the interaction of a pair, whose own second derivatives include the second-order rotation.
     #[must_use]
     pub fn wrench_alone(&self) -> Self {
         Self { force: self.force, couple: (self.couple - self.couple.transpose()) * 0.5, ..Self::zero() }
     }
 
-    /// Second derivative by `omega`, the turning of the directors included, N m.
+    /// Second derivative with respect to `omega`, including the second-order rotation of the directors, N m.
     #[must_use]
     pub fn rotation_hessian(&self) -> Matrix3<f64> {
         self.rotation_rotation + turning(&self.couple)
     }
 
-    /// The same load in axes whose columns are `axes`.
+    /// The load in the axes given by the columns of `axes`.
     #[must_use]
     pub fn in_axes(&self, axes: &Matrix3<f64>) -> Self {
         let turn = |m: &Matrix3<f64>| axes.tr_mul(m) * axes;
@@ -86,8 +87,10 @@ impl Load {
         out
     }
 
-    /// Adds the dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin in a field with gradient and,
-    /// for the second derivatives, `hessian_along = sum_i axis_i d2B_i/dx_j dx_k`.
+    /// Adds a dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin.
+    ///
+    /// `field`, its `gradient` and, for the second derivatives, `hessian_along = sum_i axis_i d2B_i/dx_j dx_k` are those at the
+    /// dipole.
     pub fn add_dipole(
         &mut self,
         moment: f64,
@@ -127,7 +130,7 @@ impl core::ops::AddAssign for Load {
     }
 }
 
-/// Second derivative of `N : exp(hat(omega))` at zero: the symmetric part of `N` less its trace.
+/// Second derivative of `N : exp(hat(omega))` at zero: the symmetric part of `N` minus its trace.
 #[must_use]
 pub fn turning(n: &Matrix3<f64>) -> Matrix3<f64> {
     let mut out = (n + n.transpose()) * 0.5;

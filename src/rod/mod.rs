@@ -1,4 +1,4 @@
-//! The elastic rod: strain modes, kinematics, stiffness, and loads as energies on moving frames.
+//! The elastic rod: strain modes, kinematics, stiffness, and load potentials on moving frames.
 
 mod basis;
 mod bending;

@@ -1,4 +1,4 @@
-//! Where the material of a span lies: area, first and second moments of the section along the arc.
+//! Distribution of the material of a span: area, first and second moments of the section along the arc length.
 
 use core::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use crate::design::{Span, SpiralKind};
 
-/// Moments of a piece of material about the centreline, over its section and a weighted length.
+/// Moments of some material about the centreline, over its section and a weighted length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionMoments {
     /// Volume, m3.
@@ -46,27 +46,28 @@ impl SectionMoments {
         }
     }
 
-    /// Adds an annulus filled over `angle` of its circle, spread evenly.
+    /// Adds an annulus filled over `angle` of its circle, averaged around it.
     fn add_circle(&mut self, inner: f64, outer: f64, angle: f64, weight: f64) {
         self.volume += weight * 0.5 * angle * (outer.powi(2) - inner.powi(2));
         self.second += Matrix2::identity() * (weight * 0.125 * angle * (outer.powi(4) - inner.powi(4)));
     }
 
-    /// The moments of the same material spread evenly around the centreline.
+    /// The moments of the same material averaged around the centreline.
     #[must_use]
     pub fn axisymmetric(&self) -> Self {
         let second = Matrix2::identity() * (0.5 * self.second.trace());
         Self { volume: self.volume, first: Vector2::zeros(), second }
     }
 
-    /// Whether they are those of some material, as sums with negative weights need not be: a positive volume, spread no less
-    /// than not at all.
+    /// Whether the moments are physical: a positive volume and a positive semidefinite second central moment.
+    ///
+    /// Sums with negative weights need not be.
     pub(super) fn are_of_material(&self) -> bool {
         let spread = self.central();
         self.volume > 0.0 && spread.m11 >= 0.0 && spread.determinant() >= 0.0
     }
 
-    /// Second moment about the centroid by volume, m2.
+    /// Second moment about the centroid divided by the volume, m2.
     fn central(&self) -> Matrix2<f64> {
         let mean = self.first / self.volume;
         self.second / self.volume - mean * mean.transpose()
@@ -81,7 +82,7 @@ impl SectionMoments {
         self.second.trace() / self.volume - (self.first / self.volume).norm_squared()
     }
 
-    /// Centroid of the section; fields that are linear over the section are integrated exactly by this one point.
+    /// Centroid of the section; as a single point it integrates fields that are linear over the section exactly.
     #[must_use]
     pub fn centroid(&self) -> Vector2<f64> {
         if self.volume <= 0.0 { Vector2::zeros() } else { self.first / self.volume }
@@ -89,8 +90,8 @@ impl SectionMoments {
 
     /// Four points of equal volume in the section plane with the same zeroth, first and second moments.
     ///
-    /// Fields that are quadratic over the section are integrated exactly; of a cubic part only what the
-    /// section's own third moment about its centroid makes is lost.
+    /// Fields that are quadratic over the section are integrated exactly; for a cubic part the error is due to the section's
+    /// third moment about its centroid alone.
     #[must_use]
     pub fn points(&self) -> [Vector2<f64>; 4] {
         if self.volume <= 0.0 {

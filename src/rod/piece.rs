@@ -1,4 +1,4 @@
-//! What an element is made of.
+//! The pieces that an element is made of.
 
 use crate::design::Span;
 

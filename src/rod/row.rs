@@ -1,12 +1,12 @@
-//! Strain modes at one arc length.
+//! Tables of the strain modes at one arc length.
 
 /// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
 pub const COMPONENTS: usize = 6;
 
-/// The first components are rotations, the others strains.
+/// Number of rotational components, which come first; the others are shear and extension.
 pub(super) const ROTATIONS: usize = 3;
 
-/// The mode values at one arc length, and how positions are integrated up to there.
+/// The mode values at one arc length, and the weights for integrating the position up to it.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// Arc length from the element's start, m.
@@ -15,6 +15,6 @@ pub struct Row {
     pub rate: Vec<f64>,
     /// Integrals of `psi` up to here by degree of freedom.
     pub integral: Vec<f64>,
-    /// Weight of each station's tangent in the position here, m.
+    /// Weight of each station's tangent in the position at this arc length, m.
     pub position: Vec<f64>,
 }

@@ -1,12 +1,12 @@
-//! Dipoles that are parallel to one another in one section: their energy from a few sums of the field.
+//! Parallel dipoles in one section: their energy from weighted sums of the field.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::load::Load;
 use crate::geometry::hat;
 
-/// Sums of the field over the dipoles of a section, weighted with their moments and with the coordinates `x`, `y` along
-/// `d1`, `d2`.
+/// Sums of the field over the dipoles of a section, weighted with their moments and with their coordinates `x`, `y` along `d1`,
+/// `d2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionDipoles {
     field: Vector3<f64>,
@@ -17,7 +17,7 @@ pub struct SectionDipoles {
 }
 
 impl SectionDipoles {
-    /// No dipoles; `stiff` where second derivatives are summed too.
+    /// No dipoles; `stiff` if second derivatives are summed too.
     #[must_use]
     pub fn new(stiff: bool) -> Self {
         Self {
@@ -27,8 +27,8 @@ impl SectionDipoles {
         }
     }
 
-    /// Adds a dipole (A m2) at `position` (m) where the field (T) has this gradient and, for the second derivatives,
-    /// `along = sum_i axis_i d2B_i/dx_j dx_k`.
+    /// Adds a dipole (A m2) at `position` (m), with the field (T), its gradient and, for the second derivatives, `along = sum_i
+    /// axis_i d2B_i/dx_j dx_k` there.
     pub fn add(
         &mut self,
         moment: f64,
@@ -48,8 +48,9 @@ impl SectionDipoles {
         }
     }
 
-    /// The energy as a load on the section's frame, whose directors are the columns of `directors`; that of
-    /// [`Load::add_dipole`] for each dipole at its arm `x d1 + y d2`.
+    /// The energy as a load on the section's frame, whose directors are the columns of `directors`.
+    ///
+    /// Equal to the sum of [`Load::add_dipole`] over the dipoles with arms `x d1 + y d2`.
     #[must_use]
     pub fn load(&self, directors: &Matrix3<f64>) -> Load {
         let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| directors.column(i).into_owned());

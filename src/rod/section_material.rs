@@ -1,9 +1,9 @@
-//! The material of a station, or of a section per length.
+//! Section material: that of a station, or of a section per length.
 
 use super::moments::SectionMoments;
 use crate::design::Span;
 
-/// What has weight and magnetic moment at one place of the centreline.
+/// Material with mass and magnetic moment at one arc length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionMaterial {
     /// Moments of the material.
@@ -35,7 +35,7 @@ impl SectionMaterial {
         Self::new(span, moments, 1.0)
     }
 
-    /// The same material spread evenly around the centreline.
+    /// The same material averaged around the centreline.
     #[must_use]
     pub fn axisymmetric(&self) -> Self {
         Self { moments: self.moments.axisymmetric(), ..*self }

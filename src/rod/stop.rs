@@ -1,4 +1,4 @@
-//! The bending stop: adjacent windings touch when a core has bent by its boundary angle.
+//! The bending stop: adjacent windings touch when a core is bent by its boundary angle.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -11,10 +11,10 @@ use crate::geometry::{RotationVector, hat};
 /// of a core do not all touch at once.
 const TRANSITION: f64 = 0.05;
 
-/// A core bent by more than this part of a half turn is refused: its bending plane is no longer defined.
+/// Fraction of a half turn beyond which a bent core is rejected: its bending plane is no longer defined.
 const HALF_TURN: f64 = 0.999;
 
-/// What a core's closed windings add to its elastic energy.
+/// Contact energy that the closed windings of a core add to its elastic energy.
 ///
 /// With the angle `theta` between the tangents `d3` at both ends of the core, the boundary angle `Theta` and the
 /// bending stiffnesses `EI` of core and closed section (annulus from `r_ic` to `R`),
@@ -24,10 +24,10 @@ const HALF_TURN: f64 = 0.999;
 /// P'' = 0 before, 1 after, 6 t^5 - 15 t^4 + 10 t^3 with t = (theta - Theta + w) / 2 w in between
 /// ```
 ///
-/// and `w` a twentieth of `Theta`: from there on the core as a whole is as stiff as the closed section. The energy has
+/// and `w` a twentieth of `Theta`: beyond the transition the core as a whole is as stiff as the closed section. The energy has
 /// four continuous derivatives and is exactly zero below `Theta - w`.
 ///
-/// Boundary angle: Richter et al., Fig. 2B, D, whose own model has no stop.
+/// Boundary angle: Richter et al., Fig. 2B, D; their model has no bending stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stop {
     /// Boundary angle, rad.
@@ -36,18 +36,18 @@ pub(super) struct Stop {
     stiffness: f64,
 }
 
-/// Energy of a stop and its derivatives by the rotation vectors at both ends of the core.
+/// Energy of a bending stop and its derivatives with respect to the rotation vectors at both ends of the core.
 pub(super) struct Contact {
-    /// J.
+    /// Energy, J.
     pub(super) energy: f64,
-    /// By both vectors, J/rad.
+    /// First derivatives with respect to both vectors, J/rad.
     pub(super) slope: Vector6<f64>,
-    /// J/rad2.
+    /// Second derivatives, J/rad2.
     pub(super) curve: Matrix6<f64>,
 }
 
 impl Stop {
-    /// The stop of an element's core; `None` if it has no windings.
+    /// The bending stop of an element's core; `None` if it has no windings.
     pub(super) fn new(pieces: &[Piece<'_>]) -> Option<Self> {
         let core = pieces.iter().find(|piece| piece.span.kind == SpanKind::Core)?;
         let spiral = core.span.spiral?;
@@ -55,7 +55,7 @@ impl Stop {
         Some(Self { angle: spiral.boundary_angle, stiffness: added / core.length })
     }
 
-    /// The contact of the windings of a core with these ends; `None` where they are open.
+    /// Contact of the windings of a core with these end rows; `None` where they are open.
     pub(super) fn contact(
         &self,
         ends: &[Row; 2],
@@ -72,7 +72,7 @@ impl Stop {
         if theta > HALF_TURN * core::f64::consts::PI {
             return Some(Contact { energy: f64::INFINITY, slope: Vector6::zeros(), curve: Matrix6::zeros() });
         }
-        // The angle through its cosine: d theta / d c = -1 / sine, d2 theta / d c2 = -cosine / sine^3.
+        // The angle as a function of its cosine c: d theta / d c = -1 / sine, d2 theta / d c2 = -cosine / sine^3.
         let by_cosine = -first / sine;
         let by_cosine_twice = second / (sine * sine) - first * cosine / sine.powi(3);
         let end = Vector3::z().transpose();

@@ -1,4 +1,4 @@
-//! Forces on the rings and the tip, and the moment on the tip: fixed in the world, whatever the shape.
+//! Applied loads: forces on the rings and the tip, and the moment on the tip, all fixed in the world frame.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -8,7 +8,7 @@ use crate::equilibrium::layout::Input;
 use crate::geometry::{Pose, hat};
 use crate::rod::{Load, Order};
 
-/// The loads among the inputs.
+/// The applied loads of the inputs.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Applied<'a>(&'a Inputs);
 
@@ -17,7 +17,7 @@ impl<'a> Applied<'a> {
         Self(inputs)
     }
 
-    /// The input, its force (N), and the arm (m) from the frame's origin to where it acts.
+    /// The input, its force (N), and the arm (m) from the frame's origin to its point of application.
     fn force(self, frame: &Frame<'_>, pose: &Pose) -> Option<(Input, Vector3<f64>, Vector3<f64>)> {
         let (input, force, distance) = match frame {
             Frame::Ring(number, body) => {
@@ -43,7 +43,7 @@ impl Term for Applied<'_> {
         let Some((input, force, arm)) = self.force(frame, pose) else { return Some(Load::zero()) };
         let mut load = Load::dead_force(&force, &pose.position, &arm);
         if input == Input::TipForce && !self.has_potential() {
-            // No energy, and a moment that stays where the frame turns: its derivative is not symmetric.
+            // A fixed moment has no energy and does not turn with the frame: its derivative is not symmetric.
             let turning = hat(&self.0.tip_moment) * -0.5;
             load.couple += turning;
             (load.rotation_rotation, load.stiff) = (turning, true);

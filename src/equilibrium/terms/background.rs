@@ -1,4 +1,4 @@
-//! The uniform and linear background field.
+//! Uniform and linear background field.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -10,7 +10,7 @@ use crate::geometry::Pose;
 use crate::magnetics::LinearField;
 use crate::rod::{Load, Order};
 
-/// A field that is linear in the whole world: a body feels it at its centroid.
+/// A field that is linear in the whole world; it acts on a body at its centroid.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Background(LinearField);
 
@@ -19,7 +19,7 @@ impl Background {
         Self(LinearField::new(inputs.uniform_field, inputs.field_gradient))
     }
 
-    /// The field (T) at a point of the world.
+    /// The field (T) at a point in the world frame.
     pub(super) fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
         self.0.at(point)
     }
@@ -29,7 +29,7 @@ impl Background {
         self.0.gradient()
     }
 
-    /// How it changes with its inputs at a point of the world.
+    /// Derivatives of the field with respect to its inputs at a point in the world frame.
     pub(super) fn rates(point: &Vector3<f64>) -> [FieldRate; BACKGROUND_INPUTS] {
         core::array::from_fn(|column| {
             if column < 3 {
@@ -41,7 +41,7 @@ impl Background {
         })
     }
 
-    /// Moment (A m2) of what a frame carries; zero for the tip.
+    /// Magnetic moment (A m2) of the body in a frame; zero for the tip.
     fn moment(frame: &Frame<'_>) -> f64 {
         match frame {
             Frame::Ring(_, body) => body.source.moment(),
@@ -49,7 +49,7 @@ impl Background {
         }
     }
 
-    /// From the frame's origin to the middle of that moment, m, world axes.
+    /// Arm from the frame's origin to the centre of that moment, m, world axes.
     fn arm(frame: &Frame<'_>, pose: &Pose) -> Vector3<f64> {
         if let Frame::Ring(_, body) = frame {
             return pose.axis() * body.half_length();

@@ -1,33 +1,34 @@
-//! How the load on one frame changes with the inputs.
+//! Derivatives of the load on one frame with respect to the inputs.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use crate::equilibrium::layout::Input;
 
-/// Inputs that make the background field: three of the uniform one, five of its gradient.
+/// Number of inputs of the background field: three of the uniform field, five of its gradient.
 pub(super) const BACKGROUND_INPUTS: usize = Input::UniformField.width() + Input::FieldGradient.width();
 
-/// Those of the magnet: displacement, rotation and strength.
+/// Number of inputs of the magnet: displacement, rotation and strength.
 pub(super) const MAGNET_INPUTS: usize =
     Input::MagnetPosition.width() + Input::MagnetRotation.width() + Input::MagnetStrength.width();
 
-/// Inputs that make the external field, which are the first columns: those of the magnet, then the background's.
+/// Number of inputs of the external field, which are the first columns: the magnet, then the background field.
 pub(crate) const FIELD_INPUTS: usize = MAGNET_INPUTS + BACKGROUND_INPUTS;
 
-/// Derivative of the field (T) and of its gradient (T/m) by one input.
+/// Derivative of the field (T) and of its gradient (T/m) with respect to one input.
 pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);
 
-/// Derivatives of the load's energy by position and rotation of its frame (six rows, world axes), one column an input.
+/// Derivatives of the load's energy with respect to position and rotation of its frame (six rows, world axes), with one
+/// column for each input.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadDerivatives(pub(crate) DMatrix<f64>);
 
 impl LoadDerivatives {
-    /// Of no load.
+    /// Zero derivatives, for no load.
     pub(super) fn none(inputs: usize) -> Self {
         Self(DMatrix::zeros(6, inputs))
     }
 
-    /// Adds to one column.
+    /// Adds a force and a moment to one column.
     pub(super) fn add(&mut self, column: usize, force: &Vector3<f64>, moment: &Vector3<f64>) {
         for axis in 0..3 {
             self.0[(axis, column)] += force[axis];
@@ -35,7 +36,7 @@ impl LoadDerivatives {
         }
     }
 
-    /// Adds a dipole (A m2) at `arm` from the frame's origin to the columns from `first` on.
+    /// Adds a dipole (A m2) at `arm` (m) from the frame's origin to the columns from `first` on.
     pub(super) fn add_dipole(
         &mut self,
         first: usize,

@@ -1,4 +1,4 @@
-//! The external magnet: what its field does to rings and magnetised material.
+//! External magnet: the loads of its field on rings and magnetised material.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -13,12 +13,12 @@ use crate::geometry::{Pose, hat};
 use crate::magnetics::{Assembly, Jet};
 use crate::rod::{Load, Order};
 
-/// The magnet at its pose.
+/// The external magnet at its pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Magnet<'a> {
-    /// Also where it is switched off.
+    /// The assembly, also where it is switched off.
     assembly: Option<&'a Assembly>,
-    /// Where it is switched on.
+    /// Its field source, where it is switched on.
     source: Option<Source<'a>>,
     inputs: &'a Inputs,
     rules: &'a PairQuadrature,
@@ -31,26 +31,28 @@ impl<'a> Magnet<'a> {
         Self { assembly, source, inputs, rules }
     }
 
-    /// The same for a chain whose sections are sampled as coarsely as this relative accuracy of the energies allows.
+    /// The same magnet for a chain whose sections are sampled as coarsely as this relative accuracy of the energies
+    /// allows.
     pub(crate) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
         let seen = |source: Source<'a>| source.seen_by(chain, &self.inputs.base, accuracy);
         Self { source: self.source.map(seen), ..self }
     }
 
-    /// The same without the assembly: as if it could not be switched on.
+    /// The same term without the assembly: as if the magnet could not be switched on.
     pub(crate) fn removed(self) -> Self {
         Self { assembly: None, source: None, ..self }
     }
 
-    /// Its field (T) at a point of the world; `None` inside it.
+    /// Its field (T) at a point in the world frame; `None` inside it.
     pub(super) fn at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         self.source.as_ref().map_or(Some(Vector3::zeros()), |source| source.at(point))
     }
 
-    /// How its field changes with its own inputs at a point of the world; `None` inside it and on its edges, be it switched off.
+    /// Derivatives of its field with respect to its own inputs at a point in the world frame; `None` inside it and on its
+    /// edges, even if it is switched off.
     ///
-    /// A field that moves as a body with velocity `v(x) = t + w x (x - c)` changes at a fixed point by
-    /// `w x B - G v`, and its gradient by `hat(w) G - G hat(w) - H v`.
+    /// The field of a body that moves with velocity `v(x) = t + w x (x - c)` changes at a fixed point by `w x B - G v`,
+    /// and its gradient by `hat(w) G - G hat(w) - H v`.
     pub(super) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; MAGNET_INPUTS]> {
         let turn = &self.inputs.magnet.rotation;
         let arm = point - self.inputs.magnet.position;
@@ -79,7 +81,7 @@ impl<'a> Magnet<'a> {
         }))
     }
 
-    /// Distance (m) of a point of the world from the assembly, switched on or off; infinite without one.
+    /// Distance (m) of a point in the world frame from the assembly, switched on or off; infinite without one.
     fn distance(&self, point: &Vector3<f64>) -> f64 {
         let local = || self.inputs.magnet.rotation.tr_mul(&(point - self.inputs.magnet.position));
         self.assembly.map_or(f64::INFINITY, |assembly| assembly.distance(&local()))

@@ -1,7 +1,7 @@
-//! What acts on the chain, each in a file of its own: energies, loads, and derivatives by the inputs.
+//! Terms of the potential, each in its own file: energies, loads, and derivatives with respect to the inputs.
 //!
-//! A [`Term`] acts on single frames: its load depends on the pose of that frame alone. What rings do to one another and to spans
-//! ([`RingPairs`], [`RingsOnSpans`]) depends on two poses.
+//! A [`Term`] acts on single frames: its load depends on the pose of that frame alone. The interactions of rings with one
+//! another and with spans ([`RingPairs`], [`RingsOnSpans`]) depend on two poses.
 
 mod applied;
 mod background;
@@ -33,28 +33,29 @@ pub(crate) use ring_pairs::{RingPairs, overlap};
 pub(crate) use rings_on_spans::{Mixed, RingsOnSpans};
 pub(crate) use weight::Weight;
 
-/// Something that acts on single frames.
+/// A term that acts on single frames.
 pub(crate) trait Term {
-    /// Whether it does anything at these inputs.
+    /// Whether the term is non-zero at these inputs.
     fn acts(&self) -> bool;
 
-    /// Whether its loads are derivatives of an energy.
+    /// Whether its loads are conservative: derivatives of an energy.
     fn has_potential(&self) -> bool {
         true
     }
 
-    /// Energy of what `frame` carries at `pose`, with its derivatives in `axes` (columns, in the world's); `None` where that is
-    /// not defined, as inside a magnet.
+    /// Energy of the body in `frame` at `pose`, with its derivatives in `axes` (columns, in world axes); `None` where it
+    /// is not defined, as inside a magnet.
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load>;
 
-    /// Adds the derivatives of that load, in the world's axes, by the term's own inputs; `None` where there are none.
+    /// Adds the derivatives of that load, in world axes, with respect to the term's own inputs; `None` where they are not
+    /// defined.
     fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()>;
 }
 
-/// Number of the terms that act on single frames.
+/// Number of terms that act on single frames.
 const LOCAL: usize = 4;
 
-/// Everything that acts on the chain.
+/// All terms that act on the chain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Terms<'a> {
     pub(crate) magnet: Magnet<'a>,
@@ -66,7 +67,7 @@ pub(crate) struct Terms<'a> {
 }
 
 impl<'a> Terms<'a> {
-    /// At `inputs`, with the rules chosen last.
+    /// The terms at `inputs`, with the quadrature rules chosen last.
     pub(crate) fn new(
         chain: &'a Chain,
         settings: &Settings,
@@ -84,17 +85,17 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// Those that act on single frames.
+    /// The terms that act on single frames.
     fn local(&self) -> [&dyn Term; LOCAL] {
         [&self.magnet, &self.background, &self.weight, &self.applied]
     }
 
-    /// Whether all forces have a potential.
+    /// Whether all forces are conservative. False for one-sided interaction or a fixed tip moment.
     pub(crate) fn have_potential(&self) -> bool {
         !self.pairs.one_sided() && self.local().iter().all(|term| term.has_potential())
     }
 
-    /// All that acts on one frame, in `axes`; adds each term's wrench about `origin` to `wrenches`.
+    /// Total load on one frame, in `axes`; adds each term's wrench about `origin` to `wrenches`.
     pub(crate) fn load(
         &self,
         frame: &Frame<'_>,
@@ -117,7 +118,7 @@ impl<'a> Terms<'a> {
         Some(sum)
     }
 
-    /// Derivatives of all that acts on one frame by all inputs, world axes.
+    /// Derivatives of the total load on one frame with respect to all inputs, world axes.
     pub(crate) fn input_derivatives(
         &self,
         frame: &Frame<'_>,
@@ -131,12 +132,12 @@ impl<'a> Terms<'a> {
         Some(out)
     }
 
-    /// External field (T) at a point of the world; `None` inside a magnet.
+    /// External field (T) at a point in the world frame; `None` inside a magnet.
     pub(crate) fn field_at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         Some(self.background.at(point) + self.magnet.at(point)?)
     }
 
-    /// How that field changes with the inputs that make it, in the order of the Jacobian's columns.
+    /// Derivatives of that field with respect to its inputs, in the order of the Jacobian's columns.
     pub(crate) fn field_rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; FIELD_INPUTS]> {
         let (magnet, background) = (self.magnet.rates(point)?, Background::rates(point));
         let split = magnet.len();
@@ -144,17 +145,17 @@ impl<'a> Terms<'a> {
     }
 }
 
-/// What each term that acts on single frames does to the whole chain, about the base position.
+/// Wrench of each single-frame term on the whole chain, about the base position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TermWrenches([Wrench; LOCAL]);
 
 impl TermWrenches {
-    /// Of no load.
+    /// Zero wrenches, for no load.
     pub(crate) fn none() -> Self {
         Self([Wrench::NONE; LOCAL])
     }
 
-    /// Adds `share` times others.
+    /// Adds other wrenches multiplied by `share`.
     pub(crate) fn add(&mut self, others: &Self, share: f64) {
         for (own, other) in self.0.iter_mut().zip(&others.0) {
             own.force += other.force * share;
@@ -162,17 +163,17 @@ impl TermWrenches {
         }
     }
 
-    /// That of all external fields.
+    /// Total wrench of all external fields.
     pub(crate) fn magnetic(&self) -> Wrench {
         let [magnet, background, ..] = &self.0;
         Wrench { force: magnet.force + background.force, torque: magnet.torque + background.torque }
     }
 
-    /// What the external magnet feels about its centre.
+    /// Wrench on the external magnet about its centre.
     pub(crate) fn on_magnet(&self, inputs: &Inputs) -> Wrench {
         let [magnet, ..] = &self.0;
         if *magnet == Wrench::NONE {
-            return Wrench::NONE; // without signs on its zeros
+            return Wrench::NONE; // avoids negative zeros
         }
         let arm = inputs.magnet.position - inputs.base.position;
         Wrench { force: -magnet.force, torque: arm.cross(&magnet.force) - magnet.torque }

@@ -1,4 +1,4 @@
-//! The mutual energy of two bodies, with its derivatives by the poses of both.
+//! Mutual energy of two bodies, with its derivatives with respect to both poses.
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
@@ -8,34 +8,35 @@ use crate::rod::{Load, turning};
 /// The energy of a pair as loads on its two nodes.
 #[derive(Debug, Clone)]
 pub(crate) struct PairLoad {
-    /// On the second body's node.
+    /// Load on the second body's node.
     pub(crate) on_second: Load,
-    /// On the first body's node: force and couple only.
+    /// Load on the first body's node: force and couple only.
     pub(crate) on_first: Load,
-    /// From the first node to the second, m.
+    /// Vector from the first node to the second, m.
     between: Vector3<f64>,
 }
 
-/// Second derivatives of a pair's energy by the displacements (position, rotation) of its two nodes.
+/// Second derivatives of a pair's energy with respect to the displacements (position, rotation) of its two nodes.
 #[derive(Debug, Clone)]
 pub(crate) struct PairHessian {
-    /// By the first node.
+    /// With respect to the first node.
     pub(crate) first_first: Matrix6<f64>,
-    /// Mixed, rows of the first node.
+    /// Mixed derivatives, with the rows of the first node.
     pub(crate) first_second: Matrix6<f64>,
-    /// By the second node.
+    /// With respect to the second node.
     pub(crate) second_second: Matrix6<f64>,
 }
 
 impl PairLoad {
-    /// Completes a load on the second body of a pair by the reaction on the first, `between` nodes apart (m).
+    /// Adds the reaction on the first body to a load on the second body of a pair; `between` is the vector between the
+    /// nodes (m).
     pub(crate) fn reciprocal(on_second: &Load, between: Vector3<f64>) -> Self {
         let whole = on_second.couple + on_second.force * between.transpose();
         let on_first = Load { force: -on_second.force, couple: -whole, ..Load::zero() };
         Self { on_second: *on_second, on_first, between }
     }
 
-    /// The second derivatives.
+    /// Second derivatives of the pair's energy.
     pub(crate) fn hessian(&self) -> PairHessian {
         let load = &self.on_second;
         let zero = Matrix3::zeros();

@@ -1,4 +1,4 @@
-//! Rings on rings.
+//! Interaction of rings with one another.
 
 use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
@@ -10,7 +10,7 @@ use crate::geometry::Pose;
 use crate::magnetics::{PairRule, depth};
 use crate::rod::Order;
 
-/// All pairs of rings that act on one another.
+/// All pairs of interacting rings.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingPairs<'a> {
     chain: &'a Chain,
@@ -23,24 +23,25 @@ impl<'a> RingPairs<'a> {
         Self { chain, interaction, rules }
     }
 
-    /// Numbers of two rings each, the earlier first.
+    /// The numbers of the two rings of each pair, the proximal one first.
     pub(crate) fn each(&self) -> impl Iterator<Item = [usize; 2]> + use<'a> {
         let rings = if self.interaction == Interaction::None { 0 } else { self.chain.rings.len() };
         (0..rings).flat_map(move |first| (first + 1..rings).map(move |second| [first, second]))
     }
 
-    /// Whether the later ring acts back on the earlier one.
+    /// Whether the distal ring acts back on the proximal one.
     pub(crate) fn are_mutual(&self) -> bool {
         self.interaction != Interaction::Preceding
     }
 
-    /// Whether rings act on what follows them without a reaction, other than from the clamped base.
+    /// Whether any ring that is not on the clamped base acts on distal bodies without reaction: such forces are not
+    /// conservative.
     pub(crate) fn one_sided(&self) -> bool {
         let free = 1..self.chain.elements.len();
         !self.are_mutual() && self.chain.rings.iter().any(|body| free.contains(&body.node))
     }
 
-    /// The energy of two rings whose nodes are at `nodes`, as loads on both; `None` where they share volume.
+    /// The energy of two rings with nodes at `nodes`, as loads on both; `None` where they overlap.
     pub(crate) fn load(&self, pair: [usize; 2], nodes: [&Pose; 2], order: Order) -> Option<PairLoad> {
         let [first, second] = pair.map(|number| &self.chain.rings[number]);
         if overlap(first, nodes[0], second, nodes[1]) > 0.0 {
@@ -51,13 +52,13 @@ impl<'a> RingPairs<'a> {
             PairRule::Axis(rule) => source.on_ring(second, nodes[1], rule, order)?,
             PairRule::Faces(rules) => source.on_faces(second, nodes[1], rules, order)?,
         };
-        // The energy depends on the relative pose alone, so that forces and torques cancel to rounding.
+        // The energy depends on the relative pose alone, so that forces and torques of the pair balance up to rounding.
         let load = load.in_axes(&source.axes().transpose());
         Some(PairLoad::reciprocal(&load, nodes[1].position - nodes[0].position))
     }
 }
 
-/// How deep two rings are inside one another, m; 0 where they share no volume. Nothing fits into their bores.
+/// Penetration depth of two rings, m; 0 where they do not overlap. Bores count as filled.
 pub(crate) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
     let (from, to) = (first.centre(first_node), second.centre(second_node));
     let extent = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());

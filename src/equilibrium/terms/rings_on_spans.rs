@@ -1,4 +1,4 @@
-//! Rings on spans, and spans back on rings.
+//! Interaction of rings with spans.
 
 use nalgebra::Matrix6;
 
@@ -10,18 +10,18 @@ use crate::equilibrium::source::Source;
 use crate::geometry::Pose;
 use crate::rod::{Order, StationQuadrature};
 
-/// All rings with all spans but the discs bonded to their faces.
+/// All rings with all spans, except the discs bonded to their faces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RingsOnSpans<'a> {
     chain: &'a Chain,
     interaction: Interaction,
     rules: &'a PairQuadrature,
-    /// Whether tables may stand for the rings' fields: in a gradient alone, whose energy nobody compares.
+    /// Whether tables may replace the rings' fields: only for a gradient whose energy is not compared.
     pub(crate) tabulated: bool,
 }
 
-/// The mixed second derivative of a ring's and a station's energy: rows of the ring's node, columns of the
-/// station, in fixed axes.
+/// Mixed second derivative of the energy of a ring and a station: rows of the ring's node, columns of the station, in
+/// fixed axes.
 #[derive(Debug, Clone)]
 pub(crate) struct Mixed {
     pub(crate) station: usize,
@@ -34,7 +34,7 @@ impl<'a> RingsOnSpans<'a> {
         Self { chain, interaction, rules, tabulated: false }
     }
 
-    /// Whether there are any.
+    /// Whether rings act on spans at this level.
     pub(crate) fn act(&self) -> bool {
         self.interaction.acts_on_spans()
     }
@@ -44,17 +44,18 @@ impl<'a> RingsOnSpans<'a> {
         self.interaction == Interaction::Full
     }
 
-    /// Ring number `ring` with its node at `node`, as spans see it.
+    /// Ring number `ring` with its node at `node`, as a field source for spans.
     pub(crate) fn source(&self, ring: usize, node: &Pose) -> Source<'a> {
         Source::ring(&self.chain.rings[ring], node, self.tabulated)
     }
 
-    /// The samples of an element that a ring acts on.
+    /// The quadrature samples of an element for a ring.
     pub(crate) fn samples(&self, element: usize, ring: usize) -> &'a [StationQuadrature] {
         self.chain.span_quadratures.samples(element, ring, self.rules.span(element, ring))
     }
 
-    /// The energy of a ring, whose node is at `node`, and a sample of material with its station at `pose`, as loads on both.
+    /// The energy of a ring with its node at `node` and a sample of material with its station at `pose`, as loads on
+    /// both.
     pub(crate) fn load(
         source: &Source<'_>,
         node: &Pose,

@@ -1,4 +1,4 @@
-//! Weight of rings, material and backbone.
+//! Weight of rings, section material and backbone.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -8,7 +8,7 @@ use crate::equilibrium::layout::Input;
 use crate::geometry::Pose;
 use crate::rod::{Load, Order};
 
-/// Everything at this acceleration, m/s2.
+/// Weight of all bodies at this acceleration, m/s2.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Weight(Vector3<f64>);
 
@@ -17,7 +17,7 @@ impl Weight {
         Self(inputs.gravity)
     }
 
-    /// Mass (kg) of what a frame carries, and its first moment about the frame's origin (kg m, world axes).
+    /// Mass (kg) of the body in a frame, and its first moment about the frame's origin (kg m, world axes).
     fn mass(frame: &Frame<'_>, pose: &Pose) -> Option<(f64, Vector3<f64>)> {
         if let Frame::Ring(_, body) = frame {
             let mass = body.ring.mass;
@@ -29,7 +29,7 @@ impl Weight {
         Some((mass, pose.rotation * Vector3::new(first.x, first.y, 0.0)))
     }
 
-    /// World axes.
+    /// The load in world axes.
     fn in_world(&self, frame: &Frame<'_>, pose: &Pose) -> Load {
         let Some((mass, first)) = Self::mass(frame, pose) else { return Load::zero() };
         Load {

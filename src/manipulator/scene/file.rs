@@ -1,4 +1,4 @@
-//! The scene file's tables and keys, as written: units in the names.
+//! The tables and keys of a scene file, as written: units in the names.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -6,9 +6,9 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::equilibrium::{Interaction, Settings};
 use crate::methods::Method;
 
-/// A scene as its file states it, with everything that was left out filled in.
+/// A scene as its file states it, with all omitted entries filled in.
 ///
-/// Its numbers are those of the file, not yet in SI units: writing it out and reading it again changes no bit.
+/// Its numbers are those of the file, not in SI units: writing it and reading it back changes no bit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
@@ -37,7 +37,7 @@ pub(super) enum SpiralName {
     Axisymmetric,
 }
 
-/// `[design]`: which keys may be present depends on `kind`.
+/// Table `[design]`: which keys may be present depends on `kind`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct DesignEntries {
@@ -149,7 +149,7 @@ fn water() -> f64 {
     1000.0
 }
 
-/// Axis of the turns unless said: right-handed about it, +z goes to +y.
+/// Default axis of rotation: a right-handed rotation about it takes +z to +y.
 const TURN_AXIS: [f64; 3] = [-1.0, 0.0, 0.0];
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -180,7 +180,7 @@ pub(super) struct MagnetEntries {
 }
 
 impl Default for MagnetEntries {
-    /// The paper's pair; below the manipulator's middle its field points along the manipulator's magnetisation.
+    /// The paper's pair; below the manipulator's middle its field is parallel to the manipulator's magnetisation.
     fn default() -> Self {
         let cylinder = |offset_mm| MagnetCylinder {
             radius_mm: 22.5,

@@ -1,4 +1,4 @@
-//! A scene as a text (TOML, units in the names): which design, what acts on it, which model.
+//! A scene as text (TOML, units in the names): the design, its inputs and the model.
 
 mod file;
 mod resolve;
@@ -30,20 +30,20 @@ use crate::methods::{self, Method};
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
-    /// What the manipulator is built of.
+    /// Specification of the manipulator.
     pub specification: Specification,
-    /// The cylinders of the external magnet; `None`: there is no magnet.
+    /// The cylinders of the external magnet; `None` for no magnet.
     pub magnets: Option<Vec<AxialMagnet>>,
-    /// What acts on it.
+    /// Fields, loads and base pose.
     pub inputs: Inputs,
-    /// The model, and how the potential method solves it.
+    /// Model settings and solver settings of the potential method.
     pub settings: Settings,
-    /// Which method solves it, and how finely the others resolve it.
+    /// Solution method, and the resolution of the comparison methods.
     pub solver: methods::Settings,
 }
 
 impl Scene {
-    /// Reads a scene; whatever it leaves out is the paper's Table 1 with nine segments, unloaded.
+    /// Reads a scene; omitted entries are those of the paper's Table 1 with nine segments, unloaded.
     ///
     /// `what` names the text in error messages, for example its file name.
     ///
@@ -73,8 +73,8 @@ impl Scene {
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.
     ///
     /// # Errors
-    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names another
-    /// method than the potential one, see [`Scene::device`].
+    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
+    /// method other than the potential method, see [`Scene::device`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let (given, own) = (self.solver.method, Method::Potential);
         if given != own {
@@ -87,7 +87,7 @@ impl Scene {
         Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)
     }
 
-    /// The same by the method that the scene names.
+    /// A manipulator of this scene solved by the method that the scene names, unsolved.
     ///
     /// ```
     /// use mcm::manipulator::Scene;

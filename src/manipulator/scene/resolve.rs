@@ -1,4 +1,4 @@
-//! From the file's units to SI, and from names to what they stand for.
+//! Conversion of a scene file to SI units and to the quantities that its names stand for.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -22,14 +22,14 @@ const MM_PER_M: f64 = 1e3;
 const MT_PER_T: f64 = 1e3;
 const PA_PER_MPA: f64 = 1e6;
 
-/// Where the magnet stands when no position is given: below the manipulator's middle, its axis this far away, m.
+/// Distance of the magnet's axis below the manipulator's middle when no position is given, m.
 const MAGNET_DISTANCE: f64 = 0.12;
 
 fn beside(design: &Design) -> [f64; 3] {
     [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
 }
 
-/// The right-handed turn by `degrees` about an axis whose length does not count.
+/// Right-handed rotation by `degrees` about an axis of any positive length.
 fn turn(key: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
     let axis = Vector3::from(axis);
     let length = axis.norm();
@@ -37,7 +37,7 @@ fn turn(key: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> 
     Ok(RotationVector::new(axis * (degrees.to_radians() / length)).matrix())
 }
 
-/// The pose turned about its own origin.
+/// The pose rotated about its own origin.
 fn turned(turn: &Matrix3<f64>, pose: Pose) -> Pose {
     Pose { rotation: turn * pose.rotation, ..pose }
 }
@@ -55,7 +55,7 @@ impl SceneFile {
         Ok(Scene { specification, magnets, inputs, settings: self.settings()?, solver })
     }
 
-    /// Writes down what `key` names if it was left out because it follows from the design.
+    /// Fills in the entry that `key` names if it was omitted because it follows from the design.
     pub(super) fn complete_for(&mut self, key: &str) -> Result<(), Error> {
         let design = || Design::new(self.design.specification()?);
         if key.starts_with("load.ring_force_n") && self.load.ring_force_n.is_none() {
@@ -110,7 +110,7 @@ impl SceneFile {
 impl DesignEntries {
     const SEGMENTS: usize = 9;
 
-    /// Fills in what does not depend on other entries.
+    /// Fills in the defaults that do not depend on other entries.
     pub(super) fn complete(&mut self) {
         if self.kind == DesignKind::Segments {
             self.segments.get_or_insert(Self::SEGMENTS);
@@ -149,7 +149,7 @@ impl DesignEntries {
         })
     }
 
-    /// A composite as in Table 1 unless said, or a bulk material when its modulus or remanence is given directly.
+    /// A composite as in Table 1 by default, or a bulk material when its modulus or remanence is given directly.
     fn cylinder_material(&self) -> Result<CylinderMaterial, Error> {
         let table_1 = HelixEntries::default();
         let poisson = self.poisson.unwrap_or(table_1.poisson);

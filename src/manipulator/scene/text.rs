@@ -1,4 +1,4 @@
-//! Reading and writing the text, and saying where and why it was refused.
+//! Reading and writing scene text, with the place and reason of errors.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use toml::{Spanned, Table, Value};
 use super::SceneFile;
 use crate::error::Error;
 
-/// Below this similarity (1: equal) a known key is no plausible correction; lower values suggest nonsense.
+/// Similarity (1: equal) below which no correction is suggested; lower values suggest nonsense.
 const PLAUSIBLE: f64 = 0.5;
 
 impl SceneFile {
@@ -23,7 +23,7 @@ impl SceneFile {
         Ok(file)
     }
 
-    /// The text of this file, every default written out.
+    /// The text of this file with every default written out.
     ///
     /// # Errors
     /// [`Error::Syntax`] for a number of segments beyond what TOML can write.
@@ -69,13 +69,13 @@ fn unwritable(error: &toml::ser::Error) -> Error {
     Error::Syntax { what: "scene".into(), reason: error.to_string() }
 }
 
-/// What was wrong, with the line and the key's full path.
+/// The error with its line and the full path of the key.
 fn explain(text: &str, what: &str, error: &toml::de::Error) -> Error {
     let span = error.span().unwrap_or(0..0);
     let line = text.get(..span.start).unwrap_or(text).matches('\n').count() + 1;
     let path = DeTable::parse(text).ok().and_then(|root| path_in_table(root.get_ref(), &span, ""));
     let message = error.message().trim_end();
-    // The key in backquotes, then the known ones, as serde words it.
+    // serde writes the key in backquotes, then the known keys.
     let reason = match (message.strip_prefix("unknown field `"), path) {
         (Some(rest), path) => {
             let mut quoted = rest.split('`').step_by(2);
@@ -90,7 +90,7 @@ fn explain(text: &str, what: &str, error: &toml::de::Error) -> Error {
     Error::Syntax { what: format!("{what}, line {line}"), reason }
 }
 
-/// Names the nearest of the known keys, or all of them when none is near.
+/// Suggests the nearest of the known keys, or lists all of them when none is near.
 fn suggestion(key: &str, known: &[&str]) -> String {
     let similarity = |other: &str| strsim::normalized_damerau_levenshtein(key, other);
     let nearest = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
@@ -101,7 +101,7 @@ fn suggestion(key: &str, known: &[&str]) -> String {
     }
 }
 
-/// Path of the key or value at `span`; the innermost value that holds it when there is no exact match.
+/// Path of the key or value at `span`; the innermost value that contains it when there is no exact match.
 fn path_in_table(table: &DeTable<'_>, span: &Range<usize>, prefix: &str) -> Option<String> {
     table.iter().find_map(|(key, value)| {
         let path =
