@@ -57,4 +57,4 @@ pub use settings::{Interaction, Settings};
 pub use snapshot::BranchSnapshot;
 pub use solution::Solution;
 pub use solver::Equilibrium;
-pub(crate) use terms::{Frame, Term, TermWrenches, Terms, blocks};
+pub(crate) use terms::{Frame, TermWrenches, Terms, blocks};

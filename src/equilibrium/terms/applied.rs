@@ -31,8 +31,12 @@ impl<'a> Applied<'a> {
 }
 
 impl Term for Applied<'_> {
-    fn acts(&self) -> bool {
-        true
+    fn acts_on(&self, frame: &Frame<'_>) -> bool {
+        match frame {
+            Frame::Ring(number, _) => self.0.ring_forces.get(*number).is_some_and(|f| *f != Vector3::zeros()),
+            Frame::Tip(_) => self.0.tip_force != Vector3::zeros() || !self.has_potential(),
+            Frame::Station(_) | Frame::Section(_) => false,
+        }
     }
 
     fn has_potential(&self) -> bool {

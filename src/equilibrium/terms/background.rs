@@ -12,21 +12,27 @@ use crate::rod::{Load, Order};
 
 /// A field that is linear in the whole world; it acts on a body at its centroid.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Background(LinearField);
+pub(crate) struct Background {
+    field: LinearField,
+    uniform: bool,
+    is_on: bool,
+}
 
 impl Background {
     pub(super) fn new(inputs: &Inputs) -> Self {
-        Self(LinearField::new(inputs.uniform_field, inputs.field_gradient))
+        let field = LinearField::new(inputs.uniform_field, inputs.field_gradient);
+        let uniform = field.gradient() == Matrix3::zeros();
+        Self { field, uniform, is_on: !uniform || inputs.uniform_field != Vector3::zeros() }
     }
 
     /// The field (T) at a point in the world frame.
     pub(super) fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
-        self.0.at(point)
+        self.field.at(point)
     }
 
     /// Its gradient, T/m.
     pub(crate) fn gradient(&self) -> Matrix3<f64> {
-        self.0.gradient()
+        self.field.gradient()
     }
 
     /// Derivatives of the field with respect to its inputs at a point in the world frame.
@@ -60,8 +66,8 @@ impl Background {
 }
 
 impl Term for Background {
-    fn acts(&self) -> bool {
-        self.0.at(&Vector3::zeros()) != Vector3::zeros() || self.gradient() != Matrix3::zeros()
+    fn acts_on(&self, frame: &Frame<'_>) -> bool {
+        self.is_on && !matches!(frame, Frame::Tip(_))
     }
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
@@ -70,8 +76,8 @@ impl Term for Background {
         if moment == 0.0 {
             return Some(load);
         }
-        let (axis, gradient) = (axes.tr_mul(&pose.axis()), self.gradient());
-        if gradient == Matrix3::zeros() {
+        let axis = axes.tr_mul(&pose.axis());
+        if self.uniform {
             let field = axes.tr_mul(&self.at(&pose.position));
             load.energy = -moment * axis.dot(&field);
             load.couple = field * (axis.transpose() * -moment);
@@ -79,7 +85,7 @@ impl Term for Background {
         }
         let arm = Self::arm(frame, pose);
         let field = axes.tr_mul(&self.at(&(pose.position + arm)));
-        let (gradient, arm) = (axes.tr_mul(&gradient) * axes, axes.tr_mul(&arm));
+        let (gradient, arm) = (axes.tr_mul(&self.gradient()) * axes, axes.tr_mul(&arm));
         let flat = (order == Order::Hessian).then(Matrix3::zeros);
         load.add_dipole(moment, &axis, &arm, &field, &gradient, flat.as_ref());
         Some(load)

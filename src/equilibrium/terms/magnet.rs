@@ -38,6 +38,11 @@ impl<'a> Magnet<'a> {
         Self { source: self.source.map(seen), ..self }
     }
 
+    /// Whether it is there and switched on.
+    pub(crate) fn is_on(&self) -> bool {
+        self.source.is_some()
+    }
+
     /// The same term without the assembly: as if the magnet could not be switched on.
     pub(crate) fn removed(self) -> Self {
         Self { assembly: None, source: None, ..self }
@@ -89,8 +94,8 @@ impl<'a> Magnet<'a> {
 }
 
 impl Term for Magnet<'_> {
-    fn acts(&self) -> bool {
-        self.source.is_some()
+    fn acts_on(&self, frame: &Frame<'_>) -> bool {
+        self.is_on() && !matches!(frame, Frame::Tip(_))
     }
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {

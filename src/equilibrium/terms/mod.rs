@@ -35,8 +35,8 @@ pub(crate) use weight::Weight;
 
 /// A term that acts on single frames.
 pub(crate) trait Term {
-    /// Whether the term is non-zero at these inputs.
-    fn acts(&self) -> bool;
+    /// Whether the term is non-zero at these inputs on what `frame` carries.
+    fn acts_on(&self, frame: &Frame<'_>) -> bool;
 
     /// Whether its loads are conservative: derivatives of an energy.
     fn has_potential(&self) -> bool {
@@ -105,17 +105,21 @@ impl<'a> Terms<'a> {
         (origin, wrenches): (&Vector3<f64>, &mut TermWrenches),
     ) -> Option<Load> {
         let arm = pose.position - origin;
-        let mut sum = Load::zero();
+        let mut sum: Option<Load> = None;
         for (term, wrench) in self.local().into_iter().zip(&mut wrenches.0) {
-            if term.acts() {
-                let load = term.load(frame, pose, axes, order)?;
-                let (force, moment) = (axes * load.force, axes * load.moment());
-                wrench.force -= force;
-                wrench.torque -= moment + arm.cross(&force);
-                sum += load;
+            if !term.acts_on(frame) {
+                continue;
+            }
+            let load = term.load(frame, pose, axes, order)?;
+            let (force, moment) = (axes * load.force, axes * load.moment());
+            wrench.force -= force;
+            wrench.torque -= moment + arm.cross(&force);
+            match &mut sum {
+                Some(sum) => *sum += load,
+                None => sum = Some(load),
             }
         }
-        Some(sum)
+        Some(sum.unwrap_or_else(Load::zero))
     }
 
     /// Derivatives of the total load on one frame with respect to all inputs, world axes.

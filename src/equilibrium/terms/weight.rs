@@ -42,8 +42,8 @@ impl Weight {
 }
 
 impl Term for Weight {
-    fn acts(&self) -> bool {
-        self.0 != Vector3::zeros()
+    fn acts_on(&self, frame: &Frame<'_>) -> bool {
+        self.0 != Vector3::zeros() && !matches!(frame, Frame::Tip(_))
     }
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, _: Order) -> Option<Load> {
