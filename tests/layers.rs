@@ -1,6 +1,6 @@
 //! A room of `src` uses only the rooms that the house plan allows, files stay short, and names say what is inside.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -88,11 +88,15 @@ fn modules(path: &Path) -> Vec<String> {
 
 /// Every name directly under the crate that the code (not its comments) mentions; the file is `depth` modules deep.
 fn rooms_used(text: &str, depth: usize) -> BTreeSet<String> {
+    names_below(text, &["crate::".into(), "super::".repeat(depth)])
+}
+
+/// Every name directly under one of these paths that the code (not its comments) mentions.
+fn names_below(text: &str, roots: &[String]) -> BTreeSet<String> {
     let code = code(text);
-    let upwards = "super::".repeat(depth);
     let mut used = BTreeSet::new();
-    for root in ["crate::", upwards.as_str()] {
-        for (start, _) in code.match_indices(root) {
+    for root in roots {
+        for (start, _) in code.match_indices(root.as_str()) {
             let before = code[..start].chars().next_back();
             // `super::super::` also ends in `super::`; a name may end in `crate`.
             if before.is_some_and(|c| c == ':' || c == '_' || c.is_alphanumeric())
@@ -112,22 +116,24 @@ fn code(text: &str) -> String {
     code.split_whitespace().collect()
 }
 
-/// The files beside it that a file's code mentions.
-fn neighbours_used(text: &str) -> BTreeSet<String> {
-    let code = code(text);
-    let own = code.match_indices("super::").filter(|(start, _)| !code[..*start].ends_with("super::"));
-    own.flat_map(|(start, found)| heads(&code[start + found.len()..])).collect()
+/// What the code of a file (from the package's folder) mentions of the folder whose modules are `folder`, in which it lies,
+/// itself or in a folder there; first the file, or that folder, itself.
+fn neighbours_used(path: &Path, text: &str, folder: &[String]) -> (String, BTreeSet<String>) {
+    let own = modules(path);
+    let roots = ["super::".repeat(own.len() - folder.len()), format!("crate::{}::", folder.join("::"))];
+    let (name, mut used) = (own[folder.len()].clone(), names_below(text, &roots));
+    used.remove(&name);
+    (name, used)
 }
 
-/// Those of the files of one folder, each with what it uses beside it, that need one another in a circle.
-fn circle(mut files: Vec<(String, BTreeSet<String>)>) -> Vec<String> {
+/// Those of the files and folders of one folder, each with what it uses beside it, that need one another in a circle.
+fn circle(mut files: BTreeMap<String, BTreeSet<String>>) -> Vec<String> {
     loop {
-        let names: BTreeSet<String> = files.iter().map(|(name, _)| name.clone()).collect();
-        let used: BTreeSet<String> = files.iter().flat_map(|(_, uses)| uses.clone()).collect();
-        let before = files.len();
-        files.retain(|(name, uses)| used.contains(name) && uses.iter().any(|other| names.contains(other)));
-        if files.len() == before {
-            return files.into_iter().map(|(name, _)| name).collect();
+        let names: BTreeSet<String> = files.keys().cloned().collect();
+        let used: BTreeSet<String> = files.values().flatten().cloned().collect();
+        files.retain(|name, uses| used.contains(name) && uses.iter().any(|other| names.contains(other)));
+        if files.len() == names.len() {
+            return files.into_keys().collect();
         }
     }
 }
@@ -184,25 +190,41 @@ fn every_room_uses_only_what_it_may() {
 
 #[test]
 fn no_files_of_a_folder_need_one_another() {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
-    files_below(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    files_below(&package.join("src"), &mut files);
     let folders: BTreeSet<&Path> = files.iter().filter_map(|file| file.parent()).collect();
-    for folder in folders {
-        let own = files.iter().filter(|file| file.parent() == Some(folder) && !file.ends_with("mod.rs"));
-        let stem = |file: &Path| file.file_stem().unwrap().to_string_lossy().into_owned();
-        let uses = own.map(|file| (stem(file), neighbours_used(&fs::read_to_string(file).unwrap())));
-        let found = circle(uses.collect());
+    for folder in folders.into_iter().filter(|folder| *folder != package.join("src")) {
+        let parts = modules(folder.strip_prefix(package).unwrap());
+        let mut uses: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for file in files.iter().filter(|file| file.starts_with(folder) && **file != folder.join("mod.rs")) {
+            let text = fs::read_to_string(file).unwrap();
+            let (name, used) = neighbours_used(file.strip_prefix(package).unwrap(), &text, &parts);
+            uses.entry(name).or_default().extend(used);
+        }
+        let found = circle(uses);
         assert!(found.is_empty(), "{}: {} need one another", folder.display(), found.join(", "));
     }
 }
 
 #[test]
 fn a_circle_is_seen() {
-    let file = |name: &str, text: &str| (name.to_owned(), neighbours_used(text));
-    let [a, b] = [file("a", "use super::b::B;"), file("b", "use super::{c, d::{D, a}};")];
-    let d = file("d", "use crate::rod::Row; // not super::a\nuse super::super::a::A;");
-    assert_eq!(circle(vec![a.clone(), b.clone(), d.clone()]), Vec::<String>::new());
-    assert_eq!(circle(vec![a, b, d, file("c", "fn f() { super::a::g() }")]), ["a", "b", "c"]);
+    let room = ["rod".to_owned()];
+    let file = |path: &str, text: &str| neighbours_used(Path::new(path), text, &room);
+    let a = file("src/rod/a.rs", "use super::b::B;");
+    let b = file("src/rod/b.rs", "use super::{c, d::{D, a}};");
+    let d = file("src/rod/d/mod.rs", "use crate::design::a; // not super::a\nuse super::super::a::A;");
+    let open = [a.clone(), b.clone(), d.clone()];
+    assert_eq!(circle(open.into()), Vec::<String>::new());
+    for (path, text) in [
+        ("src/rod/c.rs", "fn f() { super::a::g() }"),
+        ("src/rod/c.rs", "use crate::rod::a::A;"),
+        ("src/rod/c/e.rs", "use super::super::a;"),
+        ("src/rod/c/mod.rs", "use super::{a, f};"),
+    ] {
+        let closed = [a.clone(), b.clone(), d.clone(), file(path, text)];
+        assert_eq!(circle(closed.into()), ["a", "b", "c"], "{path}: {text}");
+    }
 }
 
 #[test]

@@ -7,7 +7,6 @@ use crate::rod::{Element, Piece, Resolution, SourceGeometry};
 use super::ring_body::{RingBody, tabulate};
 use super::settings::Settings;
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
-use super::terms::Frame;
 
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
@@ -102,13 +101,6 @@ impl Chain {
             |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
         let radii = chains.iter().map(widest).collect();
         Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, span_quadratures })
-    }
-
-    /// The bodies that the nodes carry, with the numbers of the nodes: the rings, and the tip on the last node.
-    pub(crate) fn frames(&self) -> impl Iterator<Item = (usize, Frame<'_>)> {
-        let rings =
-            self.rings.iter().enumerate().map(|(number, body)| (body.node, Frame::Ring(number, body)));
-        rings.chain([(self.elements.len(), Frame::Tip(self.tip_offset))])
     }
 
     /// Unstrained length, m.

@@ -72,7 +72,7 @@ impl Potential<'_> {
     fn on_node(&self, node: usize, counts: &Counts) -> Option<DMatrix<f64>> {
         let pose = self.work.nodes[node];
         let mut out = DMatrix::zeros(6, counts.inputs());
-        for (_, frame) in self.chain.frames().filter(|(own, _)| *own == node) {
+        for (_, frame) in Frame::at_nodes(self.chain).filter(|(own, _)| *own == node) {
             out += self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0;
         }
         Some(out)

@@ -57,7 +57,7 @@ impl Potential<'_> {
     fn load_nodes(&mut self, order: Order) -> Option<()> {
         let (axes, base) = (Matrix3::identity(), self.inputs.base.position);
         self.work.node_loads.fill(Load::zero());
-        for (node, frame) in self.chain.frames() {
+        for (node, frame) in Frame::at_nodes(self.chain) {
             let pose = self.work.nodes[node];
             let about = (&base, &mut self.work.wrenches);
             self.work.node_loads[node] += self.terms.load(&frame, &pose, &axes, order, about)?;

@@ -98,7 +98,7 @@ impl Surroundings<'_> {
     /// External wrenches on the bodies carried by the nodes.
     pub(super) fn node_wrenches(&self, poses: &[Pose]) -> Option<TermWrenches> {
         let mut out = TermWrenches::none();
-        for (node, frame) in self.line.chain.frames() {
+        for (node, frame) in Frame::at_nodes(&self.line.chain) {
             self.on(&frame, &poses[node], Order::Gradient, &mut out)?;
         }
         Some(out)
@@ -107,7 +107,7 @@ impl Surroundings<'_> {
     /// Load on node `node`; `poses` are those of the nodes up to it. `None` where bodies touch.
     pub(super) fn node(&self, node: usize, poses: &[Pose], order: Order) -> Option<NodeLoad> {
         let mut load = Load::zero();
-        for (_, frame) in self.line.chain.frames().filter(|(own, _)| *own == node) {
+        for (_, frame) in Frame::at_nodes(&self.line.chain).filter(|(own, _)| *own == node) {
             load += self.on(&frame, &poses[node], order, &mut TermWrenches::none())?;
         }
         let mut out = NodeLoad {

@@ -1,5 +1,6 @@
 //! Frame of the chain, by the body that it carries.
 
+use crate::equilibrium::chain::Chain;
 use crate::equilibrium::ring_body::RingBody;
 use crate::rod::{SectionMaterial, Station};
 
@@ -17,6 +18,13 @@ pub(crate) enum Frame<'a> {
 }
 
 impl<'a> Frame<'a> {
+    /// Frames at the nodes of `chain`, each with its node: the rings, and the tip at the last node.
+    pub(crate) fn at_nodes(chain: &'a Chain) -> impl Iterator<Item = (usize, Self)> {
+        let rings =
+            chain.rings.iter().enumerate().map(|(number, body)| (body.node, Self::Ring(number, body)));
+        rings.chain([(chain.elements.len(), Self::Tip(chain.tip_offset))])
+    }
+
     /// The material, if the body is that of a section.
     pub(super) fn material(&self) -> Option<&'a SectionMaterial> {
         match self {
