@@ -153,14 +153,27 @@ impl Search<'_> {
     ) -> bool {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         trial.copy_from_slice(unknowns);
-        let mut found = self.correct(inputs, &mut trial, self.model.settings.follow_step);
-        if let Some(before) = before {
-            found = found && (self.kept || self.goes_on([before, inputs], [unknowns, &trial]));
-        }
-        if found {
-            unknowns.copy_from_slice(&trial);
-        }
+        let reach = self.model.settings.follow_step;
+        let found = self.accept(before, inputs, unknowns, &mut trial, reach);
         self.scratch.trial = trial;
+        found
+    }
+
+    /// Corrects `trial` by a first step of at most `reach`, and moves `unknowns` there if it is an equilibrium; if
+    /// `unknowns` are the equilibrium at the inputs `before`, on the same branch.
+    pub(super) fn accept(
+        &mut self,
+        before: Option<&Inputs>,
+        inputs: &Inputs,
+        unknowns: &mut [f64],
+        trial: &mut [f64],
+        reach: f64,
+    ) -> bool {
+        let found = self.correct(inputs, trial, reach)
+            && before.is_none_or(|before| self.kept || self.goes_on([before, inputs], [unknowns, trial]));
+        if found {
+            unknowns.copy_from_slice(trial);
+        }
         found
     }
 
@@ -169,7 +182,7 @@ impl Search<'_> {
     ///
     /// One Newton step at the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold
     /// it does not: there the change of the inputs moves the shape by far less than the distance of the two.
-    pub(super) fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
+    fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
         let metric = &self.model.chain.metric;
         let mut between = std::mem::take(&mut self.scratch.between);
         between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);

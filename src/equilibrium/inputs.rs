@@ -95,7 +95,8 @@ impl Inputs {
     /// it points in another direction or is much longer.
     pub(super) fn pace(&self, here: &Self, before: &Self) -> Option<f64> {
         let (mut sum, mut moving) = (0.0, 0.0);
-        for ((now, here), before) in self.quantities().zip(here.quantities()).zip(before.quantities()) {
+        let earlier = here.quantities().zip(before.quantities());
+        for ((_, now), ((_, here), (_, before))) in self.quantities().zip(earlier) {
             let (mut last, mut along, mut next) = (0.0, 0.0, 0.0);
             for ((now, here), before) in now.iter().zip(here).zip(before) {
                 let (step, then) = (now - here, here - before);
@@ -114,39 +115,8 @@ impl Inputs {
         (moving > 0.0).then(|| sum / moving)
     }
 
-    /// The components of each quantity.
-    fn quantities(&self) -> impl Iterator<Item = &[f64]> {
-        let Self {
-            magnet,
-            magnet_strength,
-            uniform_field,
-            field_gradient,
-            base,
-            tip_force,
-            tip_moment,
-            ring_forces,
-            gravity,
-        } = self;
-        let numbers = [
-            magnet.position.as_slice(),
-            magnet.rotation.as_slice(),
-            std::slice::from_ref(magnet_strength),
-            uniform_field.as_slice(),
-            field_gradient,
-            base.position.as_slice(),
-            base.rotation.as_slice(),
-            tip_force.as_slice(),
-            tip_moment.as_slice(),
-            gravity.as_slice(),
-        ];
-        numbers.into_iter().chain(ring_forces.iter().map(Vector3::as_slice))
-    }
-
-    /// Checks that every number is finite and that there is one force for each of `rings` rings.
-    ///
-    /// # Errors
-    /// [`Error::Range`] naming the first quantity that is not finite, [`Error::Count`] for the forces.
-    pub fn check(&self, rings: usize) -> Result<(), Error> {
+    /// The components of each quantity, with its name and unit.
+    fn quantities(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
         let Self {
             magnet,
             magnet_strength,
@@ -160,28 +130,34 @@ impl Inputs {
         } = self;
         let named = [
             ("magnet position (m)", magnet.position.as_slice()),
+            ("magnet orientation", magnet.rotation.as_slice()),
+            ("magnet strength", std::slice::from_ref(magnet_strength)),
             ("uniform field (T)", uniform_field.as_slice()),
+            ("field gradient (T/m)", field_gradient),
             ("base position (m)", base.position.as_slice()),
+            ("base orientation", base.rotation.as_slice()),
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
             ("gravity (m/s2)", gravity.as_slice()),
         ];
-        let forces = ring_forces.iter().map(|force| ("ring force (N)", force.as_slice()));
-        let rest = [
-            ("magnet orientation", magnet.rotation.as_slice()),
-            ("base orientation", base.rotation.as_slice()),
-            ("magnet strength", std::slice::from_ref(magnet_strength)),
-            ("field gradient (T/m)", field_gradient),
-        ];
-        for (name, values) in named.into_iter().chain(forces).chain(rest) {
+        named.into_iter().chain(ring_forces.iter().map(|force| ("ring force (N)", force.as_slice())))
+    }
+
+    /// Checks that every number is finite and that there is one force for each of `rings` rings.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity that is not finite, [`Error::Count`] for the forces.
+    pub fn check(&self, rings: usize) -> Result<(), Error> {
+        for (name, values) in self.quantities() {
             for value in values {
                 check(name, *value, |_| true, "finite")?;
             }
         }
-        if ring_forces.len() == rings {
+        let given = self.ring_forces.len();
+        if given == rings {
             return Ok(());
         }
         let expected = format!("{rings}, one for each ring");
-        Err(Error::Count { quantity: "ring forces".into(), given: ring_forces.len(), expected })
+        Err(Error::Count { quantity: "ring forces".into(), given, expected })
     }
 }

@@ -16,14 +16,10 @@ impl Search<'_> {
     pub(super) fn predict(&mut self, branch: &mut History, target: &Inputs) -> bool {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         let expected = branch.predicted(target, &self.model, &mut trial);
-        let mut found =
-            expected.is_some_and(|length| self.correct(target, &mut trial, (MISTAKEN * length).max(NEARLY)));
-        if let Some(before) = &branch.inputs {
-            found = found && (self.kept || self.goes_on([before, target], [&branch.unknowns, &trial]));
-        }
-        if found {
-            branch.unknowns.copy_from_slice(&trial);
-        }
+        let found = expected.is_some_and(|length| {
+            let reach = (MISTAKEN * length).max(NEARLY);
+            self.accept(branch.inputs.as_ref(), target, &mut branch.unknowns, &mut trial, reach)
+        });
         self.scratch.trial = trial;
         found
     }
