@@ -1,4 +1,4 @@
-//! The chain of bodies from base to tip, checked once.
+//! The chain of bodies from base to tip, validated once.
 
 use super::helix::annulus_area;
 use super::limits;
@@ -8,7 +8,7 @@ use super::specification::{Backbone, Cylinder, CylinderMaterial, Segmented, Spec
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
-/// What lies between two rings (or between base and tip), and the ring at its end.
+/// The deformable spans between two rings (or between base and tip), and the ring at their distal end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
     /// The deformable spans, base to tip.
@@ -17,7 +17,7 @@ pub struct Segment {
     pub ring: Option<Ring>,
 }
 
-/// A checked design: every number in range, every body derived.
+/// A validated design: all quantities are within their ranges, and the bodies are derived from them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     specification: Specification,
@@ -47,7 +47,7 @@ impl Design {
         Ok(Self { specification, base_ring, segments })
     }
 
-    /// What the design was made from.
+    /// The specification from which the design was made.
     #[must_use]
     pub fn specification(&self) -> &Specification {
         &self.specification
@@ -84,7 +84,7 @@ impl Design {
         spans + self.rings().map(|ring| ring.mass).sum::<f64>()
     }
 
-    /// Magnetic moment along `d3` when straight, A m2.
+    /// Magnetic moment of the straight manipulator along `d3`, A m2.
     #[must_use]
     pub fn moment(&self) -> f64 {
         let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(Span::moment).sum();
@@ -165,7 +165,7 @@ fn plain(rod: &Cylinder) -> Result<Segment, Error> {
     Ok(Segment { spans: vec![span], ring: None })
 }
 
-/// What a backbone adds to every section.
+/// Contribution of a backbone to every section.
 struct Tube {
     stiffness: Stiffness,
     line_density: f64,

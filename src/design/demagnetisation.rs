@@ -1,4 +1,4 @@
-//! How much a ring magnet's own field weakens it.
+//! Demagnetisation of a ring magnet by its own field.
 
 use core::f64::consts::PI;
 
@@ -6,18 +6,20 @@ use super::helix::annulus_area;
 use super::specification::Segmented;
 use crate::numerics::quadrature::gauss_legendre;
 
-/// Panels of the quadrature, each half as long as the one before it, towards the angle at which the two circles are closest;
-/// the last one reaches it. There alone may the integrand be less than smooth, by what it varies by over 2e-7 of the range.
+/// Number of panels of the quadrature, each half as long as the previous one, towards the angle at which the two
+/// circles are closest. The last one ends there: only in it, over 2e-7 of the range, may the integrand not be smooth;
+/// the error is limited by its variation there.
 const PANELS: i32 = 23;
 
-/// Gauss points of a panel: none of the integrand's singularities is closer to its middle than three halves of its length, so
-/// that the error falls by a factor of 34 a point.
+/// Gauss points per panel: all singularities of the integrand are at least three halves of a panel's length away from
+/// its middle, so that each point reduces the error by a factor of 34.
 const POINTS: usize = 12;
 
 /// Magnetometric demagnetising factor of an annulus along its axis, from 0 (a long tube) to 1 (a thin disc).
 ///
-/// It is the mean of the field that a uniform magnetisation `M` makes within its own body, `<H_z> = -N M`: the magnetostatic
-/// self-energy `mu_0 N M^2 V / 2` of its two charged faces. With the energy of two coaxial discs of the radii `a` and `b`,
+/// It is the factor in the mean field of a uniform magnetisation `M` within its own body, `<H_z> = -N M`, and follows
+/// from the magnetostatic self-energy `mu_0 N M^2 V / 2` of its two charged faces. With the energy of two coaxial discs
+/// of the radii `a` and `b`,
 ///
 /// ```text
 /// N = (J(R, R) - 2 J(R, r) + J(r, r)) / V      V = pi (R^2 - r^2) L
@@ -25,19 +27,20 @@ const POINTS: usize = 12;
 /// D^2 = a^2 + b^2 - 2 a b cos(phi)      S^2 = D^2 + L^2
 /// ```
 ///
-/// by Gauss-Legendre quadrature, to rounding; for a wall that is thin beside the radius rounding grows with the square of
-/// their ratio. Arguments are the inner radius `0 <= r < R`, the outer radius `R` and the length `L > 0`, m.
+/// by Gauss-Legendre quadrature, to machine precision; for a wall that is thin compared with the radius, rounding
+/// errors grow with the square of their ratio. Arguments are the inner radius `0 <= r < R`, the outer radius `R` and
+/// the length `L > 0`, m.
 ///
 /// ```
 /// use mcm::design::demagnetising_factor;
 /// // A cylinder as long as wide: 1 minus Nagaoka's coefficient 0.688423.
 /// assert!((demagnetising_factor(0.0, 1e-3, 2e-3) - 0.311577).abs() < 1e-6);
-/// // A bore leaves the faces' charges less company.
+/// // A bore reduces the factor.
 /// assert!(demagnetising_factor(0.75e-3, 2e-3, 1e-3) < demagnetising_factor(0.0, 2e-3, 1e-3));
 /// ```
 ///
-/// Source: R. I. Joseph, J. Appl. Phys. 37 (1966) 4639, for the solid cylinder; the integral is that of F. E. Neumann for the
-/// mutual inductance of coaxial circles, integrated twice along the axis.
+/// Source: R. I. Joseph, J. Appl. Phys. 37 (1966) 4639, for the solid cylinder; the integral is that of F. E. Neumann
+/// for the mutual inductance of coaxial circles, integrated twice along the axis.
 #[must_use]
 pub fn demagnetising_factor(inner_radius: f64, outer_radius: f64, length: f64) -> f64 {
     let energy = |a, b| discs(a, b, length);
@@ -45,7 +48,8 @@ pub fn demagnetising_factor(inner_radius: f64, outer_radius: f64, length: f64) -
     (own - 2.0 * energy(outer_radius, inner_radius)) / (annulus_area(inner_radius, outer_radius) * length)
 }
 
-/// `J(a, b)`: what the energy of two coaxial discs of unit charge density falls by as they move apart by `length`, over `2 pi`, m3.
+/// `J(a, b)`: decrease of the energy of two coaxial discs of unit charge density as they move apart by `length`, over
+/// `2 pi`, m3.
 fn discs(a: f64, b: f64, length: f64) -> f64 {
     let (nodes, weights) = gauss_legendre(POINTS);
     let mut sum = 0.0;
@@ -58,7 +62,7 @@ fn discs(a: f64, b: f64, length: f64) -> f64 {
             let half_sine = (0.5 * angle).sin();
             let square = (a - b) * (a - b) + 4.0 * a * b * half_sine * half_sine;
             let (gap, slant) = (square.sqrt(), (square + length * length).sqrt());
-            // S - L and ln((L + S)/2L), which leave out constants that the cosine takes away.
+            // S - L and ln((L + S)/2L): the omitted constants vanish in the integral with the cosine.
             let longer = square / (slant + length);
             let logarithm = (0.5 * longer / length).ln_1p();
             sum += half * weight * angle.cos() * (longer - gap - length * logarithm);
@@ -68,19 +72,20 @@ fn discs(a: f64, b: f64, length: f64) -> f64 {
 }
 
 impl Segmented {
-    /// Magnetic polarisation `J = mu_0 M` of the rings along their axis, T: the remanence of the magnets of permeability 1 that
-    /// stand for them.
+    /// Magnetic polarisation `J = mu_0 M` of the rings along their axis, T: the remanence of equivalent magnets of
+    /// permeability 1.
     ///
-    /// On the straight demagnetisation curve `B = B_r + mu_0 mu_r H`, in the mean `H = -N M` of the ring's own field,
+    /// With the linear demagnetisation curve `B = B_r + mu_0 mu_r H` and the mean `H = -N M` of the ring's own field,
     ///
     /// ```text
     /// J = B_r / (1 + N (mu_r - 1))
     /// ```
     ///
-    /// with [`demagnetising_factor`] `N`. That the magnetisation is uniform is an approximation, good to second order in `mu_r - 1`:
-    /// beside an integral equation (`cargo test recoil`) the moment of the paper's ring errs by 5e-5 at `mu_r = 1.05` and by 1e-2 at
-    /// 2, its field where the next ring sits by 6e-4 more and by 9e-3. What the fields of other magnets induce is left out: 20 mT
-    /// change the polarisation by `20 mT (mu_r - 1)`, at 1.05 by 1 mT of 1.35 T.
+    /// with [`demagnetising_factor`] `N`. The uniform magnetisation is an approximation with an error of second order
+    /// in `mu_r - 1`: compared with an integral equation (`cargo test recoil`), the error of the moment of the paper's
+    /// ring is 5e-5 at `mu_r = 1.05` and 1e-2 at 2; that of its field at the next ring is larger by 6e-4 and 9e-3,
+    /// respectively. Magnetisation induced by other magnets is neglected: 20 mT change the polarisation by
+    /// `20 mT (mu_r - 1)`, at 1.05 by 1 mT of 1.35 T.
     ///
     /// ```
     /// use mcm::design::{RingMagnet, Segmented};

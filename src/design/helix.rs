@@ -6,7 +6,7 @@ use super::limits;
 use super::specification::Helix;
 use crate::error::{Error, check};
 
-/// What follows from a helix's length, boundary angle, radius and windings.
+/// Geometry derived from a helix's length, boundary angle, radius and windings.
 ///
 /// ```text
 /// p = R Theta / W      h = (L - W p) / (2 + W)      phi = 2 pi h / (h + p)

@@ -6,18 +6,20 @@ use super::material::DENSEST_PACKING;
 use super::specification::{Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented};
 use crate::error::{Error, check};
 
-/// Most segments of one manipulator.
+/// Largest number of segments of a manipulator.
 pub const MOST_SEGMENTS: usize = 64;
 
-/// Largest recoil permeability of the rings. Ferrites and rare-earth magnets have 1.03 to 1.3; an alnico's 2 to 7 goes with a demagnetisation
-/// curve whose knee a flat ring's own field passes, so that no straight line stands for it. At 2 a uniform magnetisation is good to
-/// a percent of the moment.
+/// Largest recoil permeability of the rings.
+///
+/// Ferrites and rare-earth magnets have 1.03 to 1.3. Alnico has 2 to 7, but a flat ring's own field exceeds the knee of
+/// its demagnetisation curve, which is not linear there. At 2 the moment of a uniform magnetisation is accurate to a
+/// percent.
 pub const MOST_PERMEABLE: f64 = 2.0;
 
-/// Relative slack with which one radius may exceed another that it is to fit in: the rounding of a unit.
+/// Relative excess of one radius over another, into which it has to fit, that counts as rounding of a unit conversion.
 const FIT: f64 = 1e-9;
 
-/// Checks a helix's given quantities.
+/// Checks the given quantities of a helix.
 pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
     length("helix length L (m)", helix.length)?;
     check("boundary angle Theta (rad)", helix.boundary_angle, |v| v > 0.0 && v <= PI, "> 0 and <= pi")?;
@@ -39,7 +41,7 @@ pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
     helix.density.map_or(Ok(()), density)
 }
 
-/// Checks the ring magnets' given quantities.
+/// Checks the given quantities of the ring magnets.
 pub(super) fn ring(ring: &RingMagnet) -> Result<(), Error> {
     length("ring length L_mag (m)", ring.length)?;
     remanence("ring remanence B_r (T)", ring.remanence)?;
@@ -122,7 +124,7 @@ fn composite(hardness: f64, ratio: f64, volume_fraction: f64, particle_remanence
     remanence("particle remanence B_r (T)", particle_remanence)
 }
 
-/// A length or radius; the upper end catches millimetres given as metres.
+/// Checks a length or radius; the upper limit detects millimetres given as metres.
 fn length(quantity: &str, value: f64) -> Result<(), Error> {
     check(quantity, value, |v| v > 0.0 && v <= 1.0, "> 0 and <= 1").map(|_| ())
 }

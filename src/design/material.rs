@@ -92,13 +92,13 @@ pub(super) struct Moduli {
 }
 
 impl Moduli {
-    /// Of a composite (Eq. 14, 15): `E = 2 G (1 + nu)`.
+    /// Moduli of a composite (Eq. 14, 15): `E = 2 G (1 + nu)`.
     pub(super) fn composite(shore_a: f64, poisson: f64, volume_fraction: f64) -> Self {
         let shear = composite_shear_modulus(gent_modulus(shore_a), poisson, volume_fraction);
         Self { elastic: 2.0 * shear * (1.0 + poisson), shear }
     }
 
-    /// Of a bulk material.
+    /// Moduli of a bulk material.
     pub(super) fn bulk(elastic: f64, poisson: f64) -> Self {
         Self { elastic, shear: shear_modulus(elastic, poisson) }
     }

@@ -1,4 +1,4 @@
-//! What is built: materials, bodies and the chain that they form.
+//! Design of the manipulator: materials, bodies and the chain that they form.
 
 mod chain;
 mod demagnetisation;

@@ -1,11 +1,11 @@
-//! Relative magnetic moment of a manipulator: how much of a solid magnet of its size it is worth.
+//! Relative magnetic moment of a manipulator, compared with a solid magnet of its size.
 
 use super::helix::{SpiralVolume, annulus_area};
 use super::limits;
 use super::specification::Segmented;
 use crate::error::Error;
 
-/// Ratios to a solid cylindrical magnet of equal length and diameter, each in `[0, 1]`.
+/// Ratios to a solid cylindrical magnet of equal length and diameter; the first three are in `[0, 1]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeMoment {
     /// Relative absolute volume `V_rel` (Eq. 4).
@@ -14,8 +14,8 @@ pub struct RelativeMoment {
     pub magnetic_volume: f64,
     /// Relative magnetic moment `mu_rel = M_rel V_rel` (Eq. 6).
     pub moment: f64,
-    /// Magnetic moment over that of the solid magnet of the rings' remanence. Eq. (5) counts volumes only and
-    /// leaves out that rings and particles differ in remanence.
+    /// Magnetic moment relative to that of the solid magnet with the rings' remanence. Eq. (5) considers volumes only
+    /// and neglects that rings and particles differ in remanence.
     pub remanent_moment: f64,
 }
 
@@ -26,7 +26,7 @@ impl Segmented {
         self.segments.saturating_sub(1) + usize::from(self.base_magnet) + usize::from(self.tip_magnet)
     }
 
-    /// Relative magnetic moment (Eq. 4 to 6), for the rings that are there (`S + 1` in the paper).
+    /// Relative magnetic moment (Eq. 4 to 6), for the actual number of rings (`S + 1` in the paper).
     ///
     /// ```text
     /// V_rel = (rings V_mag + S V_mpc) / V_tot      M_rel = (rings V_mag + S Phi V_mpc) / V_tot
@@ -34,8 +34,8 @@ impl Segmented {
     /// remanent_moment = (rings V_mag J_ring + S Phi V_mpc B_particle) / (V_tot B_ring)
     /// ```
     ///
-    /// `J_ring` is [`Segmented::ring_polarisation`], the remanence `B_ring` unless the rings' recoil permeability differs from 1.
-    /// Without magnetised rings (`B_ring = 0`) the last ratio refers to the particles' remanence.
+    /// `J_ring` is [`Segmented::ring_polarisation`], the remanence `B_ring` unless the rings' recoil permeability
+    /// differs from 1. Without magnetised rings (`B_ring = 0`) the last ratio refers to the particles' remanence.
     ///
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.

@@ -24,7 +24,7 @@ impl Helix {
 }
 
 impl RingMagnet {
-    /// The ring magnets of Table 1; like the paper they leave out that their own field weakens them.
+    /// The ring magnets of Table 1; as in the paper, demagnetisation by their own field is neglected.
     #[must_use]
     pub fn paper() -> Self {
         Self { length: 1.0e-3, remanence: 1.35, recoil_permeability: 1.0, density: PARTICLE_DENSITY }
@@ -63,7 +63,7 @@ impl Specification {
 }
 
 impl Backbone {
-    /// The silicone tube: 1.5 mm by 0.5 mm, Shore A 50 by Eq. (14).
+    /// The silicone tube: diameters 1.5 mm and 0.5 mm, Shore A 50 by Eq. (14).
     #[must_use]
     pub fn silicone() -> Self {
         Self {
@@ -75,7 +75,7 @@ impl Backbone {
         }
     }
 
-    /// The PTFE tube of the guidewire demonstration: 1.48 mm by 1.40 mm.
+    /// The PTFE tube of the guidewire demonstration: diameters 1.48 mm and 1.40 mm.
     ///
     /// Modulus 5e8 Pa: the flexural modulus (ASTM D790) of the data sheet of Teflon PTFE (Chemours, typical
     /// properties), within the 4.0e8 to 5.5e8 Pa of Callister, *Materials Science and Engineering*, 7th ed., Table B.2.

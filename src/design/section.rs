@@ -1,4 +1,4 @@
-//! The bodies of the chain, as rod and magnetics see them.
+//! The bodies of the chain, with the properties that the rod and the magnetic models need.
 
 use core::f64::consts::PI;
 use core::ops::Add;
@@ -38,7 +38,7 @@ impl Stiffness {
 impl Add for Stiffness {
     type Output = Self;
 
-    /// Stiffness of two sections that bend together.
+    /// Stiffness of two concentric sections that deform together.
     fn add(self, other: Self) -> Self {
         Self {
             bending: self.bending + other.bending,
@@ -61,7 +61,7 @@ pub struct Spiral {
     pub sector_angle: f64,
     /// Windings over the whole core.
     pub windings: f64,
-    /// Turning or spread.
+    /// Helical or axisymmetric.
     pub kind: SpiralKind,
     /// Angle `Theta` by which the core bends until adjacent windings touch, rad.
     pub boundary_angle: f64,
@@ -69,7 +69,7 @@ pub struct Spiral {
     pub closed_bending: f64,
 }
 
-/// What a span is.
+/// Type of a span.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpanKind {
     /// A closed and ground end of the helix.
@@ -83,7 +83,7 @@ pub enum SpanKind {
 /// A deformable piece of constant section, magnetised along `d3`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Span {
-    /// What it is.
+    /// Type of the span.
     pub kind: SpanKind,
     /// Length along the unstrained centreline, m.
     pub length: f64,
@@ -91,13 +91,13 @@ pub struct Span {
     pub inner_radius: f64,
     /// Outer radius of the annulus (without the spiral), m.
     pub outer_radius: f64,
-    /// Section stiffness, a backbone's included.
+    /// Section stiffness, including the backbone's.
     pub stiffness: Stiffness,
     /// Magnetisation along `d3`, A/m.
     pub magnetisation: f64,
     /// Density of the annulus and the spiral, kg/m3.
     pub density: f64,
-    /// Further mass per length on the centreline (the backbone), kg/m.
+    /// Additional mass per length on the centreline (the backbone), kg/m.
     pub line_density: f64,
     /// The spiral, if the span carries one.
     pub spiral: Option<Spiral>,
@@ -112,10 +112,10 @@ pub struct Ring {
     pub outer_radius: f64,
     /// Length along the axis, m.
     pub length: f64,
-    /// Remanence of the uniform magnet of permeability 1 that stands for it, T: its polarisation `mu_0 M` along the axis in its
-    /// own field, [`Segmented::ring_polarisation`](super::Segmented::ring_polarisation).
+    /// Remanence of the equivalent uniform magnet of permeability 1, T: the ring's polarisation `mu_0 M` along its axis
+    /// in its own field, see [`Segmented::ring_polarisation`](super::Segmented::ring_polarisation).
     pub remanence: f64,
-    /// Mass, a backbone's part included, kg.
+    /// Mass, including the backbone's part, kg.
     pub mass: f64,
 }
 
@@ -134,19 +134,19 @@ impl Span {
         annulus_area(self.inner_radius, self.outer_radius)
     }
 
-    /// Volume of magnetised material, the spiral's included, m3.
+    /// Volume of magnetised material, including the spiral, m3.
     #[must_use]
     pub fn volume(&self) -> f64 {
         (self.area() + self.spiral.map_or(0.0, |spiral| spiral.area())) * self.length
     }
 
-    /// Magnetic moment along `d3` when straight, A m2.
+    /// Magnetic moment of the straight span along `d3`, A m2.
     #[must_use]
     pub fn moment(&self) -> f64 {
         self.magnetisation * self.volume()
     }
 
-    /// Mass, the backbone's part included, kg.
+    /// Mass, including the backbone's part, kg.
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.density * self.volume() + self.line_density * self.length

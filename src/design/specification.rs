@@ -1,18 +1,18 @@
-//! What a designer states: dimensions and materials, in SI units, not yet checked.
+//! Specification of a device: dimensions and materials in SI units, not yet validated.
 
-/// An elastic modulus, measured or by way of the Shore hardness.
+/// An elastic modulus, given directly or by the Shore hardness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Modulus {
-    /// Shore A hardness, turned into Young's modulus by Gent's relation (Eq. 14).
+    /// Shore A hardness, converted to Young's modulus by Gent's relation (Eq. 14).
     ShoreA(f64),
     /// Young's modulus, Pa.
     Elastic(f64),
 }
 
-/// How the spiral's sector lies in the section.
+/// Arrangement of the spiral's sector in the section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpiralKind {
-    /// The sector turns with arc length, as built.
+    /// The sector rotates with arc length, as built.
     Helical,
     /// The sector's area is spread evenly over the circle.
     Axisymmetric,
@@ -52,8 +52,8 @@ pub struct RingMagnet {
     pub length: f64,
     /// Remanence `B_r`, T.
     pub remanence: f64,
-    /// Relative recoil permeability `mu_r`: slope of the demagnetisation curve `B = B_r + mu_0 mu_r H`. Above 1 the ring's own
-    /// field weakens it.
+    /// Relative recoil permeability `mu_r`: slope of the demagnetisation curve `B = B_r + mu_0 mu_r H`. Above 1 the
+    /// ring's own field weakens it.
     pub recoil_permeability: f64,
     /// Density, kg/m3.
     pub density: f64,
@@ -93,7 +93,7 @@ pub struct Segmented {
     pub backbone: Option<Backbone>,
 }
 
-/// What a plain cylinder is made of.
+/// Material of a plain cylinder.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CylinderMaterial {
     /// Magnetic polymer composite: elastomer with magnetic particles (Eq. 14, 15).
@@ -107,7 +107,7 @@ pub enum CylinderMaterial {
         /// Remanence of the particles, T.
         particle_remanence: f64,
     },
-    /// Properties of the bulk, given directly.
+    /// Bulk material with directly given properties.
     Bulk {
         /// Young's modulus, Pa.
         elastic_modulus: f64,
@@ -133,7 +133,7 @@ pub struct Cylinder {
     pub density: Option<f64>,
 }
 
-/// Either device.
+/// Specification of either type of device.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Specification {
     /// Rings and helices.

@@ -1,4 +1,4 @@
-//! A rigid body's pose: where it is and how it is turned.
+//! Pose of a rigid body: position and orientation.
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
@@ -24,10 +24,10 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// How far a given quaternion's norm may be from one.
+    /// Largest deviation of a given quaternion's norm from one.
     const NORM_SLACK: f64 = 1e-3;
 
-    /// The pose at the origin, unturned.
+    /// The identity: a frame at the origin without rotation.
     #[must_use]
     pub fn identity() -> Self {
         Self { position: Vector3::zeros(), rotation: Matrix3::identity() }
@@ -72,8 +72,9 @@ impl Pose {
         [sign * q.w, sign * q.i, sign * q.j, sign * q.k]
     }
 
-    /// The angular velocity (rad, fixed axes) of the orientation that a quaternion describes, when the quaternion
-    /// changes at the given rate: `2 rate q* / |q|^2`. Both scalar first; the part along `q` turns nothing.
+    /// Angular velocity (rad, fixed axes) of the orientation of a quaternion that changes at the given rate.
+    ///
+    /// It is `2 rate q* / |q|^2`, both arguments scalar first; the part of `rate` along `q` causes no rotation.
     ///
     /// ```
     /// use mcm::geometry::Pose;
@@ -102,13 +103,13 @@ impl Pose {
         self.position + self.rotation * local
     }
 
-    /// The pose in the world of what has the pose `local` in this frame.
+    /// World pose of a frame whose pose in this frame is `local`.
     #[must_use]
     pub fn compose(&self, local: &Self) -> Self {
         Self { position: self.transform(&local.position), rotation: self.rotation * local.rotation }
     }
 
-    /// This pose as seen from the frame `from`: `from.compose` of it is this pose again.
+    /// This pose relative to the frame `from`: `from.compose` of the result is this pose.
     #[must_use]
     pub fn seen_from(&self, from: &Self) -> Self {
         let back = from.rotation.transpose();
@@ -121,7 +122,7 @@ impl Pose {
         Self { position: self.position + self.axis() * distance, rotation: self.rotation }
     }
 
-    /// The pose a fraction `t` of the way to `other`, turned along the shortest arc.
+    /// The pose at the fraction `t` of the way to `other`, rotated along the shortest arc.
     #[must_use]
     pub fn between(&self, other: &Self, t: f64) -> Self {
         let turn = rotation_log(&self.rotation.tr_mul(&other.rotation)) * t;

@@ -11,13 +11,13 @@
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// Beyond this squared angle the Stumpff functions come from sine and cosine, below from their series.
+/// Squared angle above which the Stumpff functions are computed from sine and cosine, below it from their series.
 const SERIES_LIMIT: f64 = 12.0;
 
-/// Terms of the series: at `SERIES_LIMIT` the first one left out is below 1e-17 of the sum.
+/// Number of terms of the series: at `SERIES_LIMIT` the first neglected one is below 1e-17 of the sum.
 const SERIES_TERMS: usize = 12;
 
-/// Below this squared angle, half the terms do.
+/// Squared angle below which half of the terms suffice.
 const SHORT_LIMIT: f64 = 0.5;
 
 /// Coefficients `(-1)^j k! / (2j + k)!` of the series of `k! c_k`.
@@ -78,7 +78,7 @@ fn stumpff(z: f64) -> [f64; 8] {
     c
 }
 
-/// A rotation vector with everything that its derivatives need.
+/// A rotation vector with the Stumpff functions of its matrix and derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct RotationVector {
     vector: Vector3<f64>,
@@ -86,7 +86,7 @@ pub struct RotationVector {
 }
 
 impl RotationVector {
-    /// Prepares the rotation vector `vector` (rad).
+    /// The rotation vector `vector` (rad) with its Stumpff functions.
     #[must_use]
     pub fn new(vector: Vector3<f64>) -> Self {
         Self { vector, c: stumpff(vector.norm_squared()) }
@@ -98,13 +98,13 @@ impl RotationVector {
         self.combine(0, 1.0)
     }
 
-    /// The left Jacobian: a change `d` of the vector turns the frame by `J_l d` in fixed axes.
+    /// The left Jacobian: a change `d` of the vector rotates the frame by `J_l d` in fixed axes.
     #[must_use]
     pub fn left_jacobian(&self) -> Matrix3<f64> {
         self.combine(1, 1.0)
     }
 
-    /// The right Jacobian: a change `d` of the vector turns the frame by `J_r d` in its own axes.
+    /// The right Jacobian: a change `d` of the vector rotates the frame by `J_r d` in its own axes.
     #[must_use]
     pub fn right_jacobian(&self) -> Matrix3<f64> {
         self.combine(1, -1.0)
@@ -116,13 +116,13 @@ impl RotationVector {
         self.left_jacobian().try_inverse().filter(|inverse| inverse.iter().all(|entry| entry.abs() < 1e6))
     }
 
-    /// Gradient and Hessian, by the vector, of `N : exp(theta)`.
+    /// Gradient and Hessian of `N : exp(theta)` with respect to the vector.
     #[must_use]
     pub fn contract_rotation(&self, n: &Matrix3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
         self.contract(0, 1.0, n.trace(), &axial(n), n)
     }
 
-    /// Gradient, by the vector, of `N : exp(theta)`.
+    /// Gradient of `N : exp(theta)` with respect to the vector.
     #[must_use]
     pub fn rotation_gradient(&self, n: &Matrix3<f64>) -> Vector3<f64> {
         let v = &self.vector;
@@ -132,19 +132,19 @@ impl RotationVector {
         v * (2.0 * first) + w * self.c[1] + g * self.c[2]
     }
 
-    /// Hessian, by the vector, of `m . J_r(theta) rate`.
+    /// Hessian of `m . J_r(theta) rate` with respect to the vector.
     #[must_use]
     pub fn contract_curvature(&self, m: &Vector3<f64>, rate: &Vector3<f64>) -> Matrix3<f64> {
         self.contract(1, -1.0, m.dot(rate), &-m.cross(rate), &(m * rate.transpose())).1
     }
 
-    /// Derivative of `J_l(theta) m` by the vector.
+    /// Derivative of `J_l(theta) m` with respect to the vector.
     #[must_use]
     pub fn left_product_derivative(&self, m: &Vector3<f64>) -> Matrix3<f64> {
         self.product_derivative(m, 1.0)
     }
 
-    /// Derivative of `J_r(theta) m` by the vector.
+    /// Derivative of `J_r(theta) m` with respect to the vector.
     #[must_use]
     pub fn right_product_derivative(&self, m: &Vector3<f64>) -> Matrix3<f64> {
         self.product_derivative(m, -1.0)

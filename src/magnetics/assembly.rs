@@ -25,8 +25,8 @@ pub struct AxialMagnet {
 
 /// A checked assembly of coaxial cylinders; its frame's third axis is the common axis.
 ///
-/// Its cylinders may touch but not overlap. All fields are in the assembly's frame and add up; see
-/// [`AxialSource`] for what is answered inside the material and on its surface.
+/// Its cylinders may touch but not overlap. All fields are in the assembly's frame and add up; see [`AxialSource`] for
+/// their values inside the material and on its surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {
     magnets: Vec<AxialMagnet>,
@@ -34,10 +34,10 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Most cylinders of one assembly.
+    /// Largest number of cylinders of an assembly.
     pub const MOST_MAGNETS: usize = 64;
 
-    /// Checks and keeps the cylinders.
+    /// Checks the cylinders and makes the assembly of them.
     ///
     /// ```
     /// use mcm::magnetics::{Assembly, AxialMagnet};
@@ -52,7 +52,7 @@ impl Assembly {
     pub fn new(magnets: Vec<AxialMagnet>) -> Result<Self, Error> {
         if magnets.is_empty() || magnets.len() > Self::MOST_MAGNETS {
             return Err(Error::Count {
-                quantity: "external magnet's cylinders".into(),
+                quantity: "list of the external magnet's cylinders".into(),
                 given: magnets.len(),
                 expected: format!("1 to {}", Self::MOST_MAGNETS),
             });
@@ -143,12 +143,12 @@ impl Assembly {
         self.sources.iter().map(AxialSource::moment).sum()
     }
 
-    /// The cylinders as bodies, each with its centre, m.
+    /// The outlines of the cylinders, each with its centre, m.
     pub fn outlines(&self) -> impl Iterator<Item = (Outline, Vector3<f64>)> {
         self.placed().map(|(source, centre)| (source.outline(), centre))
     }
 
-    /// The sources with their centres.
+    /// The sources, each with its centre, m.
     pub(super) fn placed(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         self.sources.iter().zip(&self.magnets).map(|(source, m)| (source, Vector3::new(0.0, 0.0, m.offset)))
     }

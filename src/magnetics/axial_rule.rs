@@ -1,9 +1,10 @@
 //! Volume integrals of harmonic functions over an annular cylinder by a few nodes on its axis.
 //!
-//! A field without sources in a ball around the body is a sum of solid harmonics there. Integrated over an axisymmetric body
-//! only the axial ones survive, and on the axis the one of degree `l` is `z^l`. So nodes `z_i` on the axis with
-//! weights `w_i` such that `sum w_i z_i^l = M_l`, the volume integral of `r^l P_l(cos theta)`, integrate every component of
-//! such a field over the body: a ring costs as many field evaluations as there are nodes, whatever its shape.
+//! A field without sources in a ball around the body is a sum of solid harmonics there. Integrated over an axisymmetric
+//! body only the axial ones remain, and on the axis the one of degree `l` is `z^l`. So nodes `z_i` on the axis with
+//! weights `w_i` such that `sum w_i z_i^l = M_l`, the volume integral of `r^l P_l(cos theta)`, integrate every
+//! component of such a field over the body: a ring costs as many field evaluations as there are nodes, whatever its
+//! shape.
 
 use core::f64::consts::PI;
 
@@ -11,24 +12,27 @@ use super::multipole::axial_moment;
 use crate::error::{Error, check};
 use crate::numerics::bisection::bisect;
 
-/// Reach of the nodes over the body's extent `sqrt(a^2 + h^2)` where no longer one is better, see [`reach_of`].
+/// Half width of the interval of the nodes, relative to the body's extent `sqrt(a^2 + h^2)`, unless a larger one is
+/// better, see [`reach_of`].
 ///
-/// Short reaches follow the Taylor series (weights of alternating sign grow and lose digits), long ones raise the degrees
-/// left out. At 0.6 the sum of `|w_i|` of 11 nodes is 3000 volumes, so 1e-12 of the field's size is lost; error and
-/// sum for reaches of 0.5 to 0.8 differ by a factor of about 5. More nodes than 13 need the longer one for their weights.
+/// A small half width approaches the Taylor series (weights of alternating sign grow and lose digits); a large one
+/// increases the error of the degrees that are not matched. At 0.6 the sum of `|w_i|` of 11 nodes is 3000 volumes, so
+/// that rounding costs 1e-12 of the field; from 0.5 to 0.8, error and sum differ by a factor of about 5. More than 13
+/// nodes need the larger one because of their weights.
 const REACH: f64 = 0.6;
 const REACH_OF_MANY: f64 = 0.7;
 
-/// Longest reach that is looked at, how many are, and how often the arc between two of them is halved.
+/// Largest half width tried, number of values tried, and number of bisections of the interval between two of them.
 const LONGEST: f64 = 1.0;
 const TRIED: usize = 16;
 const BISECTIONS: usize = 30;
 
-/// Extent over distance of the dipole whose field the best reach is for. The edges of a ring as close as 0.45 feel the high
-/// degrees as such a dipole does: from 0.28 to 0.4 the errors of two of the paper's rings are within a factor of two.
+/// Extent over distance of the dipole for whose field the half width is optimised. It represents a ring at 0.45, whose
+/// edges are equally affected by high degrees: from 0.28 to 0.4 the errors of two of the paper's rings are within a
+/// factor of two.
 const NEAR: f64 = 0.32;
 
-/// Terms of the error estimate: even degrees that follow the matched ones.
+/// Number of terms of the error estimate: the even degrees that follow the matched ones.
 const ESTIMATED_DEGREES: usize = 16;
 
 /// Nodes and weights on the axis of an annular cylinder centred at the origin.
@@ -50,16 +54,17 @@ pub struct AxialRule {
 }
 
 impl AxialRule {
-    /// Most nodes of a rule.
+    /// Largest number of nodes of a rule.
     pub const MOST_NODES: usize = 15;
 
     /// The rule with `nodes` nodes for the radii `inner` and `outer` and the length of the body, m.
     ///
-    /// It integrates solid harmonics up to the degree `nodes` for odd and `nodes - 1` for even counts: an even count is
-    /// no better than the odd one below it. One node is the point at the centre.
+    /// It integrates solid harmonics exactly up to the degree `nodes` for an odd and `nodes - 1` for an even number of
+    /// nodes: an even number is no better than the odd one below it. A single node is at the centre.
     ///
-    /// The body is one that has been checked (`0 <= inner < outer`, `length > 0`): of any other the rule is meaningless.
-    /// Beyond [`AxialRule::MOST_NODES`] the weights alternate so much that rounding takes back what the degree gives.
+    /// The dimensions are not checked: the rule is meaningless unless `0 <= inner < outer` and `length > 0`. Beyond
+    /// [`AxialRule::MOST_NODES`], the rounding errors of the alternating weights outweigh the gain from the higher
+    /// degree.
     #[must_use]
     pub fn new(inner: f64, outer: f64, length: f64, nodes: usize) -> Self {
         let extent = outer.hypot(0.5 * length);
@@ -82,7 +87,7 @@ impl AxialRule {
 
     /// The rule with the fewest nodes whose [`AxialRule::error`] at `distance` (m) is at most `tolerance`.
     ///
-    /// `distance` is that from the body's centre to the nearest source of the field.
+    /// `distance` is the distance of the nearest source of the field from the body's centre.
     ///
     /// # Errors
     /// [`Error::Range`] for dimensions out of range, or a tolerance that 15 nodes do not reach at that distance.
@@ -109,8 +114,8 @@ impl AxialRule {
         Err(Error::range("relative tolerance", tolerance, format!(">= {reached:.1e} at this distance")))
     }
 
-    /// Positions on the axis (m), ascending, with their weights (m3); the weights add up to the body's volume, single ones
-    /// may be negative.
+    /// Positions on the axis (m), ascending, with their weights (m3); the weights add up to the body's volume,
+    /// individual ones may be negative.
     #[must_use]
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.points.iter().copied()
@@ -122,8 +127,8 @@ impl AxialRule {
     /// sum over even l >= 2 of (l + 1)(l + 2)/2 |M_l - sum_i w_i z_i^l| / (V distance^l)
     /// ```
     ///
-    /// The worst direction is along the axis; extended sources, most of which are further away, do better. Within the body's
-    /// extent the series diverges: the answer is infinite.
+    /// A dipole on the axis is the worst case; extended sources, most of which are further away, cause smaller errors.
+    /// Within the body's extent the series diverges and the result is infinite.
     #[must_use]
     pub fn error(&self, distance: f64) -> f64 {
         let ratio = self.extent / distance;
@@ -134,8 +139,10 @@ impl AxialRule {
     }
 }
 
-/// Heights from the centre up and their weights, those of both signs together, in units of the extent, for nodes of that
-/// reach: Chebyshev's, the centre included for an odd count.
+/// Nodes at heights from 0 up, and their weights, in units of the extent: the Chebyshev nodes between `-reach` and
+/// `reach`.
+///
+/// Each weight is the sum for both signs of the height. An odd number of nodes includes the centre.
 fn upper_half(nodes: usize, reach: f64, moments: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let half: Vec<f64> = (0..nodes.div_ceil(2))
         .rev()
@@ -149,9 +156,11 @@ fn upper_half(nodes: usize, reach: f64, moments: &[f64]) -> (Vec<f64>, Vec<f64>)
     (half, shares)
 }
 
-/// The longest reach, not below [`REACH`] or [`REACH_OF_MANY`], at which the errors of the degrees that follow the matched ones
-/// cancel in the field of a dipole on the axis: nearly one more degree is matched. Thirteen nodes of the paper's ring gain a
-/// factor of ten.
+/// Half width of the interval of the nodes, relative to the extent.
+///
+/// It is the largest one, not below [`REACH`] or [`REACH_OF_MANY`], at which the errors of the degrees that follow the
+/// matched ones cancel in the field of a dipole on the axis, so that nearly one more degree is matched; if there is
+/// none, it is that limit. For thirteen nodes and the paper's ring, this reduces the error by a factor of ten.
 fn reach_of(nodes: usize, moments: &[f64]) -> f64 {
     let shortest = if nodes > 13 { REACH_OF_MANY } else { REACH };
     let error = |reach: f64| {
@@ -165,7 +174,8 @@ fn reach_of(nodes: usize, moments: &[f64]) -> f64 {
     bisect([reach(change - 1), reach(change)], BISECTIONS, |reach| error(reach) * first >= 0.0)[0]
 }
 
-/// `(l + 1)(l + 2)/2 (M_l - sum_i w_i z_i^l) / V` for even `l` from 2, in units of the extent; rounding where `l` is matched.
+/// `(l + 1)(l + 2)/2 (M_l - sum_i w_i z_i^l) / V` for even `l` from 2, in units of the extent; rounding errors where
+/// `l` is matched.
 fn errors(half: &[f64], shares: &[f64], moments: &[f64]) -> impl Iterator<Item = f64> {
     let mut powers = shares.to_vec();
     let squares: Vec<f64> = half.iter().map(|z| z * z).collect();
@@ -180,8 +190,8 @@ fn errors(half: &[f64], shares: &[f64], moments: &[f64]) -> impl Iterator<Item =
 
 /// Solves `sum_j x_j^i w_j = b_i` for `w`.
 ///
-/// Source: A. Bjorck and V. Pereyra, Solution of Vandermonde systems of equations, Mathematics of Computation 24 (1970):
-/// accurate far beyond the condition number for ascending positive `x`.
+/// Source: A. Bjorck and V. Pereyra, Solution of Vandermonde systems of equations, Mathematics of Computation 24
+/// (1970): accurate far beyond the condition number for ascending positive `x`.
 fn vandermonde(x: &[f64], mut b: Vec<f64>) -> Vec<f64> {
     let n = x.len();
     for (k, &node) in x.iter().enumerate() {

@@ -10,11 +10,11 @@ use super::overlap::Outline;
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::{Error, check};
 
-/// Distance over the extent `s = sqrt(a^2 + h^2)` from which the multipoles are used: there the closed form of `B_z`
-/// begins to lose digits (about `eps (r/a)^2 (r/h)`), and the degrees up to 17 leave out less than 1e-14.
+/// Distance, relative to the extent `s = sqrt(a^2 + h^2)`, from which the multipoles are used: there the closed form of
+/// `B_z` begins to lose digits (about `eps (r/a)^2 (r/h)`), and the degrees above 17 are below 1e-14.
 const FAR: f64 = 6.0;
 
-/// Largest coordinate of a point, m: beyond, powers of the distance overflow.
+/// Largest coordinate of a point, m: beyond it, powers of the distance overflow.
 const FARTHEST: f64 = 1e9;
 
 /// A cylinder or ring magnetised along its axis, centred at the origin of its frame, axis `z`, `mu_r = 1`.
@@ -24,7 +24,8 @@ const FARTHEST: f64 = 1e9;
 ///
 /// - outside the material and in the bore it is the flux density `B`, with gradient and second derivative;
 /// - inside the material it is `B` too (`H = B / mu_0 - M`), the field of the equivalent current sheets;
-/// - on the curved surfaces (`rho` exactly the radius), where `B_z` jumps by the remanence, it is the mean of both sides.
+/// - on the curved surfaces (`rho` exactly the radius), where `B_z` jumps by the remanence, it is the mean of both
+///   sides.
 ///
 /// ```
 /// use mcm::magnetics::AxialSource;
@@ -56,9 +57,10 @@ enum SourceEdges {
 }
 
 impl AxialSource {
-    /// A source of the radii `inner` (0: a solid cylinder) and `outer`, the length along the axis (m) and the remanence (T).
+    /// A source of the radii `inner` (0: a solid cylinder) and `outer`, the length along the axis (m) and the remanence
+    /// (T).
     ///
-    /// A negative remanence is magnetised along `-z`.
+    /// A negative remanence means magnetisation along `-z`.
     ///
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
@@ -117,17 +119,17 @@ impl AxialSource {
         })
     }
 
-    /// The scalar potential `psi` (T m) and `B` (T) at a point (m) outside the material: `B = -grad psi` there.
+    /// The scalar potential `psi` (T m) and `B` (T) at a point (m); `B = -grad psi` outside the material.
     ///
-    /// Inside the material `-grad psi` is `mu_0 H`, as everywhere, which `B` exceeds by the remanence. Like `H` the potential
-    /// is that of the magnetic charge on the end faces.
+    /// Everywhere `-grad psi` is `mu_0 H`, which `B` exceeds by the remanence inside the material. `psi` is the
+    /// potential of the magnetic charges on the end faces.
     ///
     /// ```
     /// use mcm::magnetics::AxialSource;
     /// use nalgebra::Vector3;
     /// let disc = AxialSource::new(0.0, 2.0e-3, 1.0e-3, 1.35)?;
     /// let (above, _) = disc.potential_field(&Vector3::new(0.0, 0.0, 2.0e-3))?;
-    /// // On the axis the potential of a charged disc is half of what is further to its rim than to its centre.
+    /// // On the axis, a charged disc's potential is half the difference of the distances to its rim and centre.
     /// let end = |u: f64| 0.5 * 1.35 * (u.hypot(2.0e-3) - u);
     /// assert!((above / (end(1.5e-3) - end(2.5e-3)) - 1.0).abs() < 1e-14);
     /// # Ok::<(), mcm::error::Error>(())
@@ -140,7 +142,7 @@ impl AxialSource {
         Ok((potential, components.field(&at)))
     }
 
-    /// The same with the gradient `dB_i/dx_j` (T/m).
+    /// As [`AxialSource::potential_field`], with the gradient `dB_i/dx_j` (T/m).
     ///
     /// # Errors
     /// As [`AxialSource::field`].
@@ -152,9 +154,10 @@ impl AxialSource {
         Ok((potential, components.field(&at), components.gradient(&at)))
     }
 
-    /// `B` (T) at a point (m) by the axial multipoles up to an odd `degree` from 1, the dipole, to 17, and by no more.
+    /// `B` (T) at a point (m) by the axial multipoles up to an odd `degree`, from 1 (the dipole) to 17.
     ///
-    /// A comparison: the field is exact with as few of them as matter far away, and in closed form close by.
+    /// It serves for comparison: [`AxialSource::field`] uses the closed form near the magnet, and far away as many
+    /// multipoles as are needed.
     ///
     /// ```
     /// use mcm::magnetics::AxialSource;
@@ -167,14 +170,14 @@ impl AxialSource {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Range`] for another degree, and for a point within the distance of the edges from the centre, where the series
+    /// [`Error::Range`] for another degree, and for a point no further from the centre than the edges, where the series
     /// diverges.
     pub fn multipole_field(&self, point: &Vector3<f64>, degree: usize) -> Result<Vector3<f64>, Error> {
         let (at, components) = self.multipoles::<FIELD>(point, degree)?;
         Ok(components.field(&at))
     }
 
-    /// The same with the gradient `dB_i/dx_j` (T/m).
+    /// As [`AxialSource::multipole_field`], with the gradient `dB_i/dx_j` (T/m).
     ///
     /// # Errors
     /// As [`AxialSource::multipole_field`].
@@ -204,7 +207,7 @@ impl AxialSource {
         (across * across + along * along).sqrt()
     }
 
-    /// The body without its magnetisation.
+    /// Shape of the body, without its magnetisation.
     #[must_use]
     pub fn outline(&self) -> Outline {
         Outline::new(self.inner, self.outer, self.length())
@@ -251,7 +254,7 @@ impl AxialSource {
         }
         let r2 = point.norm_squared();
         if !(r2 > self.outer * self.outer + self.half * self.half && r2 <= FARTHEST * FARTHEST) {
-            let allowed = "beyond the magnet's edges and at most 1e9";
+            let allowed = "greater than that of the edges and at most 1e9";
             return Err(Error::range("distance from the magnet's centre (m)", r2.sqrt(), allowed));
         }
         Ok((Meridian::of(point.x, point.y), self.multipole.sum::<ORDER>(point.z, r2, degree.div_ceil(2))))

@@ -1,10 +1,10 @@
-//! From the cylindrical components of an axisymmetric field to Cartesian ones.
+//! Conversion of the cylindrical components of an axisymmetric field to Cartesian ones.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::jet::FieldHessian;
 
-/// The point in cylindrical terms: its distance from the axis and the direction there.
+/// A point in cylindrical coordinates: its distance from the axis and its azimuth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meridian {
     pub(super) x: f64,
@@ -15,7 +15,7 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    /// On the axis the direction is arbitrary: x.
+    /// The point at `x`, `y`; on the axis, where the azimuth is arbitrary, it is that of the `x` axis.
     #[inline]
     pub(super) fn of(x: f64, y: f64) -> Self {
         let rho2 = x * x + y * y;
@@ -28,7 +28,7 @@ impl Meridian {
     }
 }
 
-/// Cylindrical components with the powers of `rho` divided out that vanish on the axis.
+/// Cylindrical components, divided by the powers of `rho` with which they vanish on the axis.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Components {
     /// `B_rho / rho`.

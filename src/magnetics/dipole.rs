@@ -1,4 +1,4 @@
-//! The point dipole: the far limit of every magnet, and a comparison.
+//! The point dipole: the far-field limit of every magnet, used for comparison.
 
 use core::f64::consts::PI;
 
@@ -98,7 +98,7 @@ impl Dipole {
     }
 }
 
-/// The point as seen from the dipole.
+/// Direction and distance of a point from the dipole.
 struct Ray {
     direction: Vector3<f64>,
     distance: f64,

@@ -1,10 +1,10 @@
 //! The exact field of the end edges of axially magnetised cylinders.
 //!
-//! A cylinder of radius `a` magnetised along its axis is a current sheet on its side: the difference of two
-//! semi-infinite solenoids, each with one circular edge. The derivative of such a solenoid along the axis is a
-//! current loop, so derivatives need only complete elliptic integrals of the first two kinds; `B_z` alone needs one of the
-//! third kind. The closed forms are arranged so that nothing cancels near the axis, where the textbook differences of
-//! `K` and `E` lose all digits.
+//! A cylinder of radius `a` magnetised along its axis is equivalent to a current sheet on its lateral surface: the
+//! difference of two semi-infinite solenoids, each with one circular edge. The derivative of such a solenoid along the
+//! axis is a current loop, so derivatives need only complete elliptic integrals of the first two kinds; `B_z` alone
+//! needs one of the third kind. The closed forms are arranged so that nothing cancels near the axis, where the textbook
+//! differences of `K` and `E` lose all digits.
 
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -16,7 +16,7 @@ use super::lanes::Lanes;
 /// Parameter `m` above which the forms for points near the edge are used.
 const NEAR_EDGE: f64 = 0.5;
 
-/// Distance to an edge, over the radius, below which a point counts as lying on it: a few roundings.
+/// Ratio of smallest to largest distance from an edge below which a point counts as lying on it: a few rounding errors.
 const ON_EDGE: f64 = 4.0 * f64::EPSILON;
 
 /// Order of differentiation: the field alone.
@@ -26,19 +26,19 @@ pub(super) const GRADIENT: u8 = 1;
 /// Order of differentiation: field, gradient and second derivative.
 pub(super) const HESSIAN: u8 = 2;
 
-/// Edges that share an axis.
+/// Coaxial circular edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edges<const N: usize> {
     /// Radius of each, m.
     pub(super) radius: [f64; N],
     /// Axial position of each, m.
     pub(super) position: [f64; N],
-    /// Remanence with the edge's sign, T: plus for the lower end of an outer side.
+    /// Remanence with the edge's sign, T: plus for the lower edge of an outer surface.
     pub(super) strength: [f64; N],
 }
 
 impl<const N: usize> Edges<N> {
-    /// Sum over the edges at the distance `rho` from the axis and the height `z`; `None` on an edge.
+    /// Components summed over the edges, at the distance `rho` from the axis and the height `z`; `None` on an edge.
     ///
     /// `ORDER` is the highest derivative; components of higher ones stay zero.
     #[inline]
@@ -46,7 +46,7 @@ impl<const N: usize> Edges<N> {
         self.sum::<ORDER, false>(rho, z).map(|(_, sum)| sum)
     }
 
-    /// The same with the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
+    /// As [`Edges::components`], with the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
     #[inline]
     pub(super) fn with_potential<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
         self.sum::<ORDER, true>(rho, z)
@@ -99,10 +99,10 @@ impl<const N: usize> Edges<N> {
     }
 }
 
-/// Where a point lies as seen from each edge, and what its formulas share.
+/// Position of a point relative to each edge, and the quantities that the formulas share.
 struct Place<const N: usize> {
     radius: Lanes<N>,
-    /// Height over the edge's plane.
+    /// Height above the edge's plane.
     u: Lanes<N>,
     rho2: f64,
     a2: Lanes<N>,
@@ -156,12 +156,12 @@ impl<const N: usize> Place<N> {
         (radial, axial)
     }
 
-    /// Potential of `mu_0 H` per unit remanence, of which `radial` and `axial` are the field.
+    /// Potential of `mu_0 H` per unit remanence, from the field components `radial` and `axial`.
     ///
-    /// For `H` the edge is a disc of magnetic charge, minus one in units of the remanence: its field is `B` but for the
-    /// half of the remanence within the solenoid, counted from both sides. The potential is homogeneous of degree
-    /// one in the lengths: it is what Euler's theorem makes of the field and of `a K / (pi R)`, its derivative
-    /// by the radius, the potential of a charged circle.
+    /// For `H` the edge bounds a disc of magnetic charge, -1 in units of the remanence. Within the solenoid's radius
+    /// its field differs from `B` by half of the remanence, with opposite signs on the two sides. The potential is
+    /// homogeneous of degree one in the lengths; Euler's theorem gives it from the field and from the derivative with
+    /// respect to the radius, `a K / (pi R)`, which is the potential of a charged circle.
     #[inline]
     fn potential(&self, i: &Integrals<N>, radial: Lanes<N>, axial: Lanes<N>) -> Lanes<N> {
         let within = self.ratio.map(|ratio| if ratio > 0.0 { 0.5 } else { 0.25 * f64::from(ratio == 0.0) });

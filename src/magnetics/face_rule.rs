@@ -1,8 +1,9 @@
-//! Surface integrals over the charged end face of a magnet that another magnet is close to.
+//! Surface integrals over the charged end face of a magnet in the near field of another magnet.
 //!
-//! An axially magnetised ring is a magnetic charge on its two end faces. In the field of another magnet the
-//! integrand is smooth but near that magnet's edges, where the field grows logarithmically. Gauss nodes in `rho^2` and
-//! the trapezoid rule around converge exponentially, the faster the further those edges are from the face.
+//! An axially magnetised ring is equivalent to magnetic charges on its two end faces. In the field of another magnet
+//! the integrand is smooth except near that magnet's edges, where the field grows logarithmically. Gauss nodes in
+//! `rho^2` and the trapezoidal rule in the angle converge exponentially, the faster the further those edges are from
+//! the face.
 
 use core::f64::consts::{PI, TAU};
 
@@ -12,13 +13,14 @@ use super::axial_source::AxialSource;
 use crate::geometry::Pose;
 use crate::numerics::quadrature::gauss_legendre;
 
-/// Most nodes along a radius or around a circle, where the distance is all but zero.
+/// Largest number of nodes along a radius or around a circle; it is needed only where the distance is almost zero.
 const MOST_NODES: usize = 4096;
 
-/// Points of an edge at which its distance from a face is looked for, before the least is refined.
+/// Number of points of an edge at which its distance from a face is evaluated, before the smallest is refined.
 const EDGE_POINTS: usize = 24;
 
-/// How often the arc between them is halved. Of the eighth of a degree that is left the distance feels the square.
+/// Number of halvings of the arc between them, down to an eighth of a degree; the error of the distance is of second
+/// order in it.
 const HALVINGS: usize = 7;
 
 /// Nodes and weights on an annulus in the plane `z = 0`, centred at the origin.
@@ -42,21 +44,21 @@ struct Circle {
     count: usize,
     /// The first node, m.
     first: Vector2<f64>,
-    /// Cosine and sine of the angle from node to node.
+    /// Cosine and sine of the angle between neighbouring nodes.
     turn: Vector2<f64>,
-    /// Area that a node stands for, m2.
+    /// Area represented by each node, m2.
     weight: f64,
 }
 
 impl FaceRule {
-    /// The rule for a face of the radii `inner` and `outer` (m), the edges of whose sources are at least `distance` (m)
-    /// away, by which the force of such a source is good to about `tolerance` of its size.
+    /// The rule for a face of the radii `inner` and `outer` (m) in the field of sources whose edges are at least
+    /// `distance` (m) away; the error of the force is about `tolerance`, relative to its size.
     ///
-    /// Along the radius, over a width `w`, the error falls by `exp(-2 asinh(2 d / w))` with each node, around a circle of
-    /// radius `r` by `exp(-asinh(d / r))` with each: these are the distances of the singularities in the complex plane.
-    /// The factors before them are those that 40 random poses of two of the paper's rings showed at each of the distances 0.1,
-    /// 0.2, 0.4, 0.8 and 1.6 mm, rounded up by a factor of about five; further away the forces on the two faces cancel more
-    /// and more.
+    /// Each node along the radius, over a width `w`, reduces the error by the factor `exp(-2 asinh(2 d / w))`, each one
+    /// around a circle of radius `r` by `exp(-asinh(d / r))`, according to the distances of the singularities in the
+    /// complex plane. The factors before these are those measured at 40 random poses of two of the paper's rings at
+    /// each of the distances 0.1, 0.2, 0.4, 0.8 and 1.6 mm, rounded up by a factor of about five; at larger distances
+    /// the forces on the two faces cancel more and more.
     #[must_use]
     pub fn new(inner: f64, outer: f64, distance: f64, tolerance: f64) -> Self {
         let ratio = distance / outer;
@@ -98,28 +100,29 @@ impl FaceRule {
         self.circles.iter().map(|circle| circle.count).sum()
     }
 
-    /// Whether there are none, which no rule has.
+    /// Whether the rule has no nodes: always false.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// The point turned about the origin by the angle of this cosine and sine.
+/// The point rotated about the origin by the angle whose cosine and sine are given.
 #[inline]
 fn turned(point: &Vector2<f64>, by: &Vector2<f64>) -> Vector2<f64> {
     Vector2::new(by.x * point.x - by.y * point.y, by.y * point.x + by.x * point.y)
 }
 
-/// The nodes, `least` or more, with which an error `excess` times as large as allowed has become small enough, if each
-/// lowers it by `exp(-rate)`.
+/// Number of nodes, at least `least`, that reduces an error of `excess` times the tolerance to the tolerance, if each
+/// node reduces it by the factor `exp(-rate)`.
 fn count(excess: f64, rate: f64, least: usize) -> usize {
     (least..MOST_NODES).find(|nodes| *nodes as f64 * rate >= excess.ln()).unwrap_or(MOST_NODES)
 }
 
 impl AxialSource {
-    /// Least distance (m) of this magnet's edges from the end face of another one of the radii `inner` and `outer` (m),
-    /// whose centre is at `face`, in this magnet's frame.
+    /// Smallest distance (m) between this magnet's edges and the end face of another magnet.
+    ///
+    /// The face has the radii `inner` and `outer` (m) and its centre at `face`, in this magnet's frame.
     #[must_use]
     pub fn edge_distance(&self, face: &Pose, inner: f64, outer: f64) -> f64 {
         let half = 0.5 * self.length();
@@ -133,7 +136,7 @@ impl AxialSource {
         });
         let mut least2 = f64::INFINITY;
         for (radius, height) in radii.flat_map(|radius| [(radius, -half), (radius, half)]) {
-            // The edge in the frame of the face: its centre, and its points on two axes at right angles.
+            // The edge in the frame of the face: its centre and its radii along two perpendicular axes.
             let centre = turn * (Vector3::new(0.0, 0.0, height) - face.position);
             let (x, y) = (turn.column(0) * radius, turn.column(1) * radius);
             let distance2 = |at: &Vector2<f64>| {
@@ -150,7 +153,7 @@ impl AxialSource {
                 }
                 here = turned(&here, &steps[0]);
             }
-            // Between its points an edge comes closer by half an arc at most.
+            // Between the sampled points, an edge comes closer by at most half an arc.
             if next2.sqrt() - 0.5 * arc * radius < least2.sqrt() {
                 for step in &steps[1..] {
                     let sides = [*step, Vector2::new(step.x, -step.y)].map(|step| turned(&next, &step));

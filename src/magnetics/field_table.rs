@@ -1,4 +1,4 @@
-//! The field of a ring before and behind its faces, tabulated: a cheaper model of it, for points by the thousand.
+//! Tabulated field of a ring in front of and behind its faces: a cheaper approximation for thousands of points.
 
 use core::f64::consts::PI;
 
@@ -7,32 +7,33 @@ use nalgebra::{Matrix3, Vector3};
 use super::axial_source::AxialSource;
 use super::axisymmetric::{Components, Meridian};
 
-/// Nodes of a cell in each direction: cubic polynomials.
+/// Number of nodes of a cell in each direction, for cubic polynomials.
 const NODES: usize = 4;
 
-/// Distance from a face over the outer radius at which the table begins: nearer to the edges cells would be too small.
+/// Distance from a face, relative to the outer radius, where the table begins: closer to the edges, cells would be too
+/// small.
 const NEAREST: f64 = 0.3;
 
-/// Layers, each twice as thick as the one before: up to 19 radii.
+/// Number of layers, each twice as thick as the previous one: they end at 19 radii.
 const LAYERS: usize = 6;
 
-/// Cells through the thickness of a layer.
+/// Number of cells through the thickness of a layer.
 const ROWS: usize = 12;
 
-/// How far from the axis a layer reaches: so many outer radii, and so many times as far as its end is from the face.
+/// Largest distance of a layer from the axis: factors of the outer radius and of the distance of its end from the face.
 const ASIDE: (f64, f64) = (1.0, 0.75);
 
-/// Length of the cells across a layer, over the distance of the nearest singularity from the real axis.
+/// Size of the cells across a layer, relative to the distance of the nearest singularity from the real axis.
 const LENGTH: f64 = 0.09;
 
 /// `B_rho / rho`, `B_z`, `dB_rho/dz / rho` and `dB_z/dz`.
 type Values = [f64; 4];
 
-/// Field and gradient of a ring over the distance from its face and the squared distance from the axis, as polynomials by
-/// cells.
+/// Field and gradient of a ring as piecewise polynomials in the distance from its face and the squared distance from
+/// the axis.
 ///
-/// Each of them is interpolated by itself: the gradient is not that of the interpolated field, but as good as the field, and
-/// both jump from cell to cell by [`Self::ERROR`].
+/// They are interpolated separately: the gradient is not the derivative of the interpolated field, but as accurate as
+/// the field, and both are discontinuous between cells by up to [`Self::ERROR`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct FieldTable {
     half: f64,
@@ -46,15 +47,16 @@ struct Layer {
     end: f64,
     /// Largest squared distance from the axis, m2.
     aside: f64,
-    /// Cells by metre and by square metre.
+    /// Number of cells per metre and per square metre.
     density: [f64; 2],
     columns: usize,
-    /// By row and column, coefficients of the powers of both local coordinates, that of the distance last.
+    /// By row and column: coefficients of the powers of both local coordinates, with the distance as the last index.
     cells: Vec<[[Values; NODES]; NODES]>,
 }
 
 impl FieldTable {
-    /// Largest error of field and gradient, over their size: where the gradient all but vanishes. Its mean is below 1e-5.
+    /// Largest relative error of field and gradient; it occurs where the gradient almost vanishes. The mean error is
+    /// below 1e-5.
     pub const ERROR: f64 = 2e-4;
 
     /// Tabulates the field of `source`.
@@ -78,7 +80,7 @@ impl FieldTable {
         Self { half: 0.5 * source.length(), layers: layers.collect() }
     }
 
-    /// `B` (T) and its gradient `dB_i/dx_j` (T/m) at a point (m) of the ring's frame; `None` where nothing is tabulated.
+    /// `B` (T) and its gradient `dB_i/dx_j` (T/m) at a point (m) of the ring's frame; `None` outside the table.
     #[inline]
     #[must_use]
     pub fn field_gradient(&self, point: &Vector3<f64>) -> Option<(Vector3<f64>, Matrix3<f64>)> {
@@ -86,7 +88,7 @@ impl FieldTable {
         let layer = self.layers.iter().find(|layer| distance < layer.end)?;
         let [radial, axial, radial_dz, axial_dz] =
             layer.at(distance, point.x * point.x + point.y * point.y)?;
-        // Behind the ring what is odd in the height has the other sign.
+        // Behind the ring, components that are odd in the height change their sign.
         let side = 1.0_f64.copysign(point.z);
         let components = Components {
             radial: side * radial,
@@ -104,7 +106,8 @@ impl Layer {
     fn new(source: &AxialSource, start: f64, end: f64) -> Self {
         let reach = ASIDE.0 * source.outer_radius() + ASIDE.1 * end;
         let aside = reach * reach;
-        // Of the squared distance from the axis the field is singular at `(a +- i start)^2` for an edge of radius `a`.
+        // As a function of the squared distance from the axis, the field of an edge of radius `a` is singular at
+        // `(a +- i start)^2`.
         let edge = if source.inner_radius() > 0.0 { source.inner_radius() } else { source.outer_radius() };
         let columns = 1 + cell_of(aside / (LENGTH * (2.0 * edge + start) * start));
         let density = [ROWS as f64 / (end - start), columns as f64 / aside];
@@ -137,7 +140,7 @@ impl Layer {
             return None;
         }
         let (along, across) = ((distance - self.start) * self.density[0], rho2 * self.density[1]);
-        // At the far ends the last cell serves, should rounding lead past it.
+        // Rounding may lead past the last cell: then the last cell is used.
         let (row, column) = (cell_of(along).min(ROWS - 1), cell_of(across).min(self.columns - 1));
         let cell = self.cells.get(row * self.columns + column)?;
         let (y, x) = (along - row as f64 - 0.5, across - column as f64 - 0.5);
@@ -146,21 +149,21 @@ impl Layer {
     }
 }
 
-/// Number of the cell in which a place lies, counted in cells.
+/// Index of the cell at a position given in units of cells.
 #[inline]
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "places are positive and few")]
 fn cell_of(place: f64) -> usize {
     place as usize
 }
 
-/// Values of polynomials from the coefficients of their powers.
+/// Values of polynomials with these coefficients of the powers of `x`.
 #[inline]
 fn horner(powers: &[Values; NODES], x: f64) -> Values {
     let [p0, p1, p2, p3] = powers;
     core::array::from_fn(|c| ((p3[c] * x + p2[c]) * x + p1[c]) * x + p0[c])
 }
 
-/// Coefficients of the powers in the polynomials that have these values at the nodes.
+/// Coefficients of the powers in the polynomials that take these values at the nodes.
 fn coefficients(powers: &[[f64; NODES]; NODES], values: &[Values; NODES]) -> [Values; NODES] {
     core::array::from_fn(|k| {
         core::array::from_fn(|c| powers.iter().zip(values).map(|(own, value)| own[k] * value[c]).sum())

@@ -4,13 +4,13 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::lanes::Lanes;
 
-/// Relative difference of the two means at which one more step is the last; the error is a sixteenth of its square.
+/// Relative difference of the two means below which only one more step is made; the error is a sixteenth of its square.
 const LAST_STEP: f64 = 4e-8;
 
-/// Most steps: seven suffice for the smallest `kc` that is let through (about 1e-15).
+/// Largest number of steps: seven suffice for the smallest `kc` that can occur (about 1e-15).
 const MOST_STEPS: i32 = 12;
 
-/// The integrals of parameter `m = 1 - kc^2` and what is formed from them without cancellation.
+/// The integrals of parameter `m = 1 - kc^2`, and combinations of them without cancellation.
 ///
 /// ```text
 /// t  = ((1 - m/2) K - E) / (m^2 K)      t2 = (t - 1/16 - m/32) / m^2      g = 1/2 - (2 - m) t
@@ -34,7 +34,7 @@ pub(super) struct Integrals<const N: usize> {
 }
 
 impl<const N: usize> Integrals<N> {
-    /// Of the parameter `m`, the complementary modulus `kc = sqrt(1 - m) > 0` and `gamma` in `[-1, 1]`.
+    /// The integrals of the parameter `m`, the complementary modulus `kc = sqrt(1 - m) > 0` and `gamma` in `[-1, 1]`.
     #[inline]
     pub(super) fn new(m: Lanes<N>, kc: Lanes<N>, gamma: Lanes<N>) -> Self {
         let sum = 1.0 + kc;

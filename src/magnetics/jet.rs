@@ -65,7 +65,7 @@ pub struct Jet {
 }
 
 impl Jet {
-    /// No field.
+    /// The jet of a vanishing field.
     #[must_use]
     pub fn zero() -> Self {
         Self { field: Vector3::zeros(), gradient: Matrix3::zeros(), hessian: FieldHessian::default() }
@@ -77,7 +77,7 @@ impl Jet {
         self.hessian.along(d)
     }
 
-    /// The same jet seen from a frame in which this one's axes are the columns of `rotation`.
+    /// The same jet in the axes of a frame in which this one's axes are the columns of `rotation`.
     ///
     /// `B' = R B`, `G' = R G R^T`, `H'_kij = sum R_kc R_ia R_jb H_cab`.
     #[must_use]

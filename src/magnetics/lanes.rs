@@ -1,4 +1,4 @@
-//! A few numbers that go through the same arithmetic in lockstep: one per edge of a magnet.
+//! Short vectors with element-wise arithmetic: one number for each edge of a magnet.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Sub};
@@ -34,7 +34,7 @@ impl<const N: usize> Lanes<N> {
         self.0.iter().zip(weights).map(|(value, weight)| value * weight).sum()
     }
 
-    /// Replaces the lanes where `chosen` holds.
+    /// Replaces the lanes where `chosen` is true by those of `other`.
     #[inline]
     pub(super) fn replaced(self, chosen: [bool; N], other: Self) -> Self {
         Self(from_fn(|i| if chosen[i] { other.0[i] } else { self.0[i] }))

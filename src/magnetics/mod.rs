@@ -1,4 +1,4 @@
-//! Magnetic fields and what they do to magnetised bodies.
+//! Magnetic fields, and the forces and torques that they exert on magnetised bodies.
 
 mod assembly;
 mod axial_rule;

@@ -8,12 +8,13 @@ use super::edge::{GRADIENT, HESSIAN};
 /// Number of multipoles kept: the degrees 1, 3, .. 17.
 pub(super) const TERMS: usize = 9;
 
-/// Solid harmonics up to the second derivative of the highest multipole.
+/// Number of solid harmonics, up to the second derivative of the highest multipole.
 const DEGREES: usize = 2 * TERMS + 3;
 
-/// Distance over the body's extent `s` from which each number of terms leaves out less than 1e-14.
+/// Distance, relative to the body's extent `s`, from which each number of terms neglects less than 1e-14.
 ///
-/// The first omitted degree `l + 2` is smaller than the dipole by about `(s/r)^(l+1)`: these are `10^(14/(l+1))`.
+/// The first omitted degree `l + 2` is smaller than the dipole by about `(s/r)^(l+1)`: the distances are
+/// `10^(14/(l+1))`.
 const REACH: [(f64, usize); TERMS] =
     [(1e7, 1), (3163.0, 2), (216.0, 3), (56.3, 4), (25.2, 5), (14.7, 6), (10.0, 7), (7.5, 8), (0.0, 9)];
 
@@ -26,7 +27,7 @@ pub(super) struct Multipole {
 }
 
 impl Multipole {
-    /// Of a body of the radii `inner` and `outer` and half length `half` (m), remanence in T.
+    /// Multipoles of a body with the radii `inner` and `outer`, half length `half` (m) and the remanence in T.
     pub(super) fn new(inner: f64, outer: f64, half: f64, remanence: f64) -> Self {
         let beta = core::array::from_fn(|term| {
             let l = 2 * term + 1;
@@ -35,8 +36,8 @@ impl Multipole {
         Self { beta, extent2: outer * outer + half * half }
     }
 
-    /// Components at height `z` and distance `sqrt(r2)` from the centre, at least six times the extent: by as many terms as
-    /// matter there.
+    /// Components at height `z` and distance `sqrt(r2)` from the centre, at least six times the extent, by as many
+    /// terms as are needed there.
     #[inline]
     pub(super) fn components<const ORDER: u8>(&self, z: f64, r2: f64) -> Components {
         let ratio2 = r2 / self.extent2;
@@ -45,7 +46,7 @@ impl Multipole {
         self.sum::<ORDER>(z, r2, terms)
     }
 
-    /// The scalar potential there by all terms, T m: the sum of `beta_l S^0_l / (l+1)`.
+    /// The scalar potential at such a point by all terms, T m: the sum of `beta_l S^0_l / (l+1)`.
     #[inline]
     pub(super) fn potential(&self, z: f64, r2: f64) -> f64 {
         let inverse2 = 1.0 / r2;
@@ -54,10 +55,10 @@ impl Multipole {
         self.beta.iter().zip(degrees).map(|(beta, l)| beta * zonal[l] / (l as f64 + 1.0)).sum()
     }
 
-    /// The components by so many terms, anywhere beyond the extent.
+    /// The components by `terms` terms, anywhere beyond the extent.
     ///
-    /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is the
-    /// sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`
+    /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is
+    /// the sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`
     /// raises `n` by one.
     #[inline]
     pub(super) fn sum<const ORDER: u8>(&self, z: f64, r2: f64, terms: usize) -> Components {

@@ -1,4 +1,4 @@
-//! How deep one body is inside another: cylinders, rings and flat discs.
+//! Penetration depth of two bodies: cylinders, rings and flat discs.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -8,10 +8,11 @@ use crate::error::Error;
 use crate::geometry::Pose;
 use crate::numerics::maximum::largest;
 
-/// Parts in which heights and widths of a body are looked at where a bore makes room for several deepest points.
+/// Number of parts of a body's heights and widths that are searched where a bore allows several local maxima of the
+/// depth.
 const PARTS: usize = 24;
 
-/// Share of a radius that two bodies may overlap by rounding: bodies may touch.
+/// Overlap of two bodies, relative to the smaller radius, that counts as rounding error: bodies may touch.
 const HAIR: f64 = 1e-9;
 
 /// The outline of a body: a cylinder or ring about its frame's `z`, centred at the origin, or a flat disc of no height.
@@ -32,8 +33,8 @@ pub struct Outline {
     half: f64,
 }
 
-/// A body in the frame of another one, turned about that one's axis until its own lies in the plane of the first two
-/// coordinates of [`Placed::centre`].
+/// A body in the frame of another one, rotated about that one's axis until its own axis lies in the plane of the first
+/// and third coordinates of [`Placed::centre`].
 struct Placed {
     body: Outline,
     /// Centre: along the horizontal projection of the axis, across it, and along the other's axis, m.
@@ -49,21 +50,22 @@ impl Outline {
         Self { inner, outer, half: 0.5 * length }
     }
 
-    /// How deep the deepest point of this body at `pose` in the other's frame lies below the other's surface, m; 0 if the two
-    /// share no volume.
+    /// Largest depth of a point of this body, at `pose` in the other's frame, below the other's surface, m; 0 if the
+    /// two share no volume.
     ///
-    /// The largest value of `min(h - |z|, b - rho, rho - a)` over the body, with the other's radii `a`, `b` and half length
-    /// `h`. It is concave for solid bodies, so that nested golden sections find it to 1e-10 of the body's size; across the
-    /// plane of both axes it is known in closed form. With a bore, the deepest of several points is found where it is alone within a
-    /// 24th of the body.
+    /// It is the maximum of `min(h - |z|, b - rho, rho - a)` over the body, with the other's radii `a`, `b` and half
+    /// length `h`. For solid bodies this is concave, so that nested golden-section searches find it to 1e-10 of the
+    /// body's size; in the direction normal to both axes it is known in closed form. With a bore, a local maximum is
+    /// found if it is the only one within a 24th of the body.
     #[must_use]
     pub fn depth_in(&self, other: &Self, pose: &Pose) -> f64 {
         self.level_in(other, pose, 0.0)
             .map_or(0.0, |level| if level > other.hair(self) { level } else { 0.0 })
     }
 
-    /// The same, negative where no point of this body is below the other's surface: then it rises as they come closer, though
-    /// it is not their distance. `None` if they are certainly further apart than `slack`, m.
+    /// As [`Outline::depth_in`], but negative where no point of this body is below the other's surface. It then
+    /// increases as they approach, but is not their distance. `None` if they are certainly further apart than `slack`,
+    /// m.
     #[must_use]
     pub fn level_in(&self, other: &Self, pose: &Pose, slack: f64) -> Option<f64> {
         let placed = Placed::new(self, pose);
@@ -81,14 +83,15 @@ impl Outline {
         Some(largest(at_height, [-self.half, self.half], parts, f64::NEG_INFINITY).0)
     }
 
-    /// Overlap by rounding.
+    /// Overlap that counts as rounding error, m.
     fn hair(&self, other: &Self) -> f64 {
         HAIR * self.outer.min(other.outer)
     }
 }
 
-/// How deep the deepest point of either of two bodies lies below the surface of the other, the second at `pose` in the first
-/// one's frame, m; 0 if they share no volume.
+/// Penetration depth of two bodies, m: the largest depth of a point of either body below the surface of the other.
+///
+/// The second body is at `pose` in the first one's frame. The depth is 0 if they share no volume.
 #[must_use]
 pub fn depth(first: &Outline, second: &Outline, pose: &Pose) -> f64 {
     let forth = second.depth_in(first, pose);
@@ -99,7 +102,7 @@ pub fn depth(first: &Outline, second: &Outline, pose: &Pose) -> f64 {
     forth.max(first.depth_in(second, &Pose { position: -(back * pose.position), rotation: back }))
 }
 
-/// Refuses two magnets that overlap, the second at `pose` in the first one's frame.
+/// Returns an error if two magnets overlap, the second at `pose` in the first one's frame.
 pub(super) fn check(first: &Outline, second: &Outline, pose: &Pose) -> Result<(), Error> {
     let depth = depth(first, second, pose);
     if depth == 0.0 {
@@ -115,7 +118,7 @@ impl Placed {
     fn new(body: &Outline, pose: &Pose) -> Self {
         let (axis, at) = (pose.axis(), &pose.position);
         let sine = axis.x.hypot(axis.y);
-        // Parallel axes: any plane will do, best the one through both.
+        // Parallel axes: every direction is valid; the one from axis to axis is used.
         let along = if sine > 0.0 {
             Vector3::new(axis.x / sine, axis.y / sine, 0.0)
         } else {
@@ -125,16 +128,16 @@ impl Placed {
         Self { body: *body, centre: [at.dot(&along), at.dot(&across), at.z], tilt: [sine, axis.z] }
     }
 
-    /// A lower bound of the distance to the other body: what separates them along either axis, or away from it.
+    /// A lower bound of the distance to the other body: the largest separation along or normal to either axis.
     fn gap(&self, other: &Outline) -> f64 {
         let Self { body, centre: [x, y, z], tilt: [sine, cosine] } = self;
         let across = x.hypot(*y);
-        // Of the body in the other's frame: along the other's axis, away from it, inside its bore.
+        // Extent of the body in the other's frame: along the other's axis, normal to it, inside its bore.
         let height = body.half * cosine.abs() + body.outer * sine;
         let slope = if across > 0.0 { sine * x / across } else { 0.0 };
         let width = body.half * slope.abs() + body.outer * (1.0 - slope * slope).max(0.0).sqrt();
         let widest = body.half * sine + body.outer;
-        // Of the other in the body's frame.
+        // Extent of the other in the body's frame.
         let along = x * sine + z * cosine;
         let (side, forward) = (x * cosine - z * sine, other.half * sine);
         let away = side.hypot(*y);
@@ -152,7 +155,7 @@ impl Placed {
         .fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// The deepest level on the chord of the body at height `s` along its axis and `p` across it, in the plane of both axes.
+    /// Largest depth on the chord of the body normal to both axes, at height `s` along its axis and `p` across it.
     fn level(&self, other: &Outline, s: f64, p: f64) -> f64 {
         let Self { body, centre: [x, y, z], tilt: [sine, cosine] } = self;
         let height = z + s * cosine - p * sine;

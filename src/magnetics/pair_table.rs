@@ -1,7 +1,7 @@
-//! The quadrature of the energy of two magnets: as few nodes as their distance and the accuracy allow.
+//! Quadrature of the energy of two magnets, with as few nodes as their distance and the accuracy allow.
 //!
-//! Nodes on the axis of one of them do far away. Close by they would stand for an expansion of the other one's field that
-//! does not converge there, and the magnetic charges on the faces take over.
+//! Far apart, nodes on the axis of one magnet suffice. Close together, they would represent an expansion of the other
+//! one's field that does not converge there; the magnetic charges on the faces are used instead.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -13,22 +13,22 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::geometry::Pose;
 use crate::numerics::bisection::bisect;
 
-/// Bisections of the distance from which on a rule is accurate enough.
+/// Number of bisections for the distance from which on a rule is accurate enough.
 const BISECTIONS: usize = 40;
 
-/// Part of the accuracy that is asked for within which force and torque of two rings are.
+/// Error of force and torque of two rings, relative to the requested accuracy.
 const SHARE: f64 = 0.1;
 
-/// Bound of a rule on the axis, the error of the field of a dipole at the nearest point of the other ring, over what force and
-/// torque between two rings may be off: those feel a high degree more than the field does.
+/// Error bound of an axial rule (for the field of a dipole at the nearest point of the other ring), relative to the
+/// error of force and torque between two rings, which depend on high degrees more than the field does.
 const BOUND_OVER_ERROR: f64 = 0.2;
 
-/// From this number of nodes on it is measured, see [`Measured`]: a ring's edges are further away than a dipole, which high degrees
-/// feel.
+/// Number of nodes from which on that ratio is measured, see [`Measured`]: a ring's edges are further away than the
+/// dipole, which affects high degrees.
 const MANY_NODES: usize = 13;
 
-/// The most that it may be then; the extent over the distance where it is measured, to that accuracy; the tilts (rad) and
-/// offsets (outer radii) there, and how much worse other poses may be.
+/// Settings of this measurement: the largest ratio; the extent over the distance; the accuracy of the wrench; the tilts
+/// (rad) and offsets (outer radii); and a safety factor for other poses.
 const MOST_BOUND_OVER_ERROR: f64 = 28.0;
 const NEAREST: f64 = 0.45;
 const MEASURED_TO: f64 = 1e-7;
@@ -38,41 +38,43 @@ const OTHERS: f64 = 1.5;
 /// Largest distance of a face from the other magnet's edges for which there is a rule, in outer radii.
 const FARTHEST: f64 = 4.0;
 
-/// Rules for each halving of that distance.
+/// Number of rules per halving of that distance.
 const PER_OCTAVE: f64 = 4.0;
 
 /// Number of these rules: the last is for a fortieth of the outer radius.
 const LEVELS: i32 = 30;
 
-/// How the energy of a magnet in the field of another one is summed up.
+/// Quadrature of the energy of a magnet in the field of another one.
 #[derive(Debug, Clone, Copy)]
 pub enum PairRule<'a> {
-    /// By dipoles at nodes on its axis.
+    /// Dipoles at nodes on its axis.
     Axis(&'a AxialRule),
-    /// By charges at nodes on its two faces, where its magnetisation enters and where it leaves.
+    /// Charges at nodes on its two faces: where its magnetisation enters, then where it leaves.
     Faces([&'a FaceRule; 2]),
 }
 
-/// All rules of one magnet.
+/// All quadrature rules of one magnet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairTable {
     inner: f64,
     outer: f64,
     length: f64,
-    /// Fewest nodes first, each with the distances (m) of the nearest source from which on it is accurate enough: for the
-    /// moment in a field, and for force and torque between two rings.
+    /// Axial rules, fewest nodes first, each with the distances (m) of the nearest source from which on it is accurate
+    /// enough: for the moment in a field, and for force and torque between two rings.
     axis: Vec<(f64, f64, AxialRule)>,
-    /// By the distance (m) from the other magnet's edges from which on each rule is accurate enough, fewest nodes first.
+    /// Face rules, fewest nodes first, each with the distance (m) of the other magnet's edges from which on it is
+    /// accurate enough.
     faces: Vec<(f64, FaceRule)>,
 }
 
 impl PairTable {
-    /// For an annular cylinder of these radii and this length (m), magnetised along its axis.
+    /// Makes the rules of an annular cylinder of these radii and this length (m), magnetised along its axis.
     ///
-    /// Force, torque and energy between two rings are good to a tenth of `accuracy`, relative to `|F| + |T|/a`, `|F| a + |T|`
-    /// and the energy, with the outer radius `a`: at all distances, down to a fortieth of `a` between a face and the other
-    /// magnet's edges. That holds for rings like the paper's; of other shapes it may be three times as much, of very thin ones
-    /// six times. In another field `accuracy` bounds the error of the energy.
+    /// The errors of force, torque and energy between two rings are at most a tenth of `accuracy`, relative to
+    /// `|F| + |T|/a`, `|F| a + |T|` and the energy, with the outer radius `a`, down to a distance of a fortieth of `a`
+    /// between a face and the other magnet's edges. This holds for rings like the paper's; for other shapes the errors
+    /// may be three times as large, for very thin rings six times. In another field `accuracy` bounds the error of the
+    /// energy.
     ///
     /// ```
     /// use mcm::geometry::Pose;
@@ -86,7 +88,8 @@ impl PairTable {
     /// ```
     #[must_use]
     pub fn new(inner: f64, outer: f64, length: f64, accuracy: f64) -> Self {
-        // What the two faces feel cancels the more the thinner the magnet is: the rules were measured for half a radius.
+        // The thinner the magnet, the more the forces on its faces cancel: the rules were measured for a length of half
+        // a radius.
         let tolerance = SHARE * accuracy * (2.0 * length / outer).min(1.0);
         let faces = (0..LEVELS).map(|level| {
             let distance = outer * FARTHEST * (-f64::from(level) / PER_OCTAVE).exp2();
@@ -96,19 +99,19 @@ impl PairTable {
         Self { inner, outer, length, axis, faces: faces.collect() }
     }
 
-    /// Whether it is that of a magnet of these radii and this length, m.
+    /// Whether the table was made for a magnet of these radii and this length, m.
     #[must_use]
     pub fn is_of(&self, inner: f64, outer: f64, length: f64) -> bool {
         (self.inner, self.outer, self.length) == (inner, outer, length)
     }
 
-    /// How many rules there are for a pair.
+    /// Number of rules for a pair.
     #[must_use]
     pub fn len(&self) -> usize {
         self.axis.len() + self.faces.len() * self.faces.len()
     }
 
-    /// Whether there are none, which no table has.
+    /// Whether the table has no rules: always false.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -129,7 +132,7 @@ impl PairTable {
         self.axis.len() + level(-half) * self.faces.len() + level(half)
     }
 
-    /// The rule of that number; beyond the last it is the last.
+    /// The rule of that number; beyond the last number, the last rule.
     #[must_use]
     pub fn rule(&self, number: usize) -> PairRule<'_> {
         match number.min(self.len() - 1).checked_sub(self.axis.len()) {
@@ -141,7 +144,7 @@ impl PairTable {
         }
     }
 
-    /// The rule on the axis in a field of given size whose sources are `reach` (m) away: the last one if none is accurate
+    /// The axial rule for an external field whose sources are `reach` (m) away; the last one if none is accurate
     /// enough.
     #[must_use]
     pub fn external(&self, reach: f64) -> &AxialRule {
@@ -150,7 +153,7 @@ impl PairTable {
     }
 }
 
-/// Rules of 1, 3, 5 ... nodes on the axis, with the distances from which on each is accurate.
+/// Rules of 1, 3, 5 ... nodes on the axis, with the distances from which on each is accurate enough.
 fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f64, AxialRule)> {
     let extent = outer.hypot(0.5 * length);
     let measured = Measured::new(inner, outer, length);
@@ -162,7 +165,7 @@ fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f
                 Some(measured) if nodes >= MANY_NODES => measured.bound_over_error(&rule),
                 _ => BOUND_OVER_ERROR,
             };
-            // By the ratio of extent to distance, between infinitely far and touching.
+            // Bisection of the ratio of extent to distance, from infinitely far to touching.
             let least = |bound: f64| {
                 extent / bisect([0.0, 1.0], BISECTIONS, |ratio| rule.error(extent / ratio) <= bound)[0]
             };
@@ -171,14 +174,14 @@ fn axis_rules(inner: f64, outer: f64, length: f64, accuracy: f64) -> Vec<(f64, f
         .collect()
 }
 
-/// Two equal rings close to one another, and what the one does to the other.
+/// Two equal rings close to each other, and the wrench of one on the other in several poses.
 struct Measured {
     ring: AxialSource,
     poses: Vec<(Pose, Wrench)>,
 }
 
 impl Measured {
-    /// Of rings of these dimensions, m; `None` where there are no such rings.
+    /// Measures rings of these dimensions, m; `None` if the dimensions are out of range.
     fn new(inner: f64, outer: f64, length: f64) -> Option<Self> {
         let ring = AxialSource::new(inner, outer, length, 1.0).ok()?;
         let height = 0.5 * length + outer.hypot(0.5 * length) / NEAREST;
@@ -190,7 +193,7 @@ impl Measured {
         Some(Self { poses: poses.collect(), ring })
     }
 
-    /// How often the bound of a rule exceeds its error.
+    /// Smallest ratio of a rule's error bound to its error, from [`BOUND_OVER_ERROR`] to [`MOST_BOUND_OVER_ERROR`].
     fn bound_over_error(&self, rule: &AxialRule) -> f64 {
         let ring = &self.ring;
         let each = self.poses.iter().filter_map(|(pose, exact)| {

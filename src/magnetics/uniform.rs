@@ -21,7 +21,7 @@ pub struct LinearField {
 impl LinearField {
     /// From the field at the origin (T) and `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` (T/m).
     ///
-    /// A plain value, not checked: whoever reads inputs refuses NaN.
+    /// The values are not checked here: NaN is rejected where inputs are read.
     #[must_use]
     pub fn new(origin: Vector3<f64>, gradient: [f64; 5]) -> Self {
         let [xx, xy, xz, yy, yz] = gradient;
@@ -34,7 +34,7 @@ impl LinearField {
         self.origin + self.gradient * point
     }
 
-    /// The gradient `dB_i/dx_j`, T/m, everywhere the same.
+    /// The gradient `dB_i/dx_j`, T/m, the same everywhere.
     #[must_use]
     pub fn gradient(&self) -> Matrix3<f64> {
         self.gradient

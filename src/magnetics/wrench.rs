@@ -12,15 +12,15 @@ use crate::error::{Error, check};
 use crate::geometry::Pose;
 use crate::numerics::quadrature::gauss_legendre;
 
-/// Nodes along the radius and around each face, coarse to fine.
+/// Numbers of nodes along the radius and around each face, from coarse to fine.
 ///
-/// The error of a rule with `n` nodes around is about `(s/d)^n` with the body's extent `s` and the distance `d` from its
-/// centre to the other magnet (measured on ring pairs 3 to 30 mm apart, within a factor of 20); the nodes along the
-/// radius are as many as keep that rate.
+/// The error of a rule with `n` nodes around is about `(s/d)^n` with the body's extent `s` and the distance `d` from
+/// its centre to the other magnet (measured on ring pairs 3 to 30 mm apart, within a factor of 20); the number of nodes
+/// along the radius preserves that rate.
 const LADDER: [(usize, usize); 9] =
     [(1, 8), (2, 12), (3, 16), (4, 24), (6, 32), (8, 48), (12, 72), (18, 108), (27, 160)];
 
-/// Finest accuracy that may be asked for: below, the rounding of the sums shows.
+/// Finest accuracy that may be requested: below it, rounding errors of the sums are visible.
 const FINEST: f64 = 1e-12;
 
 /// Force and torque on a body.
@@ -38,9 +38,10 @@ impl Wrench {
 }
 
 impl Wrench {
-    /// What the body at `position` (m) does to the source at the origin: the opposite force, and its torque about the origin.
+    /// Wrench of the body at `position` (m) on the source at the origin: the opposite force, and its torque about the
+    /// origin.
     ///
-    /// Together with the wrench it is in balance: no internal magnetic force or torque is left over.
+    /// It balances this wrench: the magnetic forces and torques between the two bodies add up to zero.
     #[must_use]
     pub fn reaction(&self, position: &Vector3<f64>) -> Self {
         Self { force: -self.force, torque: -(self.torque + position.cross(&self.force)) }
@@ -48,17 +49,17 @@ impl Wrench {
 }
 
 impl AxialSource {
-    /// The wrench on `body` at `pose` in this magnet's frame, in that frame.
+    /// The wrench on `body` at `pose` in this magnet's frame, in the axes of that frame.
     ///
-    /// The body's magnetisation is a magnetic charge `+-B_r / mu_0` on its two faces:
+    /// The body's magnetisation is equivalent to a magnetic charge `+-B_r / mu_0` on its two faces:
     ///
     /// ```text
     /// F = (B_r / mu_0) [int_+ B dA - int_- B dA]      T = (B_r / mu_0) [int_+ (x - c) x B dA - int_- (x - c) x B dA]
     /// ```
     ///
-    /// integrated by Gauss-Legendre in `rho^2` and the trapezoid rule around, with as many nodes as `accuracy` needs at that
-    /// distance. `accuracy`, from 1e-12 to 0.1, bounds the estimated error of the force relative to `|F| + |T|/a` and of the
-    /// torque relative to `|F| a + |T|`, with the body's radius `a`.
+    /// integrated by Gauss-Legendre quadrature in `rho^2` and the trapezoidal rule in the angle, with as many nodes as
+    /// `accuracy` needs at that distance. `accuracy`, from 1e-12 to 0.1, bounds the estimated error of the force
+    /// relative to `|F| + |T|/a` and of the torque relative to `|F| a + |T|`, with the body's radius `a`.
     ///
     /// ```
     /// use mcm::geometry::Pose;
@@ -71,8 +72,9 @@ impl AxialSource {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Unsupported`] when the bodies overlap; [`Error::Range`] for an accuracy out of range, or one that the finest rule
-    /// (8640 nodes) does not reach because the bodies all but touch; [`Error::OnEdge`] when a node meets an edge.
+    /// [`Error::Unsupported`] when the bodies overlap; [`Error::Range`] for an accuracy out of range, or one that the
+    /// finest rule (8640 nodes) does not attain because the bodies almost touch; [`Error::OnEdge`] when a node meets an
+    /// edge.
     pub fn wrench_on(&self, body: &Self, pose: &Pose, accuracy: f64) -> Result<Wrench, Error> {
         check_accuracy(accuracy)?;
         overlap::check(&self.outline(), &body.outline(), pose)?;
@@ -81,7 +83,7 @@ impl AxialSource {
 }
 
 impl Assembly {
-    /// The wrench on `body` at `pose` in the assembly's frame, in that frame; see [`AxialSource::wrench_on`].
+    /// The wrench on `body` at `pose` in the assembly's frame, in its axes; see [`AxialSource::wrench_on`].
     ///
     /// # Errors
     /// As [`AxialSource::wrench_on`].
@@ -99,7 +101,7 @@ fn check_accuracy(accuracy: f64) -> Result<f64, Error> {
     check("accuracy of the wrench", accuracy, |v| (FINEST..=0.1).contains(&v), "from 1e-12 to 0.1")
 }
 
-/// Climbs the ladder from the rung before the one that should do, until the last two rungs say that it is enough.
+/// Refines the rule, from one level below the expected one, until the error estimated from two levels is small enough.
 fn adaptive(
     body: &AxialSource,
     pose: &Pose,
@@ -115,7 +117,8 @@ fn adaptive(
     let mut reached = f64::INFINITY;
     for step in LADDER[start..].windows(2) {
         let (fine, size) = on_faces(body, pose, step[1], &field)?;
-        // The error of the coarse rule is the difference; that of the fine one falls by the ratio of the nodes around.
+        // The difference estimates the error of the coarse rule; the fine one's exponent is larger by the ratio of the
+        // nodes around.
         let difference = relative_difference(&coarse, &fine, size, body.outer_radius());
         let gain = step[1].1 as f64 / step[0].1 as f64;
         reached = difference.min(10.0 * difference.powf(gain));
@@ -127,7 +130,7 @@ fn adaptive(
     Err(Error::range("accuracy of the wrench", accuracy, format!(">= {reached:.1e} for bodies this close")))
 }
 
-/// Difference of two wrenches relative to the finer one, or to the rounding of its sums (`size`, N) if that is larger.
+/// Difference of two wrenches relative to the finer one; 0 within the rounding of sums of the magnitude `size`, N.
 pub(super) fn relative_difference(coarse: &Wrench, fine: &Wrench, size: f64, radius: f64) -> f64 {
     let scale = fine.force.norm() + fine.torque.norm() / radius;
     let difference = (coarse.force - fine.force).norm().max((coarse.torque - fine.torque).norm() / radius);
@@ -135,7 +138,7 @@ pub(super) fn relative_difference(coarse: &Wrench, fine: &Wrench, size: f64, rad
     if difference <= rounding { 0.0 } else { difference / scale }
 }
 
-/// The wrench by one rule, and the sum of the sizes of its terms, N.
+/// The wrench by one rule, and the sum of the magnitudes of its terms, N.
 fn on_faces(
     body: &AxialSource,
     pose: &Pose,

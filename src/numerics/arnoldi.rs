@@ -7,19 +7,19 @@ use super::eigenvalue::inner;
 /// Largest number of sweeps of the QR algorithm, per row.
 const SWEEPS: usize = 100;
 
-/// Relative sizes of a subdiagonal entry that count as zero, tried in turn: clusters of nearly defective eigenvalues cannot be
-/// separated to rounding.
+/// Relative sizes below which a subdiagonal entry counts as zero, tried in turn: clusters of nearly defective
+/// eigenvalues cannot be separated to machine precision.
 const NEGLIGIBLE: [f64; 3] = [1e-13, 1e-11, 1e-9];
 
-/// Relative norm of an orthogonalised vector below which it is rounding.
+/// Relative norm below which an orthogonalised vector consists of rounding errors only.
 const ROUNDING: f64 = 1e-13;
 
-/// The smallest real part of the eigenvalues, by at most `vectors` Arnoldi vectors starting from `start`.
+/// Smallest real part of the eigenvalues, from at most `vectors` Arnoldi vectors starting with `start`.
 ///
-/// `solve` replaces its argument by `H^-1` times it. The method is Arnoldi's on `H^-1 K` in the inner product of the diagonal
-/// `K`, orthogonalised twice (Golub and Van Loan, Matrix Computations, 10.5). The eigenvalues nearest to zero and those of
-/// negative real part lie at the boundary of that operator's spectrum, which is found first; with as many vectors as rows all
-/// are found. `None` where a value is not finite or the QR algorithm does not converge.
+/// `solve` replaces its argument by `H^-1` times it. The method is Arnoldi's on `H^-1 K` in the inner product of the
+/// diagonal `K`, orthogonalised twice (Golub and Van Loan, Matrix Computations, 10.5). The eigenvalues nearest to zero
+/// and those of negative real part lie at the boundary of that operator's spectrum, which is found first; with as many
+/// vectors as rows all are found. Returns `None` if a value is not finite or the QR algorithm does not converge.
 pub fn smallest_real_part(
     metric: &[f64],
     start: &[f64],
@@ -33,7 +33,7 @@ pub fn smallest_real_part(
     for column in 0..most {
         let norm = inner(metric, &next, &next).sqrt();
         if column > 0 && norm <= ROUNDING * projected.column(column - 1).amax() {
-            // The vectors span an invariant subspace: its eigenvalues are all that this start vector can reach.
+            // The vectors span an invariant subspace: no other eigenvalues can be found from this start vector.
             projected = projected.view((0, 0), (column, column)).into_owned();
             break;
         }

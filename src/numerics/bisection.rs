@@ -1,8 +1,9 @@
 //! Bisection for the boundary of a property of one variable.
 
-/// Interval in which `holds` changes, after so many halvings: it is true at the first end and false at the second.
+/// Interval in which `holds` changes, after `halvings` bisections; `holds` is true at its first end and false at its
+/// second.
 ///
-/// It is assumed to be true at `from` and false at `to`; of several changes between them one is found.
+/// It is assumed to be true at `from` and false at `to`; if it changes several times between them, one change is found.
 ///
 /// ```
 /// use mcm::numerics::bisection::bisect;

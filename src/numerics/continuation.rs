@@ -1,9 +1,9 @@
 //! Pseudo-arclength continuation of the stationary points of a potential: through folds, stable or not.
 //!
-//! The branch `g(x, p) = 0` is followed by its arc length in the joint space of `x` and `p`, in which a fold is a regular
-//! point: each point is predicted along the tangent and corrected by Newton's method normal to it. The method is H. B. Keller's
-//! (Applications of Bifurcation Theory, Academic Press 1977); see also Allgower and Georg, Introduction to Numerical
-//! Continuation Methods, SIAM 2003, doi:10.1137/1.9780898719154, chapters 2, 6 and 9.
+//! The branch `g(x, p) = 0` is followed along its arc length in the joint space of `x` and `p`, in which a fold is a
+//! regular point: each point is predicted along the tangent and corrected by Newton's method normal to it. The method
+//! is H. B. Keller's (Applications of Bifurcation Theory, Academic Press 1977); see also Allgower and Georg,
+//! Introduction to Numerical Continuation Methods, SIAM 2003, doi:10.1137/1.9780898719154, chapters 2, 6 and 9.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -32,10 +32,10 @@ const GROW: f64 = 1.6;
 const FIRST: f64 = 0.1;
 const SHORTEST: f64 = 1e-6;
 
-/// Tolerance of the vanishing quantity at a singular point, or of its interval relative to the step.
+/// Tolerance of the test function, which vanishes at a singular point, or of its bracket relative to the step.
 const VANISHED: f64 = 1e-10;
 
-/// Value of that quantity above which the corrector has jumped to another branch.
+/// Absolute value of the test function above which the corrector has jumped to another branch.
 const JUMPED: f64 = 1e-6;
 
 /// Largest number of secant steps to a singular point.
@@ -83,8 +83,8 @@ pub enum PointKind {
     Regular,
     /// A fold: the parameter turns back, and beyond it this stationary point does not exist.
     Fold,
-    /// A branching point: so many directions lose or gain stability while the parameter continues; other branches cross or
-    /// begin.
+    /// A branching point: this number of directions lose or gain stability while the parameter continues; other
+    /// branches cross or begin there.
     Branching(usize),
 }
 
@@ -106,9 +106,10 @@ pub struct Point {
 /// Reason why a continuation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// It reached an end of the range, where its last point is.
+    /// The branch has reached an end of the range; its last point lies there.
     Range,
-    /// No next point is found with the shortest step: the potential ends, or the branch has a corner.
+    /// No further point is found even with the shortest step: the potential is undefined there, or the branch has a
+    /// corner.
     Stuck,
     /// The largest number of points is reached.
     Points,
@@ -138,13 +139,15 @@ impl Point {
     }
 }
 
-/// Follows the branch through the stationary point next to `x`: its points, including folds and branching points.
+/// Follows the branch through the stationary point near `x`; returns its points, including folds and branching points,
+/// and why it ends.
 ///
-/// The potential is also evaluated up to one step beyond the range. No points are returned if no stationary point is close to
-/// `x`.
+/// The potential is also evaluated up to one step beyond the range. No points are returned if no stationary point is
+/// close to `x`.
 ///
 /// # Errors
-/// [`Error::Range`] for a walk that starts outside its range or has no steps; those of the family.
+/// [`Error::Range`] for a walk that starts outside its range or whose longest step is not positive; those of the
+/// family.
 pub fn follow(family: &mut impl Family, x: &DVector<f64>, walk: &Walk) -> Result<(Vec<Point>, End), Error> {
     let [low, high] = walk.range;
     check("first parameter of the walk", walk.from, |v| low <= v && v <= high, "within its range")?;
@@ -251,8 +254,8 @@ fn bordered(local: &Local, normal: &DVector<f64>) -> DMatrix<f64> {
 
 /// The singular point within a step, if it has one; `None` if a shorter step is needed.
 ///
-/// That is the case if there are several, or none is found where there should be one because the step has led to another
-/// branch.
+/// A shorter step is needed if there are several singular points, or if the expected one is not found because the step
+/// has led to another branch.
 fn between(
     family: &mut impl Family,
     here: &Point,
@@ -275,8 +278,8 @@ fn between(
     Ok(found.map(|point| vec![point]))
 }
 
-/// Locates the zero of `measure` within a step by bracketing secants (Illinois rule: M. Dowell and P. Jarratt, BIT 11, 1971,
-/// doi:10.1007/BF01934364).
+/// Locates the zero of `measure` within a step by bracketing secants (Illinois rule: M. Dowell and P. Jarratt, BIT 11,
+/// 1971, doi:10.1007/BF01934364).
 fn locate(
     family: &mut impl Family,
     here: &Point,
@@ -307,7 +310,7 @@ fn locate(
     Ok(found)
 }
 
-/// The point within a step at this parameter.
+/// The point of the branch at this parameter, within a step.
 fn at_limit(
     family: &mut impl Family,
     here: &Point,

@@ -34,10 +34,10 @@ pub struct Lanczos {
 impl Lanczos {
     /// The smallest `lambda`; its eigenvector (`x^T K x = 1`) replaces the initial guess in `vector`.
     ///
-    /// `solve` replaces its argument by `(H + shift K)^-1` times it, for a positive definite matrix. The method is Lanczos' on
-    /// `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation (Golub and Van Loan, Matrix Computations,
-    /// 10.1), which finds the eigenvalues nearest to `-shift` first. A search that ends early returns an upper bound. NaN for a
-    /// vector or a solution that is not finite.
+    /// `solve` replaces its argument by `(H + shift K)^-1` times it, for a positive definite matrix. The method is
+    /// Lanczos' on `(H + shift K)^-1 K` in the inner product of `K`, with full orthogonalisation (Golub and Van Loan,
+    /// Matrix Computations, 10.1), which finds the eigenvalues nearest to `-shift` first. A search that ends early
+    /// returns an upper bound. Returns NaN if the vector or a solution is not finite.
     pub fn smallest(
         &mut self,
         metric: &[f64],
@@ -86,7 +86,7 @@ impl Lanczos {
             let value = largest(diagonal, beside, weights);
             let rest = inner(image, image).sqrt();
             let last = weights.last().copied().unwrap_or(0.0).abs();
-            // A single vector is only its own guess: a second one must confirm it.
+            // A single vector cannot check the initial guess: a second one must confirm it.
             let settled = count > 1 && rest * last <= search.settled * value;
             if settled || count == most || rest <= f64::EPSILON * value {
                 vector.fill(0.0);

@@ -4,10 +4,10 @@
 //! (J^T J + lambda D^2) s = -J^T r,     lambda = mu |r|,     D = column norms of J, the largest so far
 //! ```
 //!
-//! solved by an orthogonal factorisation, because the normal equations would square the condition number, which shooting makes
-//! large. `mu` follows the ratio of actual to predicted decrease. Sources: Moré, Lect. Notes Math. 630, 1978,
-//! doi:10.1007/BFb0067700 (scaling, factorisation); Fan and Yuan, Computing 74, 2005 (`lambda` proportional to the residual, so
-//! that the final convergence is quadratic).
+//! solved by an orthogonal factorisation, because the normal equations would square the condition number, which is
+//! large for shooting methods. `mu` follows the ratio of actual to predicted decrease. Sources: Moré, Lect. Notes Math.
+//! 630, 1978, doi:10.1007/BFb0067700 (scaling, factorisation); Fan and Yuan, Computing 74, 2005 (`lambda` proportional
+//! to the residual, so that the final convergence is quadratic).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -33,7 +33,7 @@ pub struct Ending {
 /// Initial damping relative to the norm of the residual.
 const FIRST: f64 = 1e-2;
 
-/// Bounds of the relative damping: below, it has no effect; above, no step can help.
+/// Bounds of the relative damping: below the first it has no effect; above the second the search is abandoned.
 const BOUNDS: [f64; 2] = [1e-8, 1e12];
 
 /// Factor by which the damping changes.
@@ -42,7 +42,7 @@ const FACTOR: f64 = 4.0;
 /// Thresholds of the ratio of actual to predicted decrease: to accept a step, to increase and to decrease the damping.
 const RATIOS: [f64; 3] = [1e-4, 0.25, 0.75];
 
-/// Moves `x` to a root of `system`, in at most `iterations`.
+/// Moves `x` to a root of `system`, in at most `iterations` iterations.
 pub fn solve(
     system: &mut impl LeastSquares,
     x: &mut DVector<f64>,

@@ -1,13 +1,14 @@
 //! The maximum of a function of one variable.
 
-/// Golden-section steps: they reduce an interval to 4e-11 of its width.
+/// Number of golden-section steps; they reduce an interval to 4e-11 of its width.
 const STEPS: usize = 50;
 
 /// Largest value of `f` between `low` and `high`, and its location.
 ///
-/// The interval is sampled in so many `parts`; around each of their ends that is higher than its neighbours and above `worth`,
-/// a golden-section search follows (J. Kiefer, Proc. AMS 4, 1953, doi:10.2307/2032161). It finds a maximum that is the only one
-/// in its two parts: for a unimodal function, with one part, the maximum itself, located to 4e-11 of the interval.
+/// The function is sampled at the ends of `parts` equal parts of the interval. Around each sample that is above `worth`
+/// and not below its neighbours, a golden-section search follows (J. Kiefer, Proc. AMS 4, 1953, doi:10.2307/2032161).
+/// It finds a maximum that is the only one in the two parts next to the sample. For a unimodal function one part
+/// suffices: the maximum is located to 4e-11 of the interval.
 ///
 /// ```
 /// use mcm::numerics::maximum::largest;

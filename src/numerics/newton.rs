@@ -1,8 +1,9 @@
 //! Newton's method, damped by the natural monotonicity test.
 //!
-//! A step is shortened until the *next* correction with the same derivative is smaller than the last: unlike the norm of a
-//! residual, the norm of a correction does not depend on the scaling of the equations, and it estimates the distance to the
-//! root. Source: Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, ch. 3 (algorithm NLEQ-ERR).
+//! A step is shortened until the *next* correction with the same derivative is smaller than the last: unlike the norm
+//! of a residual, the norm of a correction does not depend on the scaling of the equations, and it estimates the
+//! distance to the root. Source: Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, ch. 3 (algorithm
+//! NLEQ-ERR).
 
 use super::levenberg_marquardt::Ending;
 
@@ -23,7 +24,7 @@ pub trait Equations {
 /// Smallest damping factor that is tried.
 const SMALLEST: f64 = 1e-4;
 
-/// Norm of a correction (in the coordinates' unit) below which it is rounding alone.
+/// Norm of a correction (in the coordinates' unit) below which it consists of rounding errors only.
 const ROUNDING: f64 = 1e-11;
 
 fn norm(step: &[f64]) -> f64 {
@@ -32,8 +33,8 @@ fn norm(step: &[f64]) -> f64 {
 
 /// Moves `x` to a root, in at most `iterations` linearisations.
 ///
-/// Converged when the residual's norm is at most `tolerance`. Where rounding keeps it above, convergence is decided by the last
-/// correction, as long as the residual is within a thousand tolerances.
+/// The method has converged when the residual's norm is at most `tolerance`. If rounding keeps the residual above that
+/// but within a thousand tolerances, a negligible correction also counts as convergence.
 pub fn solve<E: Equations>(equations: &mut E, x: &mut E::Point, tolerance: f64, iterations: u32) -> Ending {
     let mut end = Ending { converged: false, iterations: 0, residual: f64::INFINITY };
     let mut damping = 1.0_f64;

@@ -1,28 +1,28 @@
 //! Pseudo-transient continuation: implicit Euler steps of the overdamped motion `K dx/dt = -g(x)` to rest.
 //!
-//! It finds the equilibrium in which a slow, damped motion ends, also where the forces are not conservative and there is no
-//! potential to minimise. The steps grow as the residual shrinks, so that the method becomes Newton's at the end. Source:
-//! Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998), doi:10.1137/S0036142996304796.
+//! It finds the equilibrium in which a slow, damped motion ends, also where the forces are not conservative and there
+//! is no potential to minimise. The steps grow as the residual shrinks, so that the method becomes Newton's at the end.
+//! Source: Kelley and Keyes, SIAM J. Numer. Anal. 35, 508 (1998), doi:10.1137/S0036142996304796.
 
 use super::trust_region::{Minimum, Objective, Region, dual_norm, norm};
 
-/// Initial shift, the inverse of the first time step: some tenths of the time constant of the elastic forces.
+/// Initial shift, the inverse of the first time step: that step is some tenths of the elastic forces' time constant.
 const FIRST: f64 = 2.0;
 
 /// Growth of the shift after a rejected step, and its minimum decrease after an accepted one.
 const GROWTH: f64 = 4.0;
 const DECREASE: f64 = 0.5;
 
-/// Largest growth of the residual in one step: it grows while a hill is crossed.
+/// Largest growth factor of the residual in one step: the motion may pass through a maximum of the residual.
 const UPHILL: f64 = 2.0;
 
-/// Largest shift; with such short steps there is no progress.
+/// Largest shift: the time steps are then too short for progress.
 const LARGEST: f64 = 1e8;
 
 /// Moves `x` along the damped motion until the gradient's dual norm is within the tolerance of `region`.
 ///
-/// No step is longer than the initial radius; stops early when `proceed` is false before a step. `converged` does not imply
-/// stability.
+/// No step is longer than the initial radius of `region`. The method stops early when `proceed` returns false before a
+/// step. `converged` does not imply stability.
 pub fn settle(
     objective: &mut impl Objective,
     x: &mut [f64],

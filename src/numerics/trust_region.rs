@@ -1,16 +1,16 @@
 //! Minimisation by Newton's method in a trust region, measured in the norm of a given diagonal metric `K`.
 //!
-//! The step of each iteration minimises the quadratic model inside the region: `(H + shift K) s = -g` with the `shift` that
-//! puts `s` on the boundary (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983, doi:10.1137/0904038). It ends at a minimum,
-//! not at a saddle: a saddle is left along the direction of negative curvature. A step that the model predicts poorly is
-//! corrected to follow a curved valley.
+//! The step of each iteration minimises the quadratic model inside the region: `(H + shift K) s = -g` with the `shift`
+//! that puts `s` on the boundary (Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4, 1983, doi:10.1137/0904038). It ends
+//! at a minimum, not at a saddle: a saddle is left along the direction of negative curvature. A step that the model
+//! predicts poorly is corrected to follow a curved valley.
 
 use super::eigenvalue::{Lanczos, Search, inner};
 
 /// Function to be minimised.
 pub trait Objective {
-    /// Computes and stores the gradient at `x`, keeping the Hessian of the last linearisation; returns the value, or `None`
-    /// where it is not defined.
+    /// Computes and stores the gradient at `x`, keeping the Hessian of the last linearisation; returns the value, or
+    /// `None` where it is not defined.
     fn slope(&mut self, x: &[f64]) -> Option<f64>;
     /// Computes and stores gradient and Hessian at `x`; returns the value, or `None` where it is not defined.
     fn linearise(&mut self, x: &[f64]) -> Option<f64>;
@@ -57,7 +57,7 @@ pub struct Minimum {
 /// Radius, relative to the initial one, below which the search is given up.
 const SMALLEST: f64 = 1e-10;
 
-/// Relative change of the value below which its rounding spoils a comparison: values are sums with cancellation.
+/// Relative change of the value below which rounding errors dominate it: values are sums with cancellation.
 const ROUNDING: f64 = 1e-8;
 
 /// Relative width of the bracket of the shift at which a step still inside the region is the hard case.
@@ -75,7 +75,7 @@ const FAIR: f64 = 0.4;
 /// Stiffness, relative to the metric, above which a direction counts as a wall of a valley.
 const STIFF: f64 = 0.05;
 
-/// Size of the last correction, relative to the step, below which the step follows the valley.
+/// Size of the last correction, relative to the step, below which the corrections have converged.
 const BENT: f64 = 0.05;
 
 /// Largest number of corrections of a step.
@@ -96,7 +96,7 @@ pub fn dual_norm(metric: &[f64], g: &[f64]) -> f64 {
     metric.iter().zip(g).map(|(k, v)| v * v / k).sum::<f64>().sqrt()
 }
 
-/// Moves `x` to a minimum of `objective`; stops early when `proceed` is false before an iteration.
+/// Moves `x` to a minimum of `objective`; stops early when `proceed` returns false before an iteration.
 pub fn minimise(
     objective: &mut impl Objective,
     x: &mut [f64],
@@ -170,10 +170,10 @@ pub fn minimise(
 
 /// Writes the second-order correction of a step to `back`, so that it follows a curved valley; returns its norm.
 ///
-/// It moves from the end of the step back down the stiff walls, `-(H + (shift + STIFF) K)^-1 (g' + shift K s)`, as the
-/// quadratic model leaves the gradient `-shift K s` there. It is the second-order correction of trust regions (Conn, Gould and
-/// Toint, Trust-Region Methods, SIAM 2000, doi:10.1137/1.9780898719857, section 15.3.2.3) for walls that are stiff and not
-/// rigid.
+/// The correction `-(H + (shift + STIFF) K)^-1 (g' + shift K s)` leads from the end of the step, where the quadratic
+/// model predicts the gradient `-shift K s`, back down the stiff walls. It is the second-order correction of trust
+/// regions (Conn, Gould and Toint, Trust-Region Methods, SIAM 2000, doi:10.1137/1.9780898719857, section 15.3.2.3),
+/// with stiff walls in place of constraints.
 fn bend(objective: &mut impl Objective, shift: f64, step: &[f64], back: &mut [f64]) -> f64 {
     let metric = objective.metric();
     for (((b, g), k), s) in back.iter_mut().zip(objective.gradient()).zip(metric).zip(step) {
@@ -259,8 +259,8 @@ fn middle(low: f64, high: f64) -> f64 {
 
 /// Extends `step` to the boundary of the region along the direction of most negative curvature (hard case).
 ///
-/// `step` solves `(H + shift K) s = -g` inside the region; the direction `z` has curvature `lambda`: the hard case of Moré and
-/// Sorensen, as at a saddle. Returns the decrease that the model predicts, with `H s = -g - shift K s`.
+/// `step` solves `(H + shift K) s = -g` inside the region; the direction `z` has curvature `lambda`: the hard case of
+/// Moré and Sorensen, as at a saddle. Returns the decrease that the model predicts, with `H s = -g - shift K s`.
 fn along_negative_curvature(
     objective: &mut impl Objective,
     gradient: &[f64],
@@ -281,7 +281,7 @@ fn along_negative_curvature(
         metric.iter().zip(&direction).zip(step.iter()).map(|((k, z), s)| k * z * s).sum::<f64>() / size;
     let reach = (along * along + radius * radius - length * length).max(0.0).sqrt();
     let decrease = |tau: f64| tau * shift * along - 0.5 * tau * tau * lambda;
-    // A tie is broken towards positive first components, for repeatability.
+    // A tie is broken towards a positive sum of the components, for repeatability.
     let sign = if direction.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
     let (one, other) = (sign * reach - along, -sign * reach - along);
     let tau = if decrease(one) >= decrease(other) { one } else { other };
@@ -291,7 +291,7 @@ fn along_negative_curvature(
     inside + decrease(tau)
 }
 
-/// Adds to `x` a fixed vector of norm `size` in the metric with a component in every direction.
+/// Adds to `x` a fixed vector of norm about `size` in the metric, all of whose components are positive.
 pub fn spread(metric: &[f64], x: &mut [f64], size: f64) {
     let golden = 0.618_033_988_749_894_9;
     let scale = size / (metric.len() as f64).sqrt();
