@@ -1,6 +1,6 @@
-//! Error against time: methods by resolution, quadrature of the ring pairs and levels of interaction, beside references.
+//! Error against time of all methods, by resolution, pair quadrature and interaction level, from reference solutions.
 //!
-//! The one study that looks at a clock: its times are those of one machine at one moment.
+//! The times are measured: they are those of one machine at one moment.
 
 mod picture;
 
@@ -17,7 +17,7 @@ use crate::methods::{self, Method};
 
 pub use picture::{PEERS, Peered, accuracy_picture};
 
-/// Fields by name, as scenes state them: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
+/// Name and scene text of each field: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
 const FIELDS: [(&str, &str); 3] = [
     ("uniform 90 deg", "[field]\nuniform_mt = [0, 10, 0]"),
     ("uniform 150 deg", "[field]\nuniform_mt = [0, 5, -8.660254038]"),
@@ -27,26 +27,27 @@ const FIELDS: [(&str, &str); 3] = [
 /// Centreline points of the outputs, as many as the FMU has by default.
 const SHAPE_POINTS: usize = 21;
 
-/// Steps of a warm walk before it turns back: so many that turning back, predicted, weighs little.
+/// Number of warm steps before the inputs turn back, large enough that the easily predicted reversal has little weight.
 const STEPS: u32 = 8;
 
-/// Every time is the least of at least so many solves, or means of walks, and of more until so much time has passed: whatever
-/// else the machine does only adds.
+/// Minimum and maximum number of timed repetitions, and their time budget. The shortest time per solve counts, because
+/// other load on the machine only adds time.
 const LEAST_WALKS: usize = 3;
 const MOST_WALKS: usize = 101;
 const BUDGET: Duration = Duration::from_millis(20);
 
-/// The reference: highest degree and finest quadrature; the same one step coarser tells how well it is known.
+/// Degree and pair accuracy of the reference, and of a coarser solution: their difference is the uncertainty.
 const REFERENCE: (usize, f64) = (8, 1e-9);
 const COARSER: (usize, f64) = (7, 1e-8);
 
-/// Where other methods reach, collocation at this residual must confirm the reference, too.
+/// Residual of the collocation that checks the reference, at the interaction levels that it supports.
 const CONFIRMING_RESIDUAL: f64 = 1e-6;
 
-/// Tips so far apart over the length are those of two equilibria, of which collocation, blind to stability, may find either.
+/// Tip distance over the length from which two shapes are different equilibria; collocation ignores stability and may
+/// find either.
 const ANOTHER_SHAPE: f64 = 1e-2;
 
-/// One way to solve one scene, its time and its errors.
+/// Time and errors of one method in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Point {
     /// The field.
@@ -57,24 +58,24 @@ pub struct Point {
     pub interaction: &'static str,
     /// `cold` from the straight shape or `warm` after a small step of the inputs.
     pub start: &'static str,
-    /// The method, or the level of interaction if that is another one than the reference's.
+    /// The method, or the level of interaction if it differs from that of the reference.
     pub name: &'static str,
-    /// How finely it resolves.
+    /// Resolution of the method, in words.
     pub resolution: String,
-    /// Least time of a solve with all outputs, microseconds; `None` where it has not solved.
+    /// Shortest time of a solve with all outputs, microseconds; `None` if it did not solve.
     pub time_us: Option<f64>,
     /// Error of the tip's position over the length.
     pub tip_over_length: Option<f64>,
     /// Error of the tip's angle, deg.
     pub angle_deg: Option<f64>,
-    /// Error of magnetic force and torque (over the length), relative to both.
+    /// Error of the magnetic force plus that of the torque over the length, relative to the same sum of the reference.
     pub wrench_relative: Option<f64>,
-    /// How well the reference's tip position is known, over the length.
+    /// Uncertainty of the reference's tip position over the length.
     pub reference_over_length: Option<f64>,
 }
 
 impl Point {
-    /// Time and error of the tip's position, no smaller than the reference is known; `None` where it has not solved.
+    /// Time (us) and tip error over the length, at least the reference's uncertainty; `None` if it did not solve.
     #[must_use]
     pub fn place(&self) -> Option<[f64; 2]> {
         Some([self.time_us?, self.tip_over_length?.max(self.reference_over_length?)])
@@ -88,7 +89,7 @@ impl Point {
     }
 }
 
-/// Those of points of one scene and start that no other one beats in time and error, fastest first.
+/// Pareto front in time and error of points of one scene and start, fastest first.
 #[must_use]
 pub fn front<'a>(points: impl IntoIterator<Item = &'a Point>) -> Vec<&'a Point> {
     let mut solved: Vec<(&Point, [f64; 2])> =
@@ -103,7 +104,7 @@ pub fn front<'a>(points: impl IntoIterator<Item = &'a Point>) -> Vec<&'a Point> 
     solved.into_iter().map(|(point, _)| point).collect()
 }
 
-/// One way to solve a scene.
+/// A method with its settings.
 struct Trial {
     name: &'static str,
     resolution: String,
@@ -116,13 +117,13 @@ struct Case {
     field: &'static str,
     segments: usize,
     scene: Scene,
-    /// Steps at 1 kHz away and back to where the errors are told.
+    /// Inputs of the steps at 1 kHz, away from the scene's inputs and back to them, where the errors are evaluated.
     walk: Vec<Inputs>,
     length: f64,
 }
 
-/// All points, every case calling `done` once: 27 cases of cold and warm solves, one thread. A case without a reference, as
-/// where the rings snap together, has one point, without numbers.
+/// All points of 27 cases, with cold and warm solves in one thread; calls `done` after each case. A case without a
+/// reference, as where the rings snap together, has one point without numbers.
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
@@ -140,7 +141,7 @@ pub fn accuracy(done: impl Fn()) -> Result<Vec<Point>, Error> {
 }
 
 impl Case {
-    /// How many there are.
+    /// Number of cases.
     const COUNT: usize = FIELDS.len() * SEGMENTS.len() * LEVELS.len();
 
     fn new(field: &'static str, table: &str, segments: usize, level: Interaction) -> Result<Self, Error> {
@@ -258,7 +259,7 @@ impl Case {
     }
 }
 
-/// All ways to solve a scene with the level of interaction of `base`.
+/// All methods and resolutions for a scene with the interaction level of `base`.
 fn trials(base: Settings) -> Vec<Trial> {
     let level = base.interaction;
     let mut out = Vec::new();
@@ -266,7 +267,7 @@ fn trials(base: Settings) -> Vec<Trial> {
     let mut add = |name, resolution: String, settings, solver| {
         out.push(Trial { name, resolution, settings, solver });
     };
-    // Without pairs there is nothing to be more or less accurate but the rings in the magnet's field.
+    // Without pair interaction, the pair accuracy affects only the rings in the magnet's field.
     let every = [1e-2, 1e-3, 1e-5, 1e-7];
     let own = [base.pair_accuracy];
     let accuracies = if level == Interaction::None { &own[..] } else { &every };
@@ -302,7 +303,7 @@ fn trials(base: Settings) -> Vec<Trial> {
     out
 }
 
-/// How many times [`accuracy`] calls.
+/// Number of times that [`accuracy`] calls `done`.
 #[must_use]
 pub fn accuracy_cases() -> usize {
     Case::COUNT

@@ -1,4 +1,4 @@
-//! Devices in a uniform field that grows or turns, along one branch.
+//! Tip angle of a device along one branch, in a uniform field that grows or turns.
 
 use nalgebra::Vector3;
 
@@ -13,14 +13,14 @@ pub(super) struct Device {
     settings: Settings,
 }
 
-/// A field's size (T) and direction (deg from the base's axis +z towards +y) at a place on the way.
+/// Magnitude (T) and direction (deg from the base's axis +z towards +y) of the field as functions of a path parameter.
 pub(super) type Way = fn(f64) -> (f64, f64);
 
-/// What a device does along a way.
+/// Tip angles of a device along a path of the field.
 pub(super) struct Bent {
-    /// Tip angle at each place, deg; NaN from where the branch has ended.
+    /// Tip angle at each parameter value, deg; NaN beyond the end of the branch.
     pub(super) angles: Vec<f64>,
-    /// Place and tip angle (deg) of the last shape, if the branch ends or snaps.
+    /// Parameter value and tip angle (deg) of the last shape, if the branch ends or snaps.
     pub(super) end: Option<[f64; 2]>,
 }
 
@@ -29,19 +29,19 @@ impl Device {
         Self { design, settings }
     }
 
-    /// Unsolved, with no magnet near.
+    /// The manipulator, not yet solved, without an external magnet.
     fn manipulator(&self) -> Result<Manipulator, Error> {
         Manipulator::new(&self.design, None, self.settings, 2)
     }
 
-    /// A field (T) `angle` degrees from the base's axis, and nothing else.
+    /// Inputs with a field (T) at `angle` degrees from the base's axis and no other load.
     fn inputs(&self, (size, angle): (f64, f64)) -> Inputs {
         let (sine, cosine) = angle.to_radians().sin_cos();
         let uniform_field = Vector3::new(0.0, sine, cosine) * size;
         Inputs { uniform_field, ..Inputs::unloaded(self.design.rings().count()) }
     }
 
-    /// The tip angle (deg) at each of the places, which rise evenly; past the branch's end it has none.
+    /// The tip angles (deg) at evenly increasing parameter values `places`; NaN beyond the end of the branch.
     pub(super) fn bend(&self, way: Way, places: &[f64]) -> Result<Bent, Error> {
         let span = places[places.len() - 1] - places[0];
         let step = span / (places.len() - 1) as f64;
@@ -60,7 +60,7 @@ impl Device {
         Ok(Bent { angles, end })
     }
 
-    /// The place on `way`, between two where the tip angle is below and above, at which it is `angle` (deg).
+    /// Parameter value on `way` at which the tip angle is `angle` (deg), by bisection of an interval that contains it.
     pub(super) fn place_of(&self, way: Way, angle: f64, [mut low, mut high]: [f64; 2]) -> Result<f64, Error> {
         const WIDTH: f64 = 1e-6;
         let mut manipulator = self.manipulator()?;

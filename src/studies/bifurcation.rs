@@ -1,4 +1,4 @@
-//! Bifurcation diagrams: stable and unstable branches, where they fold, and how early a snap is seen coming.
+//! Bifurcation diagrams: stable and unstable branches, their folds, and predictions of snaps.
 
 mod canvas;
 mod case;
@@ -18,58 +18,58 @@ use crate::error::Error;
 use crate::geometry::Pose;
 use crate::numerics::continuation::PointKind;
 
-/// Distances from a snap at which it is predicted, relative to the way up to there.
+/// Distances before a snap at which it is predicted, relative to the length of the path up to the snap.
 pub const DISTANCES: [f64; 6] = [0.2, 0.1, 0.05, 0.02, 0.01, 0.001];
 
-/// Points of a branch at most.
+/// Maximum number of points of a branch.
 const POINTS: usize = 300;
 
-/// Points of that of three segments: after some more their rings touch.
+/// The same for three segments, whose rings touch some points later.
 const POINTS_OF_THREE: usize = 45;
 
-/// What the diagrams say.
+/// Bifurcation diagrams and their tables.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bifurcation {
     /// The diagrams.
     pub study: Study,
     /// Their folds and branching points.
     pub places: Vec<Place>,
-    /// The snaps of slow loading.
+    /// Predictions of the snaps under quasi-static loading.
     pub predictions: Vec<Prediction>,
 }
 
 /// A fold or branching point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {
-    /// What happens there, with the unit of its value.
+    /// Description, with the unit of the values.
     pub what: String,
-    /// Where continuation finds it.
+    /// Value found by continuation.
     pub continuation: f64,
-    /// Where slow loading snaps, if it does: in the middle of an interval of 1e-5 of the path.
+    /// Value at which quasi-static loading snaps, if it does: the middle of an interval of 1e-5 of the path.
     pub bisection: Option<f64>,
-    /// Where it is in closed form.
+    /// Value in closed form, if known.
     pub closed_form: Option<f64>,
 }
 
-/// A snap of slow loading, predicted before it happens.
+/// Predictions of a snap under quasi-static loading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prediction {
-    /// What snaps.
+    /// Description of the snap.
     pub what: String,
-    /// Errors of the predictions at [`DISTANCES`], relative to the distance, positive for one that is too early; `None`
-    /// where none is made.
+    /// Errors of the predictions at [`DISTANCES`], relative to the distance, positive if too early; `None` where there
+    /// is no prediction.
     pub errors: Vec<Option<f64>>,
 }
 
-/// One diagram and what it says.
+/// One diagram with its folds and predictions.
 struct Found {
     canvas: Canvas,
     places: Vec<Place>,
     predictions: Vec<Prediction>,
 }
 
-/// Turning, growing and nearing fields, rings nearer to each other: diagrams of branches with folds, slow loading with its
-/// snaps, and how early these are predicted.
+/// Bifurcation diagrams for a turning field, growing fields, an approaching magnet and smaller gaps between the rings:
+/// branches with folds, quasi-static loading with its snaps, and predictions of these.
 ///
 /// # Errors
 /// None for the paper's designs; those of the solves are passed on.
@@ -88,7 +88,7 @@ pub fn bifurcation() -> Result<Bifurcation, Error> {
     Ok(Bifurcation { study: Study { title, columns, panels, comparison: Vec::new() }, places, predictions })
 }
 
-/// A dipole on one core in a field that turns.
+/// One core with a dipole at its tip in a field that turns.
 fn turning() -> Result<Found, Error> {
     let case = dipole::turning()?;
     let mut found = Found::new(Drawing {
@@ -119,7 +119,7 @@ fn turning() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// The same in an antiparallel field that grows, and a degree aside.
+/// The same in a growing field, antiparallel and one degree off.
 fn growing() -> Result<Found, Error> {
     let (straight, aside) = (dipole::growing(180.0)?, dipole::growing(dipole::ASIDE)?);
     let mut found = Found::new(Drawing {
@@ -131,7 +131,7 @@ fn growing() -> Result<Found, Error> {
         explained: false,
     });
     let (perfect, near) = (straight.trace(0.0)?, aside.trace(0.0)?);
-    // The shape on the far side is close to that in the mirrored field.
+    // The shape bent to the other side is close to the one in the mirrored field.
     let mirrored = dipole::growing(360.0 - dipole::ASIDE)?;
     let mut model = Equilibrium::new(&mirrored.design, None, mirrored.settings, 2)?;
     let largest = mirrored.path[1];
@@ -152,7 +152,7 @@ fn growing() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// Nine segments and the magnet pair, beside their base and magnetised along them, which comes near and goes away.
+/// Nine segments and the magnet pair, magnetised along them, which approaches their base from the side and retreats.
 fn nearing() -> Result<Found, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
     let rings = design.rings().count();
@@ -195,7 +195,7 @@ fn nearing() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// One and three segments that are pulled shut in a field across.
+/// One and three segments whose rings snap together in a growing transverse field.
 fn pulling() -> Result<Found, Error> {
     let mut found = Found::new(Drawing {
         name: "pulling",
@@ -221,7 +221,7 @@ fn pulling() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// A device with all attraction in a field across, mT.
+/// A device at the level `full` in a transverse field; the path parameter is its strength, mT.
 fn pulled(specification: Specification, path: [f64; 2], points: usize) -> Result<Case, Error> {
     let design = Design::new(specification)?;
     let rings = design.rings().count();
@@ -238,12 +238,12 @@ impl Found {
         Self { canvas: Canvas::new(drawing), places: Vec::new(), predictions: Vec::new() }
     }
 
-    /// Adds a place that continuation has found at `shape`.
+    /// Adds the fold or branching point that continuation has found at `shape`.
     fn add(&mut self, what: &str, shape: &Shape, bisection: Option<f64>, closed_form: Option<f64>) {
         self.places.push(Place { what: what.into(), continuation: shape.value, bisection, closed_form });
     }
 
-    /// Adds predictions of the snap at `shape`, on the way forth or back.
+    /// Adds predictions of the snap at `shape`, on the path (`forth`) or on the way back.
     fn predict(&mut self, case: &Case, what: &str, shape: &Shape, forth: bool) -> Result<(), Error> {
         let errors = case.predict(shape.value, forth, &DISTANCES)?;
         self.predictions.push(Prediction { what: what.into(), errors });

@@ -1,5 +1,5 @@
-//! How much each tolerance, and each thing that the model leaves out, changes the tip angle; and how far the model is from what
-//! the paper measured.
+//! Error budget: how much each tolerance and each omission of the model changes the tip angle, and how far the model is
+//! from the paper's measurements.
 
 mod entries;
 mod picture;
@@ -15,29 +15,29 @@ use crate::error::Error;
 pub use entries::{BUDGET_SCENES, BudgetKind, BudgetScene};
 pub use picture::budget_picture;
 
-/// What one entry does in one scene.
+/// Effect of one entry in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Contribution {
-    /// What it is.
+    /// Kind of entry.
     pub kind: BudgetKind,
     /// The quantity that changes.
     pub quantity: String,
-    /// By how much, with its unit.
+    /// Size of the change, with its unit.
     pub change: &'static str,
-    /// The scene; none for a comparison with the paper.
+    /// The scene; `None` for a comparison with the paper.
     pub scene: Option<&'static str>,
     /// Tip angle without the change, deg.
     pub tip_angle_deg: Option<f64>,
-    /// Least and largest change of the tip angle, percent; none where the device is pulled shut.
+    /// Smallest change of the tip angle, percent; `None` if the rings snap together at every change.
     pub least_percent: Option<f64>,
-    /// See `least_percent`.
+    /// Largest change of the tip angle, percent; `None` if the rings snap together at any change.
     pub largest_percent: Option<f64>,
-    /// Whether the rings pull the device shut before it has the field.
+    /// Whether the rings snap together before the full field is reached.
     pub pulled_shut: bool,
 }
 
 impl Contribution {
-    /// The larger of both changes by size, percent: infinite where the device is pulled shut.
+    /// Larger magnitude of both changes, percent; infinite where the rings snap together.
     #[must_use]
     pub fn size(&self) -> f64 {
         let ends = [self.least_percent, self.largest_percent, self.pulled_shut.then_some(f64::INFINITY)];
@@ -45,8 +45,8 @@ impl Contribution {
     }
 }
 
-/// The effect of all entries in all scenes: tolerances, root of the sum of their squares, omissions, the paper; the largest
-/// of each kind by the first scene first.
+/// Effects of all entries in all scenes: all tolerances combined, each tolerance, each omission, and comparisons with
+/// the paper; those of one kind by their size in the first scene, largest first.
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
@@ -84,13 +84,13 @@ fn contribution(entry: &Entry, scene: &BudgetScene) -> Result<Contribution, Erro
         scene: Some(scene.name),
         tip_angle_deg: angle.map(f64::to_degrees),
         least_percent: known().reduce(f64::min),
-        // A softer device bends further until it is pulled shut: there is no largest change.
+        // A softer device bends further until its rings snap together: there is no largest change.
         largest_percent: known().reduce(f64::max).filter(|_| !changes.contains(&None)),
         pulled_shut: changes.contains(&None),
     })
 }
 
-/// Independent tolerances together: on each side the root of the sum of their squares.
+/// All tolerances combined as independent errors: the root of the sum of squares, separately for each sign.
 fn combined(rows: &[Contribution], scene: &BudgetScene) -> Contribution {
     let own = || rows.iter().filter(|row| row.scene == Some(scene.name) && row.kind == BudgetKind::Tolerance);
     let together = |ends: &mut dyn Iterator<Item = f64>| ends.map(|end| end * end).sum::<f64>().sqrt();
@@ -109,7 +109,7 @@ fn combined(rows: &[Contribution], scene: &BudgetScene) -> Contribution {
     }
 }
 
-/// Where the paper prints what it measured, the exact model beside it.
+/// Comparisons of the exact model with the measurements that the paper prints.
 fn paper() -> Result<Vec<Contribution>, Error> {
     let figures =
         [fig7a, fig7b, fig7c].par_iter().map(|figure| figure()).collect::<Result<Vec<_>, Error>>()?;

@@ -1,4 +1,4 @@
-//! How far the magnet may move in one step: what is followed must not depend on the communication step.
+//! How far the magnet may move in one communication step before the result depends on the step.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -14,47 +14,47 @@ use crate::error::Error;
 use crate::geometry::{Pose, RotationVector};
 use crate::manipulator::{Inputs, Manipulator, Status};
 
-/// In how many steps a way is taken: from one jump to what the others are compared with.
+/// Numbers of steps along a path, from a single jump to the reference.
 const STEPS: [u32; 13] = [1, 2, 3, 4, 5, 7, 10, 20, 50, 100, 200, 500, FINEST];
 const FINEST: u32 = 1000;
 
-/// Tips closer than this, mm, are those of one shape: what two solves leave of their residuals.
+/// Tip distance up to which two shapes count as equal, mm: the error that the residuals of two solves leave.
 const SAME: f64 = 1e-7;
 
-/// Smaller distances of tips are drawn as this one, mm.
+/// Smallest plotted tip distance, mm; smaller ones are plotted here.
 const LEAST: f64 = 1e-10;
 
-/// Distance of the magnet's axis from the manipulator's, m: the demonstration's.
+/// Distance of the magnet's axis from the manipulator's, m, as in the demonstration.
 const DISTANCE: f64 = 0.14;
 
-/// How far the demonstration's magnet passes before and behind the manipulator's middle, and that middle, m.
+/// Travel of the demonstration's magnet to each side of the manipulator's middle, and position of that middle, m.
 const REACH: f64 = 0.18;
 const MIDDLE: f64 = 0.023;
 
-/// A way of the magnet.
+/// A path of the magnet.
 struct Way {
     name: &'static str,
-    /// What it is.
+    /// Description of the path.
     remark: &'static str,
-    /// At its beginning, solved.
+    /// The manipulator, solved at the beginning of the path.
     manipulator: Manipulator,
-    /// What acts at a part, from 0 to 1, of the time that it takes.
+    /// Inputs at a fraction of the path's duration, from 0 to 1.
     inputs: Box<dyn Fn(f64) -> Inputs + Sync>,
 }
 
-/// What came of a way.
+/// Result of following a path.
 struct Walked {
     /// Longest step of the magnet, mm.
     step: f64,
-    /// Snaps that were told.
+    /// Number of snaps reported.
     snaps: u32,
-    /// Steps that were not solved; the way goes on from the last good shape.
+    /// Number of steps that were not solved; the path continues from the last good shape.
     refused: u32,
     tip: Vector3<f64>,
 }
 
-/// The paper's magnet pair moves along fixed ways beside nine segments, `rings`, in few steps and in many; each step is one
-/// solve at the pose at its end.
+/// The paper's magnet pair moves along fixed paths beside nine segments, at the level `rings`, in few and in many
+/// steps; each step is one solve at the pose at its end.
 ///
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
@@ -115,7 +115,7 @@ pub fn communication_step() -> Result<Study, Error> {
 }
 
 impl Way {
-    /// Takes the way in so many steps.
+    /// Follows the path in the given number of steps.
     fn walked(&self, steps: u32) -> Result<Walked, Error> {
         let mut manipulator = self.manipulator.clone();
         let before = manipulator.outputs().snaps;
@@ -131,7 +131,7 @@ impl Way {
         Ok(Walked { step, snaps: outputs.snaps - before, refused, tip: outputs.tip.position })
     }
 
-    /// The way that begins where `manipulator` stands, or with the magnet at the way's beginning if it is unsolved.
+    /// A path whose beginning is solved from the present shape of `manipulator`, or from the straight one.
     fn new(
         [name, remark]: [&'static str; 2],
         mut manipulator: Manipulator,
@@ -174,14 +174,15 @@ fn ways() -> Result<Vec<Way>, Error> {
     ])
 }
 
-/// The magnet beside the manipulator, its field there along +z, at a place about the manipulator's middle.
+/// Inputs with the magnet at `place` relative to the manipulator's middle, turned by `turn` (rad) about x; without a
+/// turn, its field at the manipulator is along +z.
 fn beside(place: Vector3<f64>, turn: f64) -> Inputs {
     let rotation = RotationVector::new(Vector3::new(PI + turn, 0.0, 0.0)).matrix();
     let magnet = Pose { position: place + Vector3::new(0.0, 0.0, MIDDLE), rotation };
     Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }
 }
 
-/// The way of `fmu/demo`: past the manipulator in half of the time, back to its middle in a sixth, then a turn.
+/// The path of `fmu/demo`: past the manipulator in half of the time, back to its middle in a sixth, then a turn.
 fn demonstration(part: f64) -> Inputs {
     let eased = |share: f64| {
         let share = share.clamp(0.0, 1.0);
@@ -191,7 +192,7 @@ fn demonstration(part: f64) -> Inputs {
     beside(Vector3::new(0.0, -DISTANCE, REACH * passed), FRAC_PI_4 * eased(3.0 * part - 2.0))
 }
 
-/// Half around the manipulator's axis.
+/// Half an orbit around the manipulator's axis.
 fn orbit(part: f64) -> Inputs {
     let (sine, cosine) = (PI * part).sin_cos();
     beside(Vector3::new(sine, -cosine, 0.0) * DISTANCE, 0.0)

@@ -1,4 +1,4 @@
-//! The paper's experiment with forces: the magnet pair and the devices, held straight in a rigid holder.
+//! The paper's force experiment: the magnet pair, and devices held straight in a rigid holder.
 
 use core::f64::consts::TAU;
 
@@ -17,14 +17,14 @@ const MAGNET_RADIUS: f64 = 22.5e-3;
 /// Distance from the surface of the magnets to the axis of the device, m.
 pub(super) const DISTANCE: f64 = 40e-3;
 
-/// Segments of the device that was measured.
+/// Number of segments of the measured device.
 pub(super) const SEGMENTS: usize = 9;
 
-/// Accuracy that forces on annuli are asked for.
+/// Relative accuracy requested for the force on an annulus.
 const ACCURACY: f64 = 1e-8;
 
-/// Gauss nodes over a spiral's length, its squared radius and its sector: at more than 20 of its radii from the
-/// magnets' axis the field is of low degree over it, and two windings need most nodes.
+/// Numbers of Gauss nodes over a spiral's length, its squared radius and its sector. More than 20 of its radii from the
+/// magnets' axis the field is nearly a polynomial of low degree; most nodes are needed for two windings.
 const SPIRAL_NODES: [usize; 3] = [16, 3, 6];
 
 /// The external magnet: two N45 cylinders of 45 mm by 30 mm with a gap of 10 mm, on a common axis.
@@ -56,14 +56,14 @@ pub(super) fn solid_cylinder(length: f64) -> Result<Design, Error> {
     }))
 }
 
-/// Distance (m) of the magnets' axis from a point as far as `distance` from their surface.
+/// Distance (m) of the magnets' axis from a point at `distance` (m) from their surface.
 pub(super) fn axis_distance(distance: f64) -> f64 {
     MAGNET_RADIUS + distance
 }
 
 /// Force (N) of the magnet on a device held straight, in the device's axes.
 ///
-/// The device lies along `z` with its middle at the origin. The centre of the magnet lies at `(0, -distance, offset)` (m)
+/// The device lies along `z` with its middle at the origin. The centre of the magnet is at `(0, -distance, offset)` (m)
 /// and its axis points along `-z`, so that its field beside it points along the device's magnetisation and attracts.
 pub(super) fn held_force(
     design: &Design,
@@ -102,7 +102,7 @@ fn force_on_ring(magnet: &Assembly, ring: &Ring, base: &mut Pose) -> Result<Vect
     force_on(magnet, &body, base)
 }
 
-/// Force on a body that begins at `base`, which moves on to its end.
+/// Force (N) on a body whose first face is at `base`; advances `base` to its other face.
 fn force_on(magnet: &Assembly, body: &AxialSource, base: &mut Pose) -> Result<Vector3<f64>, Error> {
     let wrench = magnet.wrench_on(body, &base.advanced(0.5 * body.length()), ACCURACY)?;
     *base = base.advanced(body.length());
@@ -134,7 +134,7 @@ fn force_on_spiral(
     Ok(force)
 }
 
-/// Nodes and weights of a rule on `[-1, 1]` carried over to an interval.
+/// Nodes and weights of a quadrature rule on `[-1, 1]`, mapped to an interval.
 fn between(
     (nodes, weights): &(Vec<f64>, Vec<f64>),
     [from, to]: [f64; 2],

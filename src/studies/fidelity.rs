@@ -1,6 +1,6 @@
-//! What the level `auto` saves: time and error of each of its models, and of itself by tolerance, as the inputs walk on.
+//! Time saved by the level `auto`: time and error of its models, and of `auto` by tolerance, along paths of inputs.
 //!
-//! Like [`super::accuracy()`] it looks at a clock.
+//! The times are measured, as in [`super::accuracy()`].
 
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Scene, Status, models_of_auto};
 
-/// Scenes: name, segments and field.
+/// Name, number of segments and field of each scene.
 pub(super) const SCENES: [(&str, usize, &str); 4] = [
     ("1 segment, 10 mT turning", 1, "[field]\nuniform_mt = [0, 10, 0]"),
     ("1 segment, pair passing", 1, PAIR),
@@ -20,40 +20,41 @@ pub(super) const SCENES: [(&str, usize, &str); 4] = [
     ("9 segments, pair passing", 9, PAIR),
 ];
 
-/// Steps at 1 kHz, forth and back.
+/// Number of steps at 1 kHz, forth and as many back.
 const STEPS: u32 = 100;
 
-/// Steps between two looks at the error.
+/// Number of steps between two evaluations of the error.
 const LOOKS: usize = 10;
 
-/// Walks of which the fastest counts: whatever else the machine does only adds.
+/// Number of timed runs; the fastest counts, because other load on the machine only adds time.
 const WALKS: usize = 3;
 
-/// Tolerances of the tip's position over the length; that of the angle is as many radians.
+/// Tolerances of the tip's position over the length, and, in radians, of its angle.
 const TOLERANCES: [f64; 7] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5];
 
-/// One model, or `auto` with a tolerance, along one walk.
+/// Time and error of one model, or of `auto` with a tolerance, along one path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fidelity {
     /// The scene.
     pub scene: &'static str,
     /// The model, or `auto`.
     pub model: String,
-    /// Tolerance over the length, of `auto`.
+    /// Tolerance of `auto`, over the length.
     pub tolerance: Option<f64>,
     /// Mean time of a step with all outputs, microseconds.
     pub time_us: f64,
-    /// The same over that of the richest model.
+    /// The same, relative to the richest model.
     pub time_relative: f64,
     /// Largest error of the tip's position over the length, against the richest model.
     pub tip_over_length: f64,
     /// Largest error of the tip's angle, deg.
     pub angle_deg: f64,
-    /// Part of the steps that the richest model has answered itself.
+    /// Fraction of the steps that the richest model solved itself.
     pub by_richest: f64,
 }
 
-/// All models along all walks; the scenes are computed one after the other, so that they do not disturb one another.
+/// All models along all paths; calls `done` after each scene. The scenes run one after the other, so that they do not
+/// disturb each other's times.
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
@@ -67,13 +68,13 @@ pub fn fidelity(done: impl Fn()) -> Result<Vec<Fidelity>, Error> {
     Ok(out)
 }
 
-/// How many times [`fidelity`] calls.
+/// Number of times that [`fidelity`] calls `done`.
 #[must_use]
 pub fn fidelity_scenes() -> usize {
     SCENES.len()
 }
 
-/// A scene with its inputs, step by step.
+/// A scene with the inputs of each step of its path.
 pub(super) struct Walk {
     name: &'static str,
     scene: Scene,
@@ -81,7 +82,7 @@ pub(super) struct Walk {
     path: Vec<Inputs>,
 }
 
-/// What a walk has shown: time of a step (s), largest errors of the tip over the length and in angle (rad).
+/// Result of a path: time of a step (s), largest errors of the tip position over the length and of the tip angle (rad).
 pub(super) struct Shown {
     pub(super) time: f64,
     pub(super) tip: f64,
@@ -129,7 +130,7 @@ impl Walk {
         Ok(rows.into_iter().zip(shown).map(row).collect())
     }
 
-    /// Walks with one model of the scene, beside another one that judges it.
+    /// Follows the path with the model `own` and measures its errors against the model `judge`.
     pub(super) fn go(&self, own: &Scene, judge: &Scene) -> Result<Shown, Error> {
         let (mut own, mut judge) = (own.device(2)?, judge.device(2)?);
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0, by_richest: 0.0 };
@@ -161,12 +162,12 @@ impl Walk {
     }
 }
 
-/// `None` where the richest model has answered every step itself.
+/// Tip error over the tolerance; `None` where the richest model solved every step itself.
 fn error_over_tolerance(row: &Fidelity) -> Option<f64> {
     row.tolerance.filter(|_| row.by_richest < 0.999).map(|tolerance| row.tip_over_length / tolerance)
 }
 
-/// The picture: what a step takes beside one of the richest model, and how the error keeps to the tolerance.
+/// Chart of the time of a step relative to the richest model, and of the error relative to the tolerance.
 #[must_use]
 pub fn fidelity_picture(rows: &[Fidelity]) -> Study {
     let series = |value: fn(&Fidelity) -> Option<f64>| {

@@ -12,11 +12,11 @@ const ACROSS: core::ops::RangeInclusive<i32> = -30..=30;
 const ALONG: core::ops::RangeInclusive<i32> = 30..=50;
 const STEP: f64 = 1e-4;
 
-/// The authors' two fits to their finite elements, on the axis: distance from the ring's centre (mm); `B_z` (mT) and
-/// `dB_z/dz` (T/m) of the one behind Fig. 7A, then of the one behind Fig. 8.
+/// The authors' two fits to their finite-element results, on the axis: distance from the ring's centre (mm); `B_z` (mT)
+/// and `dB_z/dz` (T/m) of the fit used for Fig. 7A, then of the one used for Fig. 8.
 ///
-/// Values of the formulas in <https://github.com/MichielRichter/Magnetic-Soft-Helical-Manipulators>, commit ba3fb21: first
-/// `Statics/MagneticField`, used there with a factor of 1.8 and its origin in the ring's face, second
+/// Values of the formulas in <https://github.com/MichielRichter/Magnetic-Soft-Helical-Manipulators>, commit ba3fb21:
+/// first `Statics/MagneticField`, used there with a factor of 1.8 and its origin in the ring's face, second
 /// `Analysis Dipole Interactions/MagneticFields`, with its origin in the ring's centre.
 const FITS: [(i32, [f64; 2], [f64; 2]); 5] = [
     (30, [48.358, -29.974], [45.721, -28.118]),
@@ -57,7 +57,7 @@ pub fn field_ring() -> Result<Study, Error> {
     .into_iter()
     .map(|name| Column::new(name, Vec::new()))
     .collect();
-    // Along the axis fastest, so that the points on the axis follow one another and make a line.
+    // The position along the axis varies fastest, so that the points on the axis are consecutive and form a line.
     for (across, along) in ACROSS.flat_map(|across| ALONG.map(move |along| (across, along))) {
         let point = Vector3::new(0.0, f64::from(across), f64::from(along)) * STEP;
         let (field, gradient) = source.field_gradient(&point)?;

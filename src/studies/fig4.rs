@@ -16,7 +16,7 @@ const ANGLES: core::ops::RangeInclusive<u32> = 35..=60;
 /// Steps of a coarse grid of round numbers, of which the paper's choice is one.
 const COARSE: (u32, u32) = (5, 5);
 
-/// What the paper chose: tenths of a millimetre, degrees.
+/// The paper's choice: length in tenths of a millimetre, boundary angle in degrees.
 const CHOSEN: (u32, u32) = (40, 40);
 
 /// The manipulator has to bend by this angle (deg) within this length (mm), Eq. (16).
@@ -25,13 +25,13 @@ const BEND: (f64, f64) = (120.0, 15.0);
 /// Smallest winding height (mm) and height over pitch that can be made.
 const LEAST: (f64, f64) = (0.6, 0.9);
 
-/// Rounding that a constraint met exactly is allowed, as by the paper's own choice.
+/// Rounding allowed in a constraint that is met exactly, as by the paper's own choice.
 const SLACK: f64 = 1e-9;
 
-/// The perpendicular field in which the deflection is asked for, T.
+/// Perpendicular field in which the deflection is evaluated, T.
 const FIELD: f64 = 0.02;
 
-/// A score within this share of the best counts as good.
+/// Fraction of the best score from which a design counts as good.
 const GOOD: f64 = 0.95;
 
 /// The models: the paper's with its printed volume, ours with the exact one.
@@ -51,11 +51,11 @@ struct Candidate {
     degrees: u32,
     helix: Helix,
     geometry: HelixGeometry,
-    /// Length in which the manipulator bends by the angle asked for, the left side of Eq. (16), mm.
+    /// Length in which the manipulator bends by the required angle, the left side of Eq. (16), mm.
     bend: f64,
 }
 
-/// What a model makes of a candidate.
+/// Results of a model for a candidate.
 #[derive(Clone, Copy)]
 struct Scored {
     moment: f64,
@@ -67,9 +67,9 @@ struct Scored {
 
 /// The choice of helix length and boundary angle for one segment of Table 1 in a perpendicular field of 20 mT.
 ///
-/// Every design of a grid that meets Eq. (16), `h >= 0.6 mm` and `h/p >= 0.9` is solved; Eq. (17) scores how closely its
-/// tip angle comes to its boundary angle, Eq. (18) its relative moment, both from 0 to 1 over the designs of the grid, and the
-/// largest sum wins.
+/// Every design of a grid that meets Eq. (16), `h >= 0.6 mm` and `h/p >= 0.9` is solved. Eq. (17) scores how close its
+/// tip angle is to its boundary angle, Eq. (18) its relative moment, both from 0 to 1 over the designs of the grid; the
+/// design with the largest sum is chosen.
 ///
 /// # Errors
 /// None for the paper's design; those of the solver's settings are passed on.
@@ -165,7 +165,7 @@ impl Candidate {
     }
 }
 
-/// What a model answers, relative moment and tip angle (deg), for every candidate that is allowed.
+/// Relative moment and tip angle (deg) by one model, for every candidate that is allowed.
 fn solve(
     grid: &[Candidate],
     (level, volume): (Interaction, SpiralVolume),
@@ -175,7 +175,7 @@ fn solve(
     grid.par_iter().map(allowed).collect()
 }
 
-/// The scores of every candidate that has an answer.
+/// The scores of every candidate that was solved.
 fn score(grid: &[Candidate], solved: &[Option<(f64, f64)>]) -> Vec<Option<Scored>> {
     let mismatch = |candidate: &Candidate, angle: f64| (angle - f64::from(candidate.degrees)).abs();
     let each = || grid.iter().zip(solved).filter_map(|(c, solved)| Some((c, (*solved)?)));

@@ -4,13 +4,13 @@ use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value}
 use crate::design::{Helix, RelativeMoment, Segmented, SpiralVolume};
 use crate::error::Error;
 
-/// Most segments shown.
+/// Largest number of segments.
 const MOST_SEGMENTS: usize = 20;
 
-/// Segments of the manipulator that was built.
+/// Number of segments of the manipulator that was built.
 const BUILT: usize = 9;
 
-/// The paper's value for it.
+/// The paper's relative moment of that manipulator.
 const PAPER: f64 = 0.2;
 
 /// A case: its name in columns and in the legend, and how its helix differs from Table 1.

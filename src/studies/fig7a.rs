@@ -8,7 +8,7 @@ use crate::design::{Design, Segmented, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 
-/// Largest field, mT; one row a millitesla.
+/// Largest field, mT; one row per millitesla.
 const LARGEST_FIELD: u32 = 30;
 
 /// Fields between which the paper states the gain from the base ring, mT.
@@ -18,8 +18,8 @@ const GAIN_TO: u32 = 25;
 /// The gain that the paper states, both of the angle and of the field.
 const PAPER_GAIN: f64 = 0.31;
 
-/// Field (mT) and tip angle (deg) of a segment with both rings, as the scripts that the authors published predict them
-/// on a coarse grid (<https://github.com/MichielRichter/Magnetic-Soft-Helical-Manipulators>).
+/// Field (mT) and tip angle (deg) of a segment with both rings, as predicted on a coarse grid by the authors' published
+/// scripts (<https://github.com/MichielRichter/Magnetic-Soft-Helical-Manipulators>).
 const AUTHORS_SCRIPTS: [(u32, f64); 6] =
     [(0, 0.4020), (4, 8.5157), (8, 16.9038), (12, 24.5826), (16, 31.4339), (20, 37.4690)];
 
@@ -36,9 +36,9 @@ const LEVELS: [Interaction; 3] = [Interaction::Preceding, Interaction::Rings, In
 pub struct Gain {
     /// Field without the base ring, mT.
     pub at: Vec<f64>,
-    /// More tip angle at that field with the base ring, relative to that without.
+    /// Increase of the tip angle at that field by the base ring, relative to the angle without it.
     pub angle: Vec<f64>,
-    /// Less field for the same tip angle with the base ring, relative to that without.
+    /// Decrease of the field for the same tip angle by the base ring, relative to the field without it.
     pub field: Vec<f64>,
 }
 
@@ -188,7 +188,7 @@ fn comparison(columns: &[Column], gains: &[Gain]) -> Vec<Comparison> {
     ]
 }
 
-/// A perpendicular field of so many millitesla.
+/// Magnitude (T) and direction (deg) of a perpendicular field of `millitesla`.
 fn across(millitesla: f64) -> (f64, f64) {
     (1e-3 * millitesla, 90.0)
 }
@@ -197,7 +197,7 @@ fn millitesla(from: u32, to: u32) -> Vec<f64> {
     (from..=to).map(f64::from).collect()
 }
 
-/// One segment of Table 1 with these rings.
+/// One segment of Table 1, with or without its base and tip rings.
 fn segment(base_magnet: bool, tip_magnet: bool, interaction: Interaction) -> Result<Device, Error> {
     let chain = Segmented { base_magnet, tip_magnet, ..Segmented::paper(1) };
     let settings = Settings { interaction, ..Settings::default() };

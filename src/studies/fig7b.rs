@@ -9,7 +9,7 @@ use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 
-/// Segments of the manipulator that was measured.
+/// Number of segments of the measured manipulator.
 const SEGMENTS: usize = 3;
 
 /// Largest field of the experiment, T.
@@ -18,11 +18,11 @@ const FIELD: f64 = 20e-3;
 /// The tip angles that the paper states, deg: three segments, cylinder.
 const PAPER: [f64; 2] = [119.0, 16.0];
 
-/// Rows: fields from 0 to 20 mT, and directions from 0 to 170 deg.
+/// Number of steps, for fields from 0 to 20 mT and directions from 0 to 170 deg.
 const ROWS: u32 = 20;
 const LAST_TURN: f64 = 170.0;
 
-/// A device as a name in columns, a label, and how it is drawn.
+/// Name in columns, label, colour index and line style of a device.
 type Drawn = (&'static str, &'static str, usize, Stroke);
 
 const DEVICES: [Drawn; 6] = [
@@ -34,8 +34,8 @@ const DEVICES: [Drawn; 6] = [
     ("preceding", "preceding", 3, Stroke::Dashed),
 ];
 
-/// Tip angles of three segments and of the solid cylinder, in a perpendicular field that grows to 20 mT, and in 20 mT that
-/// turn from the base's axis to 170 degrees. Without bending stop a branch may end: the curve ends there.
+/// Tip angles of three segments and of the solid cylinder, in a perpendicular field that grows to 20 mT, and in 20 mT
+/// turning from the base's axis to 170 degrees. Without bending stop a branch may end: the curve ends there.
 ///
 /// # Errors
 /// None for the paper's designs; those of the solves are passed on.
@@ -86,7 +86,7 @@ pub fn fig7b() -> Result<Study, Error> {
     })
 }
 
-/// In the order of [`DEVICES`].
+/// The devices in the order of [`DEVICES`].
 fn devices() -> Result<Vec<Device>, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
     let cylinder = solid_cylinder(design.length())?;
@@ -110,12 +110,12 @@ fn bend(
     devices.par_iter().map(along).collect()
 }
 
-/// A perpendicular field of so many millitesla.
+/// Magnitude (T) and direction (deg) of a perpendicular field of `millitesla`.
 fn across(millitesla: f64) -> (f64, f64) {
     (1e-3 * millitesla, 90.0)
 }
 
-/// The largest field, so many degrees from the base's axis.
+/// Magnitude (T) and direction (deg) of the largest field, at `degrees` from the base's axis.
 fn turning(degrees: f64) -> (f64, f64) {
     (FIELD, degrees)
 }

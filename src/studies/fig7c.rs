@@ -7,7 +7,7 @@ use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value}
 use crate::design::{Backbone, Design, Segmented, Specification};
 use crate::error::Error;
 
-/// Offsets of the magnet on both sides, mm.
+/// Largest offset of the magnet to both sides, mm.
 const FARTHEST: i32 = 120;
 
 /// Largest axial force measured, N.
@@ -16,8 +16,8 @@ const MEASURED: f64 = 0.09;
 /// Axial and attractive force over the offset of the magnet along the device.
 ///
 /// The magnet pair passes at 40 mm from its surface; positive attraction is towards it, positive axial force along the
-/// device's magnetisation. Rings, discs and cores by the magnetic charge of their faces, spirals by volume integrals of the
-/// gradient, all in the pair's exact field; nothing bends.
+/// device's magnetisation. Forces on rings, discs and cores are integrated over the magnetic charge of their faces,
+/// those on spirals over the volume from the gradient, all in the pair's exact field; nothing bends.
 ///
 /// # Errors
 /// None for the paper's devices; those of the field and of the designs are passed on.
@@ -62,11 +62,11 @@ pub fn fig7c() -> Result<Study, Error> {
     })
 }
 
-/// What the comparison needs of the forces on one device.
+/// Largest forces on one device, N, for the comparison.
 struct Extremes {
     axial: f64,
     attraction: f64,
-    /// Largest difference between an offset and its opposite, of the axial force's size and of the attraction, N.
+    /// Largest difference between opposite offsets, of the axial force's magnitude and of the attraction, N.
     asymmetry: f64,
 }
 

@@ -10,7 +10,7 @@ use crate::magnetics::{Assembly, Dipole};
 /// Distances from the surface of the magnets, mm.
 const DISTANCES_MM: [u32; 3] = [30, 40, 50];
 
-/// Points on both sides of the magnet's middle, mm.
+/// Largest distance of the points to both sides of the magnet's middle, mm.
 const FARTHEST: i32 = 120;
 
 /// Half the length of nine segments, mm.
@@ -20,8 +20,8 @@ const MM: f64 = 1e-3;
 
 /// Field and gradients on lines beside the magnet pair, parallel to its axis.
 ///
-/// `z` runs along the device from the magnet's middle, against the magnet's moment, `y` away from the magnet: the signs are
-/// those that a device sees which the magnet attracts.
+/// `z` runs along the device from the magnet's middle, against the magnet's moment, `y` away from the magnet: the signs
+/// are those in the axes of a device that the magnet attracts.
 ///
 /// # Errors
 /// None here; those of the field are passed on.
@@ -83,7 +83,7 @@ pub fn fig7d() -> Result<Study, Error> {
     })
 }
 
-/// `B_z`, `B_y` (mT), `dB_z/dz`, `dB_z/dy`, `dB_y/dy` (T/m) at `distance` from the surface and `z` along (m).
+/// `B_z`, `B_y` (mT), `dB_z/dz`, `dB_z/dy`, `dB_y/dy` (T/m) at `distance` from the surface and `z` along it (m).
 fn beside(magnet: &Assembly, distance: f64, z: f64) -> Result<[f64; 5], Error> {
     // Half a turn about x lies between the device's axes and the magnet's: y and z change sign.
     let (field, gradient) = magnet.field_gradient(&Vector3::new(0.0, -axis_distance(distance), -z))?;

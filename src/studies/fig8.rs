@@ -16,17 +16,17 @@ const COUNTS: [usize; 4] = [2, 3, 4, 5];
 /// Relative deflections of adjacent rings, deg: one row each.
 const DEFLECTIONS: core::ops::RangeInclusive<u32> = 1..=40;
 
-/// Deflection at which the spacing varies, deg, and the smallest spacing with its step, mm: as many rows as deflections.
+/// Deflection at which the spacing varies, deg, and smallest spacing and its step, mm; as many rows as deflections.
 const BENT: f64 = 20.0;
 const SPACINGS: (f64, f64) = (3.2, 0.1);
 
-/// Spacings between which the balance is looked for, mm: closer, rings deflected by 40 deg touch.
+/// Interval of spacings that is searched for the balance, mm; any closer, rings deflected by 40 deg touch.
 const BALANCE: [f64; 2] = [1.6, 40.0];
 
-/// Width to which it is found, mm.
+/// Width to which the interval is bisected, mm.
 const BALANCE_WIDTH: f64 = 1e-6;
 
-/// Accuracy that a torque is asked for: field and gradient all but cancel.
+/// Relative accuracy requested for a torque; its parts by field and by gradient nearly cancel.
 const ACCURACY: f64 = 1e-7;
 
 /// Torque on the last ring about its centre, in the direction in which the chain bends, N m.
@@ -40,9 +40,9 @@ struct Torque {
 
 /// Bending torques on the last of two to five rings of Table 1, by the fields of the rings before it.
 ///
-/// Adjacent rings are deflected by 1 to 40 degrees and joined by an arc of the helix's length; helices are not magnetised. The
-/// two parts are those of Eq. (10) about the ring's centre. Positive torques bend on, negative bend back. The
-/// torque of the forces between rings about other points is left out, as in the paper.
+/// Adjacent rings are deflected by 1 to 40 degrees and joined by an arc of the helix's length; helices are not
+/// magnetised. The two parts are those of Eq. (10) about the ring's centre. Positive torques increase the bending,
+/// negative ones reduce it. The torque of the forces between rings about other points is left out, as in the paper.
 ///
 /// # Errors
 /// None for the paper's rings; those of the field are passed on.
@@ -137,13 +137,13 @@ fn torque(ring: &AxialSource, count: usize, deflection: f64, spacing: f64) -> Re
     Ok(sum)
 }
 
-/// The pose of a ring's centre as seen from that of the ring before it.
+/// Pose of a ring's centre relative to that of the ring before it.
 fn next(ring_length: f64, deflection: f64, spacing: f64) -> Result<Pose, Error> {
     let half = Pose::identity().advanced(0.5 * ring_length);
     let radius = spacing / deflection;
     let (sine, cosine) = deflection.sin_cos();
     let (half_sine, half_cosine) = (0.5 * deflection).sin_cos();
-    // A turn about x carries the axis towards -y.
+    // A turn about x rotates the axis towards -y.
     let arc = Pose::new([0.0, -radius * (1.0 - cosine), radius * sine], [half_cosine, half_sine, 0.0, 0.0])?;
     Ok(half.compose(&arc).compose(&half))
 }

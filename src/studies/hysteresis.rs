@@ -1,4 +1,4 @@
-//! A magnet that passes by with its field against the manipulator: one shape on the way forth, another on the way back.
+//! Hysteresis: a magnet whose field opposes the manipulator passes and returns, with different shapes forth and back.
 
 use nalgebra::Vector3;
 
@@ -13,13 +13,13 @@ use crate::manipulator::{Branch, Inputs, Manipulator};
 /// Distance of the magnet's axis from the manipulator's, m.
 const DISTANCE: f64 = 0.12;
 
-/// Places of the magnet along the manipulator's axis: first and last (mm), and steps.
+/// First and last position of the magnet along the manipulator's axis (mm), and number of steps between them.
 pub(super) const FIRST: f64 = -40.0;
 pub(super) const LAST: f64 = 0.0;
 const STEPS: u32 = 40;
 
-/// Nine segments with bending stop, the paper's pair of magnets passing along them at 120 mm from axis to axis and coming
-/// back, magnetised along +z: beside it its field opposes the manipulator, which turns over. `rings`.
+/// Nine segments with bending stop, at the level `rings`. The paper's magnet pair, magnetised along +z, passes along
+/// them at 120 mm from axis to axis and returns: its field beside it opposes the manipulator, which turns over.
 ///
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
@@ -86,7 +86,7 @@ pub fn hysteresis() -> Result<Study, Error> {
     })
 }
 
-/// Nine segments with bending stop beside the paper's magnet pair, `rings`, unsolved.
+/// Nine segments with bending stop beside the paper's magnet pair, at the level `rings`, not yet solved.
 ///
 /// # Errors
 /// None for the paper's design.
@@ -96,7 +96,7 @@ pub(super) fn manipulator() -> Result<Manipulator, Error> {
     Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)
 }
 
-/// The magnet, magnetised along +z, at this place (mm) along the manipulator.
+/// Inputs with the magnet, magnetised along +z, at `place` (mm) along the manipulator.
 pub(super) fn inputs(place: f64) -> Inputs {
     let magnet = Pose { position: Vector3::new(0.0, -DISTANCE, 1e-3 * place), ..Pose::identity() };
     Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }

@@ -1,9 +1,10 @@
-//! The paper's figures, computed: numbers to draw, and what they say beside the paper's.
+//! The paper's figures and further studies, computed: data to plot, and their comparison with the paper.
 //!
-//! Every study is a function without arguments that returns a [`Study`]; [`accuracy()`], which measures times, returns its
-//! points, which [`accuracy_picture`] draws, and so do [`fidelity()`], [`omissions()`] and [`budget()`]; [`bifurcation()`] has tables beside its diagrams;
-//! the map of failures takes minutes, and is the [`stability_rays`], each of which makes its [`Ray::attempts`], which
-//! [`stability_picture`] draws. Nothing is printed or written here.
+//! Most studies are functions without arguments that return a [`Study`]. [`accuracy()`], [`fidelity()`],
+//! [`omissions()`] and [`budget()`] return rows, most of which have a function such as [`accuracy_picture`] for their
+//! chart; [`bifurcation()`] returns tables beside its diagrams. The map of failures takes minutes: [`stability_rays`]
+//! lists its parts, [`Ray::attempts`] computes one, [`stability_picture`] makes the chart. Nothing is printed or
+//! written here.
 
 mod accuracy;
 mod bending;

@@ -1,4 +1,4 @@
-//! What each simplification saves and errs by itself, beside the level `rings` as it is by default.
+//! Time saved and error caused by each simplification alone, relative to the level `rings` with default settings.
 
 use serde::Serialize;
 
@@ -10,11 +10,11 @@ use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Scene;
 use crate::methods::Method;
 
-/// Radius of a cylinder that stands for a dipole, m. So long that its next multipole vanishes, its field 10 cm away is a dipole's
-/// to 1e-5.
+/// Radius of a cylinder that represents a dipole, m. Its length is chosen such that its next multipole vanishes; its
+/// field 10 cm away is that of a dipole to 1e-5.
 const SMALL: f64 = 4e-3;
 
-/// One simplification along one walk.
+/// Time and error of one simplification along one path.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Omission {
     /// The scene.
@@ -23,18 +23,18 @@ pub struct Omission {
     pub what: &'static str,
     /// Mean time of a step, microseconds.
     pub time_us: f64,
-    /// The same over that of the level as it is.
+    /// The same, relative to the level without simplification.
     pub time_relative: f64,
-    /// Largest error of the tip's position over the length, against the level as it is.
+    /// Largest error of the tip's position over the length, against the level without simplification.
     pub tip_over_length: f64,
     /// Largest error of the tip's angle, deg.
     pub angle_deg: f64,
 }
 
-/// A simplification and what it does to a scene.
+/// What is left out, and the function that applies it to a scene.
 type Simplification = (&'static str, fn(&mut Scene) -> Result<(), Error>);
 
-/// The level as it is comes first.
+/// All simplifications; the first leaves out nothing and is the reference.
 const SIMPLIFICATIONS: [Simplification; 7] = [
     ("nothing", |_| Ok(())),
     ("strains that vary along a core (degree 0)", |scene| {
@@ -65,7 +65,7 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
     }),
 ];
 
-/// Every simplification along the walks of [`super::fidelity()`].
+/// Every simplification along the paths of [`super::fidelity()`].
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
@@ -94,7 +94,7 @@ pub fn omissions() -> Result<Vec<Omission>, Error> {
     Ok(out)
 }
 
-/// A cylinder of the magnets' moment, so small that its field is a dipole's.
+/// A cylinder with the magnets' moment, so small that its field is that of a dipole.
 fn dipole(magnets: Vec<AxialMagnet>) -> Result<Vec<AxialMagnet>, Error> {
     let moment = Assembly::new(magnets)?.moment();
     let unit = AxialMagnet {

@@ -1,4 +1,4 @@
-//! What the studies of speed, of fidelity and of failure have in common: designs, levels, the magnet pair, a step of the inputs.
+//! Designs, interaction levels, magnet pair and input steps shared by the studies of accuracy, fidelity and stability.
 
 use nalgebra::{Rotation3, Vector3};
 
@@ -11,14 +11,14 @@ pub(super) const SEGMENTS: [usize; 3] = [1, 3, 9];
 /// Levels of interaction that have a potential.
 pub(super) const LEVELS: [Interaction; 3] = [Interaction::None, Interaction::Rings, Interaction::Full];
 
-/// The paper's pair at its place, as scenes state it.
+/// The paper's magnet pair at its default position, as text of a scene.
 pub(super) const PAIR: &str = "[magnet]\norientation_wxyz = [0, 1, 0, 0]";
 
-/// One step at 1 kHz: the field turns by 0.1 deg, the magnet passes by 0.1 mm.
+/// Change of the inputs per step at 1 kHz: rotation of the field (deg) and displacement of the magnet (m).
 const TURN_DEG: f64 = 0.1;
 const PASSAGE: f64 = 1e-4;
 
-/// Inputs so many steps at 1 kHz later.
+/// The inputs after the given number of steps at 1 kHz.
 pub(super) fn later(inputs: &Inputs, steps: u32) -> Inputs {
     let mut moved = inputs.clone();
     let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), f64::from(steps) * TURN_DEG.to_radians());

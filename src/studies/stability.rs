@@ -1,4 +1,4 @@
-//! Where methods fail: every method over field strength and direction, cold and warm, each answer judged.
+//! Where methods fail: every method over field strength and direction, cold and warm, with every solution verified.
 
 mod judge;
 mod picture;
@@ -18,19 +18,20 @@ use judge::{Judge, Known};
 pub use picture::stability_picture;
 pub use verdict::Verdict;
 
-/// Strengths of the field, mT: beyond the ends of all branches that are known.
+/// Number of field strengths and their step, mT; the largest are beyond the ends of all known branches.
 const STRENGTHS: usize = 8;
 const STRENGTH_STEP: f64 = 5.0;
 
-/// Steps of the field between two strengths, of a careful user and of the judge.
+/// Numbers of field steps between two strengths, for warm starts and for the reference branch.
 const WARM_STEPS: usize = 5;
 const LOADING_STEPS: usize = 10;
 
-/// Directions of the field, deg from the axis.
+/// Number of field directions from the axis and their step, deg.
 const DIRECTIONS: usize = 13;
 const DIRECTION_STEP: f64 = 15.0;
 
-/// How far an answer may be from its equilibrium, over the length: what resolves the rod, and arcs of constant curvature.
+/// Largest distance of a correct solution from its equilibrium, over the length: for methods that resolve the rod, and
+/// for arcs of constant curvature.
 const RESOLVED: f64 = 1e-3;
 const ARCS: f64 = 0.05;
 
@@ -49,17 +50,17 @@ pub struct Attempt {
     pub direction_deg: f64,
     /// Strength of the field, mT.
     pub field_mt: f64,
-    /// What came of it.
+    /// Result of the attempt.
     pub verdict: Verdict,
-    /// Largest distance of a ring from where the equilibrium has it, over the length.
+    /// Largest distance of a ring from its position in the equilibrium, over the length.
     pub distance_over_length: Option<f64>,
-    /// Smallest eigenvalue of the Hessian there relative to the elastic energy.
+    /// Smallest eigenvalue of the Hessian at the equilibrium, relative to the elastic energy.
     pub margin: Option<f64>,
-    /// Residual that the method states, in its own unit.
+    /// Residual reported by the method, in its own unit.
     pub residual: f64,
 }
 
-/// One direction of the field on one design and level: all strengths lie on one way of loading.
+/// One direction of the field for one design and level: all strengths lie on one loading path.
 #[derive(Debug, Clone)]
 pub struct Ray {
     /// Number of segments of the paper's design.
@@ -82,14 +83,14 @@ pub fn stability_rays() -> Vec<Ray> {
 }
 
 impl Ray {
-    /// What every method finds along the ray, cold and warm.
+    /// Attempts of every method along the ray, cold and warm.
     ///
-    /// Each answer that is called solved is judged apart from the method: strain modes of degree 4, ring pairs to 1e-7, are
-    /// put through its rings; Newton's method on the gradient of that potential, with a Hessian by differences, goes to an
-    /// equilibrium, stable or not. The answer is right if no ring moves by more than the method may err, 1e-3 of the length
-    /// (5e-2 for arcs of constant curvature), and stable if no eigenvalue of the full matrix is negative. The branch
-    /// is what the same finer potential finds when the field grows from zero in steps of 0.5 mT. Warm is a field raised in
-    /// steps of 1 mT; where one is not solved, the map's own strengths are tried, from the last good shape.
+    /// Each reported solution is verified independently of the method: strain modes of degree 4, with ring pairs to
+    /// 1e-7, are fitted through its rings; Newton's method on the gradient of that potential, with a Hessian by finite
+    /// differences, finds an equilibrium, stable or not. The solution is correct if no ring moves by more than 1e-3 of
+    /// the length (5e-2 for arcs of constant curvature), and stable if no eigenvalue of the full matrix is negative.
+    /// The branch is what the same finer potential finds as the field grows from zero in steps of 0.5 mT. Warm starts
+    /// raise it in steps of 1 mT; after an unsolved step, only the map's strengths are tried, from the last good shape.
     ///
     /// # Errors
     /// None for the paper's designs; those of the solves are passed on.
@@ -172,7 +173,7 @@ impl Ray {
     }
 }
 
-/// Strength (mT) after `part` of `parts` steps towards that of the given number.
+/// Strength (mT) after `part` of `parts` equal steps from the preceding strength of the map to strength `number`.
 fn strength(number: usize, part: usize, parts: usize) -> f64 {
     STRENGTH_STEP * (number as f64 + part as f64 / parts as f64)
 }

@@ -1,22 +1,22 @@
-//! What a study is: columns of numbers, how they are drawn, what they say beside the paper.
+//! Data of a study: columns of numbers, how they are plotted, and their comparison with the paper.
 
-/// One figure of the paper, computed.
+/// A computed figure of the paper, or a further study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// What it shows, in a line.
+    /// Title, in one line.
     pub title: &'static str,
     /// The numbers, all columns of equal length.
     pub columns: Vec<Column>,
-    /// How they are drawn.
+    /// The axes on which they are plotted.
     pub panels: Vec<Panel>,
-    /// What they say beside the paper.
+    /// Comparison with the paper.
     pub comparison: Vec<Comparison>,
 }
 
 /// One column of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Name that ends with the unit, as in `length_mm`; a pure number has none.
+    /// Name that ends with the unit, as in `length_mm`; a dimensionless quantity has none.
     pub name: String,
     /// One value for each row; NaN where there is none.
     pub values: Vec<f64>,
@@ -25,69 +25,69 @@ pub struct Column {
 /// One set of axes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Panel {
-    /// Columns against a column.
+    /// Columns plotted over one column.
     Curves {
-        /// What is drawn.
+        /// Title.
         title: String,
-        /// Label with unit, and column of the abscissa.
+        /// Label with unit, and column name, of the abscissa.
         x: (String, String),
         /// Label with unit of the ordinate.
         y: String,
-        /// What is drawn.
+        /// The curves.
         curves: Vec<Curve>,
-        /// What else is drawn.
+        /// Additional lines, bands and points.
         marks: Vec<Mark>,
     },
-    /// Points on logarithmic axes; what is not positive is left out.
+    /// Points on logarithmic axes; points with values that are not positive are omitted.
     Places {
-        /// What is drawn.
+        /// Title.
         title: String,
         /// Label with unit of the abscissa.
         x: String,
         /// Label with unit of the ordinate.
         y: String,
-        /// What is drawn.
+        /// The points.
         series: Vec<Series>,
-        /// What else is drawn.
+        /// Additional lines, bands and points.
         marks: Vec<Mark>,
     },
-    /// A column as colours over the grid of two others.
+    /// Colour map of one column over the grid of two others.
     Map {
-        /// What is drawn.
+        /// Title.
         title: String,
-        /// Label with unit, and column of the abscissa.
+        /// Label with unit, and column name, of the abscissa.
         x: (String, String),
-        /// Label with unit, and column of the ordinate.
+        /// Label with unit, and column name, of the ordinate.
         y: (String, String),
         /// Column of the colour; a cell without a value stays empty.
         value: String,
-        /// What else is drawn.
+        /// Additional points.
         marks: Vec<Mark>,
     },
-    /// Horizontal bars from zero, in groups, each with its label before it and its numbers behind it.
+    /// Grouped horizontal bars that start at zero, with labels on the left and numbers on the right.
     Bars {
-        /// What is drawn.
+        /// Title.
         title: String,
         /// Label with unit of the abscissa.
         x: String,
-        /// Ends of the abscissa; a bar that goes on is cut there.
+        /// Limits of the abscissa; longer bars are cut off there.
         range: [f64; 2],
-        /// What the bars of a row belong to, for the legend.
+        /// Legend label of each bar within a row.
         series: Vec<String>,
-        /// The rows, from above.
+        /// The rows, from top to bottom.
         bars: Vec<Bar>,
     },
-    /// Many small maps of kinds on axes of one range, in rows and columns.
+    /// Small maps in rows and columns, on common axes, whose cells are coloured by category.
     Atlas {
         /// Label with unit of the abscissa.
         x: String,
         /// Label with unit of the ordinate.
         y: String,
-        /// The kinds of cells.
+        /// The categories of cells.
         kinds: Vec<Kind>,
-        /// Names of the columns, and of groups of as many columns each.
+        /// Names of the columns within a group, and names of the groups.
         columns: [Vec<String>; 2],
-        /// The maps.
+        /// The rows of maps.
         rows: Vec<AtlasRow>,
     },
 }
@@ -95,31 +95,31 @@ pub enum Panel {
 /// A row of bars.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bar {
-    /// What the rows from here on belong to; empty: to the same as the row above.
+    /// Heading of the group that begins with this row; empty if the row belongs to the group above.
     pub group: String,
-    /// What it shows.
+    /// Label of the row.
     pub label: String,
-    /// Its numbers, in words.
+    /// Its values as text.
     pub numbers: String,
-    /// Number of the colour of the first of its bars, from 0; the others are the next ones.
+    /// Colour index of its first bar, from 0; further bars take the following indices.
     pub colour: usize,
-    /// Least and largest value of each series, on both sides of zero; none where there is no value.
+    /// Smallest (at most 0) and largest (at least 0) value of each series; `None` where there is no value.
     pub ends: Vec<Option<[f64; 2]>>,
 }
 
-/// A kind of cells.
+/// A category of cells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kind {
-    /// What the legend calls it.
+    /// Label in the legend.
     pub label: String,
     /// Its colour.
     pub tint: Tint,
 }
 
-/// A colour of cells.
+/// Colour of a category.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tint {
-    /// The colour of this number, from 0.
+    /// The colour with this index, from 0.
     Colour(usize),
     /// Light grey.
     Light,
@@ -130,41 +130,41 @@ pub enum Tint {
 /// A row of small maps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AtlasRow {
-    /// What the rows from here on belong to; empty: to the same as the row above.
+    /// Heading of the group that begins with this row; empty if the row belongs to the group above.
     pub group: String,
-    /// What it shows.
+    /// Label of the row.
     pub label: String,
-    /// For each column the cells: abscissa, ordinate and number of the kind.
+    /// Cells of the map in each column: abscissa and ordinate, and index of the category.
     pub maps: Vec<Vec<([f64; 2], usize)>>,
 }
 
-/// A column drawn against the panel's abscissa.
+/// A column plotted over the abscissa of its panel.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    /// What the legend calls it.
+    /// Label in the legend.
     pub label: String,
-    /// Column of the ordinate; gaps where it has no value.
+    /// Name of the column of the ordinate; the curve has gaps where the value is NaN.
     pub column: String,
-    /// Number of the colour, from 0; curves that belong together share one.
+    /// Colour index, from 0; related curves share one.
     pub colour: usize,
-    /// How it is drawn.
+    /// Line style.
     pub stroke: Stroke,
 }
 
-/// Points that belong together, in their order.
+/// A sequence of points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// What the legend calls it.
+    /// Label in the legend.
     pub label: String,
-    /// Number of the colour, from 0.
+    /// Colour index, from 0.
     pub colour: usize,
-    /// How they are joined.
+    /// Style of the line through the points.
     pub stroke: Stroke,
-    /// Abscissa and ordinate of each.
+    /// Abscissa and ordinate of each point.
     pub places: Vec<[f64; 2]>,
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stroke {
     /// A line.
@@ -175,7 +175,7 @@ pub enum Stroke {
     Dots,
 }
 
-/// What is drawn beside the columns, mostly a number of the paper.
+/// A line, band or point drawn in addition to the data, mostly a value from the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Mark {
     /// A horizontal line at a height.
@@ -186,33 +186,33 @@ pub enum Mark {
     Point(String, [f64; 2]),
 }
 
-/// A row of the table that sets paper and model side by side.
+/// A row of the table that compares the models with the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Comparison {
-    /// What is compared, with its unit.
+    /// The compared quantity, with its unit.
     pub quantity: String,
-    /// Decimals that are worth showing.
+    /// Number of decimals to print.
     pub decimals: usize,
-    /// What the paper states.
+    /// Value stated in the paper.
     pub paper: Value,
-    /// What the paper's model gives, its formulas taken as printed.
+    /// Value of the paper's model, with its formulas as printed.
     pub printed: Value,
-    /// What the exact model gives.
+    /// Value of the exact model.
     pub exact: Value,
-    /// What this means, in a sentence.
+    /// Explanation, in a sentence.
     pub remark: String,
 }
 
-/// What stands in a cell of the comparison.
+/// Content of a cell of the comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
-    /// Nothing: it is not stated or does not exist.
+    /// No value: it is not stated or does not exist.
     Absent,
     /// A number.
     Number(f64),
-    /// Smallest and largest.
+    /// Smallest and largest value.
     Range(f64, f64),
-    /// A finding that is no number.
+    /// A result in words.
     Words(String),
 }
 
@@ -241,7 +241,7 @@ impl Curve {
 }
 
 impl Comparison {
-    /// Relative difference of the exact model from the paper; none unless both are numbers.
+    /// Relative difference of the exact model from the paper; `None` unless both are numbers.
     ///
     /// ```
     /// use mcm::studies::{Comparison, Value};

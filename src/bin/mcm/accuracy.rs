@@ -1,4 +1,4 @@
-//! `mcm study accuracy`: points of error and time as a table, the picture, the fronts in Markdown.
+//! `mcm study accuracy`: errors and times of all methods as a table and a chart, and the Pareto fronts in Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -15,21 +15,21 @@ const HEADER: &str = "\
 | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |
 ";
 
-/// A row of the table of peers.
+/// A row of the table of peers: a result of other software.
 #[derive(Debug, Deserialize)]
 struct Peer {
     case: String,
     solver: String,
-    /// How it starts, or what of the field it gives.
+    /// Kind of start, or whether the field comes with its gradient.
     variant: String,
     time_us: f64,
     error: f64,
 }
 
-/// Variants that are drawn dashed.
+/// Variants that are plotted dashed.
 const DASHED: [&str; 2] = ["cold", "with gradient"];
 
-/// Measures, and leaves accuracy.csv, accuracy.md and accuracy.png in `out`; the fronts are printed, too.
+/// Measures and writes accuracy.csv, accuracy.md and accuracy.png to `out`; prints the fronts as well.
 pub(super) fn run(out: &Path, peers: Option<&Path>) -> Result<ExitCode, Failure> {
     let peers = peers.map(read_peers).transpose()?.unwrap_or_default();
     let bar = progress_bar(accuracy_cases() as u64, "scenes");
@@ -38,7 +38,7 @@ pub(super) fn run(out: &Path, peers: Option<&Path>) -> Result<ExitCode, Failure>
     leave(out, "accuracy", &points, &accuracy_picture(&points, peers), &fronts(&points))
 }
 
-/// The fronts of all scenes and starts.
+/// The Pareto fronts of all scenes and starts, in Markdown.
 fn fronts(points: &[Point]) -> String {
     let firsts = points.iter().enumerate().filter(|(i, point)| !points[..*i].iter().any(|p| p.beside(point)));
     let rows = firsts.flat_map(|(_, first)| front(points.iter().filter(|point| point.beside(first))));
@@ -55,7 +55,7 @@ fn row(point: &Point) -> String {
     )
 }
 
-/// Series by case, solver and variant; a solver has one colour and one label.
+/// Reads the series by case, solver and variant; a solver has one colour and one label.
 fn read_peers(path: &Path) -> Result<[Vec<Series>; PEERS.len()], Failure> {
     let mut cases: [Vec<Series>; PEERS.len()] = Default::default();
     let mut solvers: [Vec<String>; PEERS.len()] = Default::default();
@@ -80,7 +80,7 @@ fn read_peers(path: &Path) -> Result<[Vec<Series>; PEERS.len()], Failure> {
             solvers.push(solver);
         }
     }
-    // What is one point has no line.
+    // A single point has no line.
     for series in cases.iter_mut().flatten().filter(|series| series.places.len() == 1) {
         series.stroke = Stroke::Dots;
     }

@@ -1,4 +1,4 @@
-//! `mcm study bifurcation`: diagrams as table and picture, folds and predictions in Markdown.
+//! `mcm study bifurcation`: diagrams as a table and a chart, folds and predictions in Markdown.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -9,7 +9,7 @@ use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 use super::failure::Failure;
 use super::study_files::{leave_drawn, tell};
 
-/// Leaves bifurcation.csv, bifurcation.png and bifurcation.md in `out`; the tables are printed, too.
+/// Writes bifurcation.csv, bifurcation.png and bifurcation.md to `out`; prints the Markdown tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let Bifurcation { study, places, predictions } = bifurcation()?;
     leave_drawn(out, "bifurcation", &study)?;

@@ -1,4 +1,4 @@
-//! `mcm study budget`: what changes the tip angle and by how much, as a table, a picture and Markdown.
+//! `mcm study budget`: what changes the tip angle and by how much, as a table, a chart and Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -13,7 +13,7 @@ const HEADER: &str = "\
 | --- | --- | --- | --- | --- | --- | --- |
 ";
 
-/// Computes, and leaves budget.csv, budget.md and budget.png in `out`; the table is printed, too.
+/// Computes and writes budget.csv, budget.md and budget.png to `out`; prints the table as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let rows = budget()?;
     let table = rows.iter().map(row).collect::<String>();

@@ -1,4 +1,4 @@
-//! The table that sets paper and model side by side, in Markdown.
+//! The table that compares the models with the paper, in Markdown.
 
 use mcm::studies::{Comparison, Study, Value};
 
@@ -7,7 +7,7 @@ const HEADER: &str = "\
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// The table of all studies, each with its figure's name in front.
+/// The table of all studies; each row begins with the name of its figure.
 pub(super) fn table<'a>(studies: impl IntoIterator<Item = (&'a str, &'a Study)>) -> String {
     let rows = studies
         .into_iter()
@@ -21,7 +21,7 @@ fn row(name: &str, row: &Comparison) -> String {
     format!(
         "| {name}: {} | {} | {} | {} | {} | {} |\n",
         row.quantity,
-        written(&row.paper, |number| number.to_string()), // with the digits that it has in the paper
+        written(&row.paper, |number| number.to_string()), // with the digits printed in the paper
         computed(&row.printed),
         computed(&row.exact),
         difference,

@@ -1,4 +1,4 @@
-//! Why a command gave up, and its exit status.
+//! Failure of a command, and exit statuses.
 
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
@@ -7,26 +7,26 @@ use std::process::ExitCode;
 pub(crate) const BAD_INPUT: u8 = 1;
 /// Exit status of a solve that did not converge.
 pub(crate) const NOT_CONVERGED: u8 = 2;
-/// Exit status of a solve that ended at an equilibrium known to be unstable, as only a method that is blind to
-/// stability can.
+/// Exit status of a solve that ended at an equilibrium known to be unstable, which only happens with methods that
+/// ignore stability.
 pub(crate) const UNSTABLE: u8 = 3;
-/// Exit status of a solve that ended at a neutral equilibrium, which one direction may leave freely.
+/// Exit status of a solve that ended at a neutral equilibrium, where one direction is free.
 pub(crate) const NEUTRAL: u8 = 4;
 
-/// A message for standard error.
+/// Failure of a command.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// Bad input, in words.
+    /// An error message for standard error.
     Message(String),
-    /// The reader of our output went away: nothing to say, nobody to say it to.
+    /// The reader of the output has closed the pipe; no message is printed.
     ReaderGone,
 }
 
 impl Failure {
-    /// Says what went wrong and gives the exit status.
+    /// Prints the message, if any, and returns the exit status.
     pub(crate) fn report(self) -> ExitCode {
         if let Self::Message(message) = self {
-            // Standard error closed: the exit status still tells.
+            // Where standard error is closed, the exit status still reports the failure.
             let _ = writeln!(std::io::stderr(), "error: {message}");
         }
         BAD_INPUT.into()

@@ -1,4 +1,4 @@
-//! `mcm study fidelity`: what the level `auto` saves, as a table, a picture and Markdown.
+//! `mcm study fidelity`: time saved and error made by the level `auto`, as a table, a chart and Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -18,7 +18,7 @@ const LEFT_OUT: &str = "\
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// Measures, and leaves fidelity.csv, fidelity.md and fidelity.png in `out`; the table is printed, too.
+/// Measures and writes fidelity.csv, fidelity.md and fidelity.png to `out`; prints the tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let bar = progress_bar(fidelity_scenes() as u64, "scenes");
     let rows = fidelity(|| bar.inc(1))?;

@@ -14,7 +14,7 @@ use super::files::{create_table, open_table, read_scene};
 /// Columns of the points.
 const POINT: [&str; 3] = ["x_m", "y_m", "z_m"];
 
-/// Columns of the answer after the point's.
+/// Columns of the output after those of the point.
 const FIELD: [&str; 12] = [
     "Bx_t",
     "By_t",
@@ -34,19 +34,20 @@ const FIELD: [&str; 12] = [
 #[derive(clap::Args)]
 #[command(
     after_help = "POINTS.csv has the columns x_m, y_m, z_m; FIELD.csv repeats them and adds Bx_t, By_t, Bz_t and \
-the nine dBi_dxj_t_per_m, all digits.\nA point on an edge of a magnet is refused: the field is infinite there.\n\n\
+the nine dBi_dxj_t_per_m, in full precision.\n\
+A point on an edge of a magnet is refused: the field is infinite there.\n\n\
 Example: mcm field scene.toml --at points.csv --out field.csv"
 )]
 pub(crate) struct Field {
     /// Scene file (TOML)
     scene: PathBuf,
-    /// Points, CSV
+    /// CSV file with the points
     #[arg(long, value_name = "POINTS.csv")]
     at: PathBuf,
-    /// Where the field goes, CSV
+    /// CSV file to write
     #[arg(long, value_name = "FIELD.csv")]
     out: PathBuf,
-    /// The field of one ring of the design, at the origin with its axis along z, instead of the external field
+    /// Evaluate the field of one ring of the design, at the origin with its axis along z, instead of the external field
     #[arg(long)]
     ring: bool,
 }
@@ -63,7 +64,7 @@ impl Field {
             let (field, gradient) = source
                 .field_gradient(&point)
                 .map_err(|error| Failure::Message(format!("{}, line {line}: {error}", self.at.display())))?;
-            // Matrices are stored by column, the table lists dBx_dx, dBx_dy, ...: by row.
+            // Matrices are stored by column; the table lists dBx_dx, dBx_dy, ... by row.
             let row: Vec<f64> =
                 [point, field].iter().flatten().chain(&gradient.transpose()).copied().collect();
             table.serialize(row)?;
@@ -72,7 +73,7 @@ impl Field {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// The points with their line in the file.
+    /// The points (m) with their line numbers in the file.
     fn points(&self) -> Result<Vec<(u64, Vector3<f64>)>, Failure> {
         let name = self.at.display();
         let mut table = open_table(&self.at)?;
@@ -101,7 +102,7 @@ impl Field {
     }
 }
 
-/// Where the field comes from.
+/// Source of the field.
 enum Source {
     Ring(AxialSource),
     External { inputs: Inputs, magnet: Option<Assembly> },

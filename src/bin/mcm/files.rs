@@ -7,7 +7,7 @@ use mcm::manipulator::SceneFile;
 
 use super::failure::Failure;
 
-/// Below this similarity (1: equal) another file's name is no plausible correction.
+/// Smallest similarity (1: equal) at which another file's name is suggested as a correction.
 const PLAUSIBLE: f64 = 0.5;
 
 /// Reads a scene file.
@@ -41,7 +41,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     Failure::Message(format!("cannot read {}: {error}{hint}", path.display()))
 }
 
-/// The file beside a missing one whose name is most like it.
+/// The file in the same folder whose name is most similar to that of a missing file.
 fn nearest_file(path: &Path) -> Option<String> {
     let wanted = path.file_name()?.to_string_lossy().into_owned();
     let folder = path.parent()?;

@@ -27,7 +27,7 @@ use failure::Failure;
 #[derive(Parser)]
 #[command(
     version,
-    after_help = "A scene is a TOML file; whatever it leaves out is Table 1 of the paper with nine \
+    after_help = "A scene is a TOML file; values that it omits are those of Table 1 of the paper with nine \
 segments, without field or load. Example:\n\n    [design]\n    segments = 3\n    [field]\n    \
 uniform_mt = [0.0, 20.0, 0.0]\n\nExit status: 0 done (solve: solved and not known to be unstable), 1 bad input, 2 not converged, \
 3 solved but known to be unstable, 4 solved but neutral."
@@ -54,7 +54,7 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
-        // Help and version are no failure; a wrong usage is bad input.
+        // Help and version are not failures; wrong usage is bad input.
         Err(message) => {
             let printed = message.print();
             let bad = message.use_stderr() || printed.is_err();

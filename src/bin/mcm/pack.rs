@@ -24,19 +24,19 @@ const ICON: &[u8] = include_bytes!("../../../modelDescription/model.png");
 /// Packs a design as an FMU.
 #[derive(clap::Args)]
 #[command(after_help = "Example: mcm pack --scene scene.toml --out mcm.fmu\n\n\
-The scene's numbers become the FMU's start values; its rings, cores and cylinders fix which variables there are.\n\
-An archive may carry several platforms: --binary win64=mcm.dll --binary darwin64=libmcm.dylib")]
+The scene's numbers become the FMU's start values; its rings, cores and cylinders determine the list of variables.\n\
+An FMU may support several platforms: --binary win64=mcm.dll --binary darwin64=libmcm.dylib")]
 pub(crate) struct Pack {
-    /// Scene file (TOML); left out: the paper's nine segments beside its magnet pair
+    /// Scene file (TOML); default: the paper's nine segments beside its magnet pair
     #[arg(long)]
     scene: Option<PathBuf>,
     /// Number of centreline points in the outputs
     #[arg(long, value_name = "N", default_value_t = DEFAULT_SHAPE_POINTS)]
     shape_points: usize,
-    /// The shared library to pack for this platform; left out: the one beside this program
+    /// Shared library for this platform; default: the one in the folder of this program
     #[arg(long)]
     library: Option<PathBuf>,
-    /// Another platform's library (linux64, linux32, win64, win32 or darwin64); may be repeated
+    /// Shared library for another platform (linux64, linux32, win64, win32 or darwin64); may be repeated
     #[arg(long, value_name = "PLATFORM=FILE")]
     binary: Vec<Binary>,
     /// The FMU to write
@@ -69,7 +69,7 @@ impl Pack {
     }
 }
 
-/// Deflate only, forward slashes, no links: what FMI 2.0 allows. The same files give the same bytes.
+/// Writes the archive as FMI 2.0 allows: Deflate only, forward slashes, no links. The same files give the same bytes.
 fn write_archive(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), String> {
     let file = File::create(path).map_err(|error| error.to_string())?;
     let mut archive = ZipWriter::new(BufWriter::new(file));
@@ -82,7 +82,7 @@ fn write_archive(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), String>
     archive.finish().and_then(|mut file| Ok(file.flush()?)).map_err(|error| error.to_string())
 }
 
-/// The time in UTC as the standard wants it; `SOURCE_DATE_EPOCH` makes builds repeatable.
+/// The current time in UTC, in the format of FMI 2.0; `SOURCE_DATE_EPOCH` makes builds reproducible.
 fn now() -> Result<String, Failure> {
     let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
         Ok(text) => text

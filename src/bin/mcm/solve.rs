@@ -20,8 +20,8 @@ In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a 
 Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
 centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
 jacobian_note says why. stability is stable, unstable, neutral (one direction is free, as about the axis of an antiparallel \
-field) or unknown. Where nothing was found, converged is false, outcome, reason and progress say why and how far along the \
-way from the unloaded shape, and all numbers of the shape are null.\n\n\
+field) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
+solve got on the way from the unloaded shape, and all numbers of the shape are null.\n\n\
 Exit status: 0 solved and stable (or stability unknown: any \
 method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable, 4 solved but neutral.")]
@@ -65,7 +65,7 @@ fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
     Ok(status.into())
 }
 
-/// What the search did, and the shape if it found one: without, every number about a shape is null.
+/// Report of the solve and the shape found; without a shape, all its numbers are null.
 fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) -> Value {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
     let derivatives = jacobian.as_ref().ok().map(|jacobian| {

@@ -1,4 +1,4 @@
-//! `mcm study stability`: the map of failures as a table, the picture, the counts in Markdown.
+//! `mcm study stability`: the map of failures as a table and a chart, and its counts in Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::failure::Failure;
 use super::study_files::{leave, progress_bar};
 
-/// Solves and judges, and leaves stability.csv, stability.md and stability.png in `out`; the counts are printed, too.
+/// Computes and writes stability.csv, stability.md and stability.png to `out`; prints the counts as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let rays = stability_rays();
     let bar = progress_bar(rays.len() as u64, "directions");
@@ -24,7 +24,7 @@ pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     leave(out, "stability", &attempts, &stability_picture(&attempts), &counts(&attempts))
 }
 
-/// How many attempts of each method and start end in which way.
+/// Number of attempts by method, level, start and verdict, in Markdown.
 fn counts(attempts: &[Attempt]) -> String {
     let mut rows: Vec<(&str, &str, &str)> = Vec::new();
     for attempt in attempts {

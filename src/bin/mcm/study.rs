@@ -16,24 +16,24 @@ use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
-    after_help = "`all` computes every figure of the paper and writes the comparison to comparison.md, too. `accuracy` and \
-`fidelity`, which measure times, `bifurcation` and `stability`, which take their time, and `budget`, which is no figure of the \
-paper, are no part of it.\n\n\
+    after_help = "`all` computes every figure of the paper and also writes the comparison to comparison.md. It does \
+not include `accuracy` and `fidelity`, which measure times, `bifurcation` and `stability`, which take long, and \
+`budget`, which is not a figure of the paper.\n\n\
 Example: mcm study fig5 --out figures"
 )]
 pub(crate) struct Study {
-    /// Which figure
+    /// Figure or study to compute
     #[arg(value_enum)]
     name: Name,
-    /// Folder for tables and pictures; made if it is not there
+    /// Folder for tables and charts; created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// For accuracy: what others reach, as tests/bench/table.py writes it
+    /// For accuracy: table of the results of other software, as tests/bench/table.py writes it
     #[arg(long, value_name = "CSV")]
     peers: Option<PathBuf>,
 }
 
-/// What can be asked for.
+/// Name of a study.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 #[value(rename_all = "snake_case")]
 enum Name {
@@ -55,25 +55,25 @@ enum Name {
     Fig8,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
-    /// The same way of the magnet in few communication steps and in many
+    /// The same path of the magnet in few communication steps and in many
     #[value(name = "communication-step")]
     CommunicationStep,
-    /// Error against time of all methods, and who is on the front
+    /// Error against time of all methods, and their Pareto fronts
     Accuracy,
-    /// How much tolerances, and what the model leaves out, change the tip angle
+    /// How much tolerances and omissions of the model change the tip angle
     Budget,
-    /// What the level auto saves, by tolerance
+    /// Time saved by the level auto, by tolerance
     Fidelity,
-    /// All equilibria, stable or not, where they fold, and how early a snap is seen coming
+    /// Stable and unstable equilibria, their folds, and predictions of snaps
     Bifurcation,
-    /// Where methods fail: over field strength and direction, cold and warm
+    /// Where methods fail, by field strength and direction, from cold and warm starts
     Stability,
     /// Every figure
     All,
 }
 
 impl Name {
-    /// The study of this name; `None` for all, and for those that have tables of their own.
+    /// The study of this name; `None` for all, and for those with their own tables.
     fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
         match self {
             Self::FieldRing => Some(studies::field_ring),
@@ -95,7 +95,7 @@ impl Name {
         }
     }
 
-    /// The name as it is typed.
+    /// The name on the command line.
     fn typed(self) -> String {
         self.to_possible_value().map_or_else(String::new, |value| value.get_name().into())
     }
@@ -105,7 +105,7 @@ impl Study {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
-            .map_err(|error| Failure::Message(format!("cannot make {}: {error}", self.out.display())))?;
+            .map_err(|error| Failure::Message(format!("cannot create {}: {error}", self.out.display())))?;
         match self.name {
             Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
             Name::Budget => return budget::run(&self.out),

@@ -1,4 +1,4 @@
-//! What studies leave behind.
+//! Output files of studies.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use super::failure::Failure;
 use super::files::create_table;
 use super::picture;
 
-/// Leaves a study's columns and picture as NAME.csv and NAME.png in `out`; an empty cell is a value that does not exist.
+/// Writes a study's columns and chart to NAME.csv and NAME.png in `out`; a missing value is an empty cell.
 pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Result<(), Failure> {
     let mut table = create_table(&file(out, name, "csv"))?;
     table.write_record(study.columns.iter().map(|column| &column.name))?;
@@ -25,7 +25,7 @@ pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Res
     picture::write(study, &file(out, name, "png"))
 }
 
-/// Leaves rows, picture and a Markdown table as NAME.csv, NAME.png and NAME.md in `out`, and prints the last.
+/// Writes rows, chart and Markdown tables to NAME.csv, NAME.png and NAME.md in `out`, and prints the Markdown.
 pub(super) fn leave(
     out: &Path,
     name: &str,
@@ -40,7 +40,7 @@ pub(super) fn leave(
     tell(out, name, markdown)
 }
 
-/// Leaves a Markdown table as NAME.md in `out` and prints it.
+/// Writes Markdown tables to NAME.md in `out` and prints them.
 pub(super) fn tell(out: &Path, name: &str, markdown: &str) -> Result<ExitCode, Failure> {
     std::fs::write(file(out, name, "md"), markdown)?;
     std::io::stdout().write_all(markdown.as_bytes())?;
@@ -51,7 +51,7 @@ fn file(out: &Path, name: &str, ending: &str) -> PathBuf {
     out.join(name).with_extension(ending)
 }
 
-/// Hidden when standard error is no terminal.
+/// Progress bar on standard error; hidden where that is not a terminal.
 pub(super) fn progress_bar(count: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(count);
     let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");

@@ -24,8 +24,8 @@ use rows::{Row, header};
     after_help = "KEY is a path in the scene file with indices from 1. Along the first key each solve starts from \
 the shape of the one before, as the device would, in steps of at most a hundredth of the range; the combinations of the \
 others run in parallel, each from the unloaded shape. Where the branch folds and the shape snaps, the value is located \
-to 1e-5 of the range and told, with the angles before and after. Forces and fields are in the world frame, units are in \
-the column names.\n\n\
+to 1e-5 of the range and reported, with the angles before and after. Forces and fields are in the world frame, units \
+are in the column names.\n\n\
 Examples, a field that grows, for three core lengths; a field that turns there and back; a magnet that turns:\n    \
 mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv\n    \
 mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
@@ -39,22 +39,22 @@ pub(crate) struct Sweep {
     /// A key and its values: COUNT values from START to STOP, both included
     #[arg(long, value_name = "KEY=START:STOP:COUNT", required = true)]
     vary: Vec<Range>,
-    /// After its last value the first key runs back to its first, on the branch that is then reached
+    /// Then vary the first key back from its last value to its first, starting on the branch reached
     #[arg(long)]
     back: bool,
-    /// Where the results go, CSV
+    /// CSV file for the results
     #[arg(long, value_name = "OUT.csv")]
     out: PathBuf,
-    /// Where the folds go, CSV: the value of each, the angles before and after
+    /// CSV file for the folds: the value of each, and the angles before and after
     #[arg(long, value_name = "FOLDS.csv")]
     folds: Option<PathBuf>,
 }
 
-/// Longest step between two solves, of the first key's range: a field that turns by half a circle goes along chords of
-/// two degrees.
+/// Longest step between two solves, relative to the first key's range: a field that turns by half a circle moves along
+/// chords of two degrees.
 const LONGEST_STEP: f64 = 0.01;
 
-/// The way of the first key.
+/// Direction in which the first key varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 enum Way {
@@ -68,7 +68,7 @@ impl std::fmt::Display for Way {
     }
 }
 
-/// What was found for one combination of the other keys.
+/// Results for one combination of the other keys.
 struct Walk {
     others: Vec<f64>,
     rows: Vec<Row>,
@@ -81,7 +81,7 @@ impl Sweep {
         let file = read_scene(&self.scene)?;
         let Some((along, others)) = self.vary.split_first() else { return Ok(ExitCode::SUCCESS) };
         let grid = grid(others);
-        // Every key and value is tried before the first solve.
+        // Every key and value is checked before the first solve.
         let mut same_device = true;
         for combination in &grid {
             let varied = with(&file, others, combination)?;
@@ -134,7 +134,7 @@ impl Sweep {
     ) -> Result<Walk, Failure> {
         let manipulator = file.with(&along.key, along.values[0])?.scene()?.device(2)?;
         let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
-        // A single value, or all the same: any span will do.
+        // With a single value, or equal ones, any span will do.
         let span = if along.span() > 0.0 { along.span() } else { 1.0 };
         let mut branch = Branch::new(manipulator, inputs, span, LONGEST_STEP * span)?;
         let forth = along.values.iter().map(|&value| (value, Way::Forth));
@@ -150,7 +150,7 @@ impl Sweep {
         Ok(Walk { others: others.to_vec(), rows, folds })
     }
 
-    /// Tells what was found, for people, and gives the exit status.
+    /// Prints a summary and returns the exit status.
     fn report(&self, keys: &[&str], walks: &[Walk]) -> Result<ExitCode, Failure> {
         let rows = || walks.iter().flat_map(|walk| &walk.rows);
         let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
@@ -181,7 +181,7 @@ fn is_same_device(a: &Scene, b: &Scene) -> bool {
         == (&b.specification, &b.magnets, &b.settings, &b.solver)
 }
 
-/// Solves each value of the first key for a device of its own.
+/// Solves each value of the first key on a separate device, from its unloaded shape.
 fn devices(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -> Result<Walk, Failure> {
     let solve = |&value: &f64| {
         let scene = file.with(&along.key, value)?.scene()?;
@@ -202,7 +202,7 @@ fn with(file: &SceneFile, ranges: &[Range], values: &[f64]) -> Result<SceneFile,
     Ok(varied)
 }
 
-/// Hidden when standard error is no terminal.
+/// Progress bar on standard error; hidden where that is not a terminal.
 fn progress_bar(solves: u64) -> ProgressBar {
     let bar = ProgressBar::new(solves);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} solves, {eta} left") {

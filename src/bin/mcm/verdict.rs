@@ -1,10 +1,10 @@
-//! What is known of an answer, in the words of JSON and CSV, and the exit status that follows.
+//! Status and stability of a solution, in the words of JSON and CSV, and the resulting exit status.
 
 use mcm::manipulator::{Outcome, Outputs, Status};
 
 use super::failure::{NEUTRAL, NOT_CONVERGED, UNSTABLE};
 
-/// Whether there is a shape at the inputs asked for.
+/// Whether a shape was found at the requested inputs.
 pub(crate) fn converged(outputs: &Outputs) -> bool {
     outputs.status != Status::NotSolved
 }
@@ -19,9 +19,9 @@ pub(crate) fn status(outputs: &Outputs) -> &'static str {
     }
 }
 
-/// What is known of the shape's stability; `None` without a shape.
+/// Stability of the shape, as far as it is known; `None` without a shape.
 ///
-/// Of a neutral shape one direction is free to rounding, so that it is neither stable nor unstable.
+/// In a neutral shape one direction is free up to rounding, so that it is neither stable nor unstable.
 pub(crate) fn stability(outputs: &Outputs) -> Option<&'static str> {
     converged(outputs).then_some(match (outputs.outcome, outputs.stable) {
         (Outcome::Neutral, _) => "neutral",
@@ -36,7 +36,7 @@ pub(crate) fn reason(outputs: &Outputs) -> Option<String> {
     (outputs.outcome != Outcome::Solved).then(|| outputs.outcome.to_string())
 }
 
-/// Exit status and words for an answer that is not what was asked for; `None` when all is well.
+/// Exit status and warning for a shape that was not found, or is unstable or neutral; otherwise `None`.
 pub(crate) fn warning(outputs: &Outputs) -> Option<(u8, String)> {
     match stability(outputs) {
         None => {

@@ -1,22 +1,22 @@
-//! Error against time as a picture: our methods on one scene, and what others reach in cases of their own.
+//! Chart of error against time: our methods in one scene, and other software in its own cases.
 
 use super::{Point, front};
 use crate::studies::study::{Mark, Panel, Series, Stroke, Study};
 
-/// What is drawn: the paper's device beside its magnet.
+/// Field, number of segments, level and start of the plotted case: the paper's device beside its magnet.
 const DRAWN: (&str, usize, &str, &str) = ("pair", 9, "rings", "warm");
 
-/// A case that others solve, too.
+/// A case that other software solves as well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Peered {
-    /// What the table of peers calls it.
+    /// Name in the table of peers.
     pub name: &'static str,
     title: &'static str,
     x: &'static str,
     y: &'static str,
 }
 
-/// The cases that others solve, too, in their order in the picture.
+/// The cases that other software solves as well, in the order of the chart.
 pub const PEERS: [Peered; 3] = [
     Peered {
         name: "tip dipole",
@@ -38,8 +38,8 @@ pub const PEERS: [Peered; 3] = [
     },
 ];
 
-/// The picture: nine segments beside the magnet pair, and what others reach in those of the cases of [`PEERS`] that have any
-/// series: times in microseconds, and errors.
+/// Chart of nine segments beside the magnet pair, and of those cases of [`PEERS`] that have series: errors over times
+/// in microseconds.
 #[must_use]
 pub fn accuracy_picture(points: &[Point], peers: [Vec<Series>; PEERS.len()]) -> Study {
     let (field, segments, level, start) = DRAWN;

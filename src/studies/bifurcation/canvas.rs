@@ -1,26 +1,26 @@
-//! A diagram as a panel: the branches, stable or not, their folds, and the way of slow loading.
+//! Chart panel of a diagram: stable and unstable branches, their folds, and quasi-static loading.
 
 use super::case::{Case, Loading};
 use crate::equilibrium::Diagram;
 use crate::numerics::continuation::PointKind;
 use crate::studies::study::{Column, Curve, Mark, Panel, Stroke};
 
-/// What is drawn, and where.
+/// Names and labels of a diagram.
 pub(super) struct Drawing {
-    /// Begins the names of its columns.
+    /// Prefix of the names of its columns.
     pub(super) name: &'static str,
     pub(super) title: &'static str,
-    /// What the abscissa is, and its unit.
+    /// Quantity and unit of the abscissa.
     pub(super) x: [&'static str; 2],
-    /// The same of the ordinate.
+    /// Quantity and unit of the ordinate.
     pub(super) y: [&'static str; 2],
-    /// What the stable branches are called, one colour each.
+    /// Legend labels of the stable branches, one colour each.
     pub(super) branches: &'static [&'static str],
-    /// The legend says what dashes, dots and rings are.
+    /// Whether the legend explains dashes, dots and circles.
     pub(super) explained: bool,
 }
 
-/// A panel under way: its places on the abscissa, and a column for each curve.
+/// A panel under construction: values of the abscissa, and a column for each curve.
 pub(super) struct Canvas {
     drawing: Drawing,
     x: Vec<f64>,
@@ -44,7 +44,7 @@ impl Canvas {
         Self { drawing, x: Vec::new(), curves, marks: Vec::new() }
     }
 
-    /// Adds a row in which curve number `0` of each pair has value `1`.
+    /// Adds a row at `x` from pairs of curve index and value; the other curves have NaN there.
     fn push(&mut self, x: f64, values: &[(usize, f64)]) {
         self.x.push(x);
         for (index, (_, column)) in self.curves.iter_mut().enumerate() {
@@ -53,7 +53,7 @@ impl Canvas {
         }
     }
 
-    /// Adds a place of the stable branch of that number.
+    /// Adds a point of the stable branch with this index.
     pub(super) fn put(&mut self, branch: usize, [x, y]: [f64; 2]) {
         self.push(x, &[(2 * branch, y)]);
     }
@@ -63,7 +63,7 @@ impl Canvas {
         self.marks.push(mark);
     }
 
-    /// Adds a part of the branch of that number.
+    /// Adds a part of the branch with this index.
     pub(super) fn draw(&mut self, branch: usize, case: &Case, diagram: &Diagram) {
         let shapes = &diagram.shapes;
         let regular = |index: Option<usize>, stable: bool| {
@@ -72,7 +72,7 @@ impl Canvas {
         };
         for (index, shape) in shapes.iter().enumerate() {
             let angle = (case.angle)(&shape.tip);
-            // Between two regular shapes a special one belongs to both, so that their curves meet.
+            // A fold or branching point belongs to the curves of both its neighbours, so that they meet.
             let near = [Some(index), index.checked_sub(1), Some(index + 1)];
             let near = if shape.kind == PointKind::Regular { &near[..1] } else { &near[1..] };
             let mut values = Vec::new();
@@ -102,7 +102,7 @@ impl Canvas {
         self.x.len()
     }
 
-    /// The panel; its columns, filled up to so many rows, go to `columns`.
+    /// Returns the panel and adds its columns, padded with NaN to `rows` values, to `columns`.
     pub(super) fn finish(self, rows: usize, columns: &mut Vec<Column>) -> Panel {
         let Self { drawing, x, curves, marks } = self;
         let [quantity, unit] = drawing.x;

@@ -1,4 +1,4 @@
-//! A device on a path of inputs: its branches, the way that slow loading takes, and when that sees a snap coming.
+//! A device on a path of inputs: its branches, quasi-static loading, and predictions of snaps.
 
 use crate::design::Design;
 use crate::equilibrium::{Diagram, Equilibrium, Inputs, Settings};
@@ -8,34 +8,34 @@ use crate::magnetics::Assembly;
 use crate::manipulator::{Branch, Manipulator, Status};
 use crate::numerics::continuation::Walk;
 
-/// Steps of slow loading along the whole path.
+/// Number of steps of quasi-static loading along the whole path.
 const STEPS: u32 = 24;
 
-/// Longest step along a branch, in turns of one segment by a radian.
+/// Longest step along a branch; 1 turns one segment by a radian.
 const LONGEST_STEP: f64 = 0.2;
 
-/// What acts at a value on the path.
+/// Inputs as a function of the path parameter.
 pub(super) type Way = Box<dyn Fn(f64) -> Inputs + Send + Sync>;
 
-/// A device and what it is put through.
+/// A device and its path of inputs.
 pub(super) struct Case {
     pub(super) design: Design,
     pub(super) magnet: Option<Assembly>,
     pub(super) settings: Settings,
     pub(super) way: Way,
-    /// Where the path begins and ends.
+    /// First and last value of the path parameter.
     pub(super) path: [f64; 2],
-    /// What is drawn of a tip, deg.
+    /// Plotted angle of a tip, deg.
     pub(super) angle: fn(&Pose) -> f64,
-    /// Points of a branch at most.
+    /// Maximum number of points of a branch.
     pub(super) points: usize,
 }
 
-/// What slow loading meets along the path and, if asked for, back.
+/// Result of quasi-static loading along the path and, on request, back.
 pub(super) struct Loading {
-    /// Value and angle (deg); the angle is NaN where no shape was found.
+    /// Path parameter and angle (deg) of each shape; the angle is NaN where no shape was found.
     pub(super) shapes: Vec<[f64; 2]>,
-    /// Values at which it snaps, or ends.
+    /// Path parameters at which the shape snaps or the branch ends.
     pub(super) snaps: Vec<f64>,
 }
 
@@ -54,7 +54,7 @@ impl Case {
         (self.path[1] - self.path[0]).abs()
     }
 
-    /// The branch through the stable shape to which loading at once leads from the path's beginning.
+    /// The branch through the stable shape at `from`, to which loading in one step from the path's beginning leads.
     pub(super) fn trace(&self, from: f64) -> Result<Diagram, Error> {
         let mut model = Equilibrium::new(&self.design, self.magnet.as_ref(), self.settings, 2)?;
         model.solve(&(self.way)(self.path[0]))?;
@@ -62,7 +62,7 @@ impl Case {
         self.trace_from(&model, from)
     }
 
-    /// The branch through the present shape of a model: from the path's beginning forth, from its end back.
+    /// The branch through the present shape of a model at `from`, traced away from the nearer end of the path.
     pub(super) fn trace_from(&self, model: &Equilibrium, from: f64) -> Result<Diagram, Error> {
         let [first, end] = self.path;
         let forth = (from - first).abs() < (from - end).abs();
@@ -82,7 +82,7 @@ impl Case {
         Branch::new(manipulator, |value| Ok((self.way)(value)), self.span(), self.span() / f64::from(STEPS))
     }
 
-    /// Slow loading along the path, and back.
+    /// Quasi-static loading along the path and, if `back`, in reverse as well.
     pub(super) fn load(&self, back: bool) -> Result<Loading, Error> {
         let [first, end] = self.path;
         let mut branch = self.branch()?;
@@ -101,9 +101,9 @@ impl Case {
         Ok(Loading { shapes, snaps })
     }
 
-    /// Errors of predictions of the snap at a value, on the way forth or back, at each of these distances before it.
+    /// Errors of the predictions of a `snap` on the path, or on the way back, at each of these distances before it.
     ///
-    /// Distances are relative to the way up to there, errors to the distance: positive, if the prediction is too early.
+    /// Distances are relative to the path up to the snap, errors to the distance; they are positive if too early.
     pub(super) fn predict(
         &self,
         snap: f64,

@@ -1,7 +1,7 @@
-//! One segment, and three, by the length of the helix, which is the gap between the rings.
+//! One and three segments with helices of different lengths, which are the gaps between the rings.
 //!
-//! No device is stretched: every length is another one, with a branch of its own. Rings closer than 3 mm are not resolved by
-//! the rules of the pairs.
+//! No device is stretched: every length is a separate device with its own branch. The pair quadrature does not resolve
+//! rings closer than 3 mm.
 
 use rayon::prelude::*;
 
@@ -11,14 +11,14 @@ use crate::design::{Helix, Segmented, Specification};
 use crate::error::Error;
 use crate::studies::study::Mark;
 
-/// Gaps of which branches are drawn, mm, and what is told of their folds.
+/// Gaps whose branches are plotted, mm, and descriptions of their folds in the table.
 const DRAWN: [(f64, Option<&str>); 3] = [
     (3.0, Some("one segment, gaps of 3 mm: pulled shut (mT)")),
     (3.4, Some("one segment, gaps of 3.4 mm: pulled shut (mT)")),
-    (4.0, None), // has its row already
+    (4.0, None), // its fold is already in the table
 ];
 
-/// Gaps of which the critical field is traced, mm: the first, the last, and how many.
+/// First and last gap for which the critical field is computed, mm, and the number of gaps.
 const TRACED: [f64; 2] = [3.0, 4.2];
 const COUNT: u32 = 13;
 
@@ -49,7 +49,7 @@ pub(super) fn branches() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// The field at which the branches of one segment and of three fold.
+/// The field at which the branches of one and of three segments fold, by the gap.
 pub(super) fn critical() -> Result<Found, Error> {
     let mut found = Found::new(Drawing {
         name: "critical",
@@ -74,7 +74,7 @@ pub(super) fn critical() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// The paper's design but for the gap between its rings, mm.
+/// The paper's design with the given gap between its rings, mm.
 fn spaced(segments: usize, gap: f64) -> Specification {
     let paper = Segmented::paper(segments);
     Specification::Segmented(Segmented { helix: Helix { length: 1e-3 * gap, ..paper.helix }, ..paper })

@@ -1,4 +1,4 @@
-//! What enters the budget: each quantity, by how much it is uncertain or wrong, and how it enters the model.
+//! Entries of the budget: each quantity, its uncertainty or error, and how it enters the model.
 
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -13,15 +13,17 @@ use crate::manipulator::{Inputs, Manipulator, Status};
 /// Standard gravity, m/s2.
 const GRAVITY: f64 = 9.80665;
 
-/// Change of the bending stiffness that the action of spans on spans amounts to, which no level counts: where sections follow the
-/// rod, and where core and spiral move as finite elements do (`tests/bench/spans_on_spans.csv`, helical, 20 degrees).
+/// Relative change of the bending stiffness by the magnetic action of spans on spans, which no level includes: with
+/// sections that follow the rod, and with the motion of core and spiral by finite elements
+/// (`tests/bench/spans_on_spans.csv`, helical, 20 degrees).
 const SPANS_ON_SPANS: &[f64] = &[-0.031, -0.076];
 
-/// Change of the core's stiffness by its spiral, which is moulded to it and counts here as magnetised mass only: about the two
-/// axes across a core between discs and rings, by finite elements (`tests/bench/spiral_stiffness.csv`).
+/// Relative change of the core's bending stiffness by the spiral, which is moulded to it but modelled as magnetised
+/// mass only: about the two transverse axes of a core between discs and rings, by finite elements
+/// (`tests/bench/spiral_stiffness.csv`).
 const SPIRAL_STIFFNESS: &[f64] = &[0.168, 0.221];
 
-/// What an entry is.
+/// Kind of a budget entry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BudgetKind {
@@ -29,52 +31,53 @@ pub enum BudgetKind {
     Combined,
     /// A quantity of the model that is known to some tolerance.
     Tolerance,
-    /// What the model leaves out by default.
+    /// An effect that the model omits by default.
     Omission,
-    /// The model beside a measurement of the paper.
+    /// A comparison of the model with a measurement of the paper.
     Paper,
 }
 
-/// A device in a field across it.
+/// A device in a transverse field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BudgetScene {
     /// Its name.
     pub name: &'static str,
     /// Number of segments of the paper's design.
     pub segments: usize,
-    /// Field across the device, T.
+    /// Transverse field, T.
     pub field: f64,
 }
 
-/// The scenes of the budget; the first one counts. Three segments are pulled shut at 17.8 mT and are asked well before.
+/// The scenes of the budget; the first gives the order and the numbers in the chart. The rings of three segments snap
+/// together at 17.8 mT, so that their field is well below.
 pub const BUDGET_SCENES: [BudgetScene; 2] = [
     BudgetScene { name: "1 segment, 20 mT", segments: 1, field: 20e-3 },
     BudgetScene { name: "3 segments, 10 mT", segments: 3, field: 10e-3 },
 ];
 
-/// Beginnings of what the paper's figures compare with a number that was measured, and what the budget calls it. Left out are
-/// three segments within 20 mT, as the direction of the field is not printed.
+/// Prefixes of the quantities that the paper's figures compare with a measured number, and their names in the budget.
+/// Three segments within 20 mT are omitted, as the direction of the field is not printed.
 pub(super) const MEASURED: [(&str, &str); 3] = [
     ("more tip angle by the base ring", "Fig. 7A: gain of angle from the base ring, 31 %"),
     ("solid cylinder, 20 mT", "Fig. 7B: tip angle of the solid cylinder, 16 deg"),
     ("largest axial force on nine segments", "Fig. 7C: axial force on nine segments, 0.09 N"),
 ];
 
-/// A device with its model and its surroundings.
+/// A device with its model settings, field and gravity.
 #[derive(Debug, Clone)]
 pub(super) struct Setup {
     chain: Segmented,
     settings: Settings,
-    /// Size (T) and direction (deg from the base's axis) of the field.
+    /// Magnitude (T) and direction (deg from the base's axis) of the field.
     field: [f64; 2],
-    /// Acceleration along the field that bends the device, m/s2.
+    /// Gravitational acceleration along the transverse axis in which the field bends the device, m/s2.
     gravity: f64,
-    /// By how much the rings are further apart, m.
+    /// Additional distance between adjacent rings, m.
     spacing: f64,
 }
 
 impl Setup {
-    /// At the level `full`; `weighed`: with its weight, in the direction in which the field bends it.
+    /// The scene at the level `full`; if `weighed`, with the weight in the direction in which the field bends it.
     pub(super) fn new(scene: &BudgetScene, weighed: bool) -> Self {
         Self {
             chain: Segmented::paper(scene.segments),
@@ -85,7 +88,7 @@ impl Setup {
         }
     }
 
-    /// The angle of the tip, rad; none if the device snaps on the way.
+    /// Tip angle, rad; `None` if the device snaps on the way.
     pub(super) fn tip_angle(&self) -> Result<Option<f64>, Error> {
         let design = Design::new(Specification::Segmented(self.spaced()?))?;
         let mut manipulator = Manipulator::new(&design, None, self.settings, 2)?;
@@ -101,15 +104,15 @@ impl Setup {
         Ok(stays.then_some(outputs.tip_angle))
     }
 
-    /// Multiplies all stiffness of the helix by `1 + change`, by way of the elastomer's modulus, to which it is proportional.
+    /// Multiplies all stiffness of the helix by `1 + change`: scales the elastomer's modulus, its common factor.
     fn stiffen(&mut self, change: f64) {
         let hardness = &mut self.chain.helix.shore_a;
         *hardness = gent_hardness((1.0 + change) * gent_modulus(*hardness));
     }
 
-    /// The chain with its rings further apart and the cores between them as they are: both closed ends of a helix grow.
+    /// The chain with its rings further apart and unchanged cores between them: both closed ends of a helix grow.
     ///
-    /// With the height `h` grows the pitch `p`, so that the spiral's section stays, and fewer windings go around the core.
+    /// The pitch `p` grows with the height `h`, which keeps the spiral's section, so that the core has fewer windings.
     fn spaced(&self) -> Result<Segmented, Error> {
         let mut chain = self.chain.clone();
         if self.spacing != 0.0 {
@@ -124,20 +127,20 @@ impl Setup {
     }
 }
 
-/// One quantity.
+/// One entry of the budget.
 pub(super) struct Entry {
     pub(super) kind: BudgetKind,
     pub(super) quantity: &'static str,
-    /// By how much it changes, as readers see it.
+    /// Size of the change, as printed.
     pub(super) change: &'static str,
-    /// The same as `vary` takes it.
+    /// The changes as arguments of `vary`.
     pub(super) steps: &'static [f64],
-    /// Whether the device has its weight.
+    /// Whether the weight acts.
     pub(super) weighed: bool,
     pub(super) vary: fn(&mut Setup, f64),
 }
 
-/// What a step does to a device.
+/// Applies a change to a device.
 type Vary = fn(&mut Setup, f64);
 
 const fn tolerance(quantity: &'static str, change: &'static str, steps: &'static [f64], vary: Vary) -> Entry {
@@ -148,7 +151,7 @@ const fn omission(quantity: &'static str, change: &'static str, steps: &'static 
     Entry { kind: BudgetKind::Omission, quantity, change, steps, weighed: false, vary }
 }
 
-/// A tenth of a millimetre, a twentieth, and parts of a whole.
+/// Changes in metres, and as fractions.
 const TENTH_MM: &[f64] = &[-1e-4, 1e-4];
 const TWENTIETH_MM: &[f64] = &[-5e-5, 5e-5];
 const ONE_PERCENT: &[f64] = &[-0.01, 0.01];
@@ -156,9 +159,9 @@ const TWO_PERCENT: &[f64] = &[-0.02, 0.02];
 const FIVE_PERCENT: &[f64] = &[-0.05, 0.05];
 const TEN_PERCENT: &[f64] = &[-0.1, 0.1];
 
-/// Tolerances: of hardness testers; of lengths that are moulded in printed moulds; of magnets, by their data sheets; of a coil
-/// system. Omissions: data sheets have 1.05 for sintered `NdFeB`; elastomers are all but incompressible (the paper's ratio is
-/// 0.4); the rings were of grade N48, which has 1.37 to 1.42 T.
+/// The tolerances are those of hardness testers, of lengths cast in printed moulds, of magnets by their data sheets,
+/// and of a coil system. On the omissions: data sheets give a recoil permeability of 1.05 for sintered `NdFeB`;
+/// elastomers are nearly incompressible (the paper's ratio is 0.4); rings of grade N48, as used, have 1.37 to 1.42 T.
 pub(super) static ENTRIES: [Entry; 21] = [
     tolerance("Shore A hardness of the elastomer", "±1", &[-1.0, 1.0], |s, d| s.chain.helix.shore_a += d),
     tolerance("remanence of the rings", "±2 %", TWO_PERCENT, |s, d| s.chain.ring.remanence *= 1.0 + d),

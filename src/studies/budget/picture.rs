@@ -4,16 +4,16 @@ use super::Contribution;
 use super::entries::{BUDGET_SCENES, BudgetKind};
 use crate::studies::study::{Bar, Panel, Study};
 
-/// Ends of the axis, percent: what goes beyond is cut and told by its numbers.
+/// Limits of the axis, percent; longer bars are cut off and read from their numbers.
 const RANGE: [f64; 2] = [-20.0, 20.0];
 
-/// The chart of the rows of [`super::budget()`]: bars of all scenes, numbers of the first.
+/// Chart of the rows of [`super::budget()`]: bars for all scenes, numbers for the first.
 #[must_use]
 pub fn budget_picture(rows: &[Contribution]) -> Study {
     let mut bars: Vec<Bar> = Vec::new();
     let mut last = None;
     for row in rows {
-        // A bar that has no end goes on beyond the axis.
+        // Without a largest change, the bar extends beyond the axis.
         let end = row.largest_percent.or(row.pulled_shut.then_some(f64::INFINITY));
         let ends = row.least_percent.zip(end).map(|(least, end)| [least.min(0.0), end.max(0.0)]);
         let change = if row.change.is_empty() { String::new() } else { format!(", {}", row.change) };
@@ -41,7 +41,7 @@ pub fn budget_picture(rows: &[Contribution]) -> Study {
     }
 }
 
-/// Colour of what was measured.
+/// Colour index of the comparisons with measurements.
 const PAPER_COLOUR: usize = 2;
 
 fn heading(kind: BudgetKind) -> &'static str {
@@ -53,7 +53,7 @@ fn heading(kind: BudgetKind) -> &'static str {
     }
 }
 
-/// The changes in percent, one where both are the same.
+/// The smallest and largest change in percent as text, or one number if they are equal.
 fn numbers(row: &Contribution) -> String {
     match (row.least_percent, row.largest_percent) {
         (Some(least), Some(largest)) if least < largest => format!("{} to {}", shown(least), shown(largest)),
@@ -64,7 +64,7 @@ fn numbers(row: &Contribution) -> String {
     }
 }
 
-/// A small change with more decimals.
+/// A change in percent as text, with more decimals if it is small.
 fn shown(percent: f64) -> String {
     if percent.abs() < 0.1 { format!("{percent:+.2}") } else { format!("{percent:+.1}") }
 }

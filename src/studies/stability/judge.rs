@@ -1,4 +1,4 @@
-//! The independent judge of a shape that a method calls solved.
+//! Independent verification of a shape that a method reports as solved.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
@@ -8,28 +8,28 @@ use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
 
-/// The judge resolves more finely than what it judges: degree of the strain modes and accuracy of the ring pairs.
+/// Degree of the strain modes and accuracy of the ring pairs, both finer than in the methods that are verified.
 const DEGREE: usize = 4;
 const PAIR_ACCURACY: f64 = 1e-7;
 
-/// Step of the differences of gradients, in radians of the first mode.
+/// Step of the finite differences of the gradient, in radians of the first mode.
 const STEP: f64 = 1e-5;
 
-/// Newton steps at most, and the residual (in turns of one element by a radian) at which a shape is in balance.
+/// Maximum number of Newton steps, and residual at which a shape is an equilibrium (1: one element turned by a radian).
 const STEPS: usize = 30;
 const BALANCE: f64 = 1e-8;
 
-/// Rings closer than this, over the length, are those of one equilibrium.
+/// Distance of the rings, over the length, up to which two equilibria count as the same.
 const SAME: f64 = 1e-5;
 
-/// Longest Newton step, in the same measure: nobody's answer is judged by an equilibrium far away.
+/// Longest Newton step, in the unit of the residual, so that a solution is not compared with a distant equilibrium.
 const LONGEST_STEP: f64 = 0.5;
 
-/// A Hessian made earlier serves while it makes the residual shrink by this factor.
+/// Largest ratio of successive residuals for which the Hessian is reused in the next step.
 const SHRINKING: f64 = 0.1;
 
-/// Smallest eigenvalue, relative to the elastic energy, below which a shape is unstable: the noise of the differences. Between
-/// it and zero nothing drives the shape away: bent in a field straight against it, it may turn about the axis at no cost.
+/// Smallest eigenvalue, relative to the elastic energy, below which a shape is unstable: the noise of the differences.
+/// Between it and zero a shape is neutral, as one bent in an antiparallel field, which may turn freely about the axis.
 const UNSTABLE: f64 = -1e-6;
 
 /// An equilibrium that is known at some inputs.
@@ -43,7 +43,7 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// What an answer is worth that is this equilibrium.
+    /// Verdict on a solution that is this equilibrium.
     fn verdict(&self) -> Verdict {
         if self.margin < UNSTABLE {
             Verdict::Unstable
@@ -55,18 +55,18 @@ impl Known {
     }
 }
 
-/// The equilibrium that an answer was found to be, or to be nearest to.
+/// The equilibrium with which a solution is compared.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
     pub(super) verdict: Verdict,
-    /// Largest distance of a ring from there over the length.
+    /// Largest distance of a ring from its position in the equilibrium, over the length.
     pub(super) distance: f64,
     /// As [`Known::margin`].
     pub(super) margin: f64,
 }
 
-/// Judges shapes by a finer potential, of which it takes the gradient alone: Newton's method with differences of gradients
-/// leads from the shape to an equilibrium, stable or not, and the eigenvalues of that Hessian, as a full matrix, tell which.
+/// Verifies shapes with the gradient of a finer potential: Newton's method with finite differences of the gradient
+/// finds an equilibrium from the shape, and the eigenvalues of the full Hessian show whether it is stable.
 #[derive(Debug, Clone)]
 pub(super) struct Judge {
     fine: Equilibrium,
@@ -80,19 +80,19 @@ impl Judge {
         Ok(Self { fine: Equilibrium::new(design, None, settings, 2)?, length: design.length() })
     }
 
-    /// Follows the branch to `inputs`; whether it goes so far.
+    /// Follows the branch to `inputs`; returns whether it was reached.
     pub(super) fn load(&mut self, inputs: &Inputs) -> Result<bool, Error> {
         Ok(self.fine.solve(inputs)?.solved())
     }
 
-    /// The equilibrium to which [`Judge::load`] has come.
+    /// The equilibrium that [`Judge::load`] has reached; `None` if Newton's method does not converge there.
     pub(super) fn loaded(&mut self, inputs: &Inputs) -> Option<Known> {
         let shape = self.fine.unknowns().to_vec();
         Some(Known { of_branch: true, ..self.polished(inputs, &shape)? })
     }
 
-    /// The equilibrium of `known` or, if none is within `accuracy`, the one that Newton's method finds from `rings`, which is
-    /// then known, too; with its distance from `rings` over the length. `None` where there is none.
+    /// The equilibrium in `known` nearest to `rings` or, if none is within `accuracy`, the one that Newton's method
+    /// finds from `rings` and that is added to `known`. `None` if none is found.
     pub(super) fn nearest(
         &mut self,
         inputs: &Inputs,
@@ -119,9 +119,9 @@ impl Judge {
         Some(found)
     }
 
-    /// Newton's method from `start` to any equilibrium.
+    /// The equilibrium, stable or not, that Newton's method finds from `start`; `None` if it does not converge.
     fn polished(&mut self, inputs: &Inputs, start: &[f64]) -> Option<Known> {
-        // Weighted by the root of the metric all amplitudes have one size; the first is a turn of an element.
+        // Scaled by the root of the metric, all amplitudes have one size; the first is the rotation of an element.
         let roots = DVector::from_iterator(start.len(), self.fine.metric().iter().map(|k| k.sqrt()));
         let unit = roots[0];
         let mut shape = DVector::from_column_slice(start).component_mul(&roots);
@@ -182,7 +182,7 @@ impl Judge {
     }
 }
 
-/// Largest distance of two rings, m.
+/// Largest distance between corresponding rings, m.
 fn distance(a: &[Pose], b: &[Pose]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a.position - b.position).norm()).fold(0.0, f64::max)
 }

@@ -1,10 +1,10 @@
-//! The map of failures, drawn.
+//! Chart of the map of failures.
 
 use super::{Attempt, SEGMENTS, Verdict};
 use crate::methods::Method;
 use crate::studies::study::{AtlasRow, Kind, Panel, Study, Tint};
 
-/// The map: methods and levels down, starts and numbers of segments across.
+/// The map, with methods and levels as rows, starts and numbers of segments as columns.
 #[must_use]
 pub fn stability_picture(attempts: &[Attempt]) -> Study {
     let map = |method: &str, level: &str, (start, segments): (&str, usize)| {
@@ -49,7 +49,7 @@ pub fn stability_picture(attempts: &[Attempt]) -> Study {
     }
 }
 
-/// The levels of interaction that a method has attempts of.
+/// The levels of interaction at which a method has attempts.
 fn levels(attempts: &[Attempt], method: &str) -> Vec<&'static str> {
     let mut out = Vec::new();
     for attempt in attempts.iter().filter(|attempt| attempt.method == method) {

@@ -1,8 +1,8 @@
-//! What a method's answer is worth.
+//! Verdict on the result of a method.
 
 use serde::Serialize;
 
-/// What came of one attempt to solve one cell of the map.
+/// Result of one attempt to solve one cell of the map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -10,18 +10,18 @@ pub enum Verdict {
     Branch,
     /// Another stable equilibrium.
     OtherStable,
-    /// An equilibrium that the smallest disturbance leaves.
+    /// An unstable equilibrium.
     Unstable,
-    /// Called solved, but no equilibrium is there.
+    /// Reported as solved, but not close to an equilibrium.
     Wrong,
-    /// Not solved, and said so, with a finite residual.
+    /// Reported as not solved, with a finite residual.
     Stalled,
-    /// Not solved, and said so, with a residual that is not finite.
+    /// Reported as not solved, with a residual that is not finite.
     Diverged,
 }
 
 impl Verdict {
-    /// Every verdict and what a legend calls it, from best to worst for whoever does not look further.
+    /// Every verdict and its legend label, from best to worst for a user who does not check the result.
     pub const ALL: [(Self, &str); 6] = [
         (Self::Branch, "the stable shape of slow loading"),
         (Self::OtherStable, "another stable shape"),

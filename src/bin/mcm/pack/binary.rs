@@ -1,4 +1,4 @@
-//! The libraries that an archive carries, one a platform.
+//! The libraries in an archive, one per platform.
 
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
 use std::fs;
@@ -9,7 +9,7 @@ use mcm::fmi::xml::MODEL_IDENTIFIER;
 
 use crate::failure::Failure;
 
-/// A platform of FMI 2.0 (section 2.3): the name of its folder, how its libraries' names end, and how they begin inside.
+/// A platform of FMI 2.0 (section 2.3): folder name, file extension of its libraries, and their possible first bytes.
 #[derive(Debug)]
 struct Platform {
     name: &'static str,
@@ -22,11 +22,11 @@ const PLATFORMS: [Platform; 5] = [
     Platform { name: "linux32", ending: "so", beginnings: &[b"\x7fELF\x01"] },
     Platform { name: "win64", ending: "dll", beginnings: &[b"MZ"] },
     Platform { name: "win32", ending: "dll", beginnings: &[b"MZ"] },
-    // For one processor, or for several.
+    // For one processor architecture, or for several.
     Platform { name: "darwin64", ending: "dylib", beginnings: &[b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe"] },
 ];
 
-/// A library for a platform, as the option `--binary` names it.
+/// A library for a platform, as given by the option `--binary`.
 #[derive(Debug, Clone)]
 pub(crate) struct Binary {
     platform: &'static Platform,
@@ -40,7 +40,7 @@ impl FromStr for Binary {
         let (name, library) = text.split_once('=').ok_or("say PLATFORM=FILE")?;
         let platform = named(name).ok_or_else(|| {
             let known = PLATFORMS.each_ref().map(|platform| platform.name);
-            format!("FMI 2.0 has no platform `{name}`, but {}", known.join(", "))
+            format!("FMI 2.0 has no platform `{name}`; its platforms are {}", known.join(", "))
         })?;
         Ok(Self { platform, library: library.into() })
     }
@@ -61,7 +61,7 @@ impl Binary {
 }
 
 /// The files below `binaries/`: the libraries `given`, and one for the platform that this program runs on: `own` or, if
-/// there is none at all, the one beside the program.
+/// that platform has none at all, the one beside the program.
 pub(super) fn entries(own: Option<&Path>, given: &[Binary]) -> Result<Vec<(String, Vec<u8>)>, Failure> {
     let here = named(match (OS, ARCH) {
         ("linux", "x86_64") => "linux64",
@@ -77,7 +77,7 @@ pub(super) fn entries(own: Option<&Path>, given: &[Binary]) -> Result<Vec<(Strin
         }
         (None, own) if own.is_some() || given.is_empty() => {
             let here = format!("{OS} on {ARCH}");
-            return Err(Failure::Message(format!("FMI 2.0 has no name for {here}: use --binary")));
+            return Err(Failure::Message(format!("FMI 2.0 has no platform for {here}: use --binary")));
         }
         _ => {}
     }

@@ -1,4 +1,4 @@
-//! Many small maps of kinds on axes of one range.
+//! Small maps on common axes, whose cells are coloured by category.
 
 use mcm::studies::{AtlasRow, Kind};
 use plotters::prelude::*;
@@ -7,17 +7,18 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::axes::{spacing, span, tick};
 use super::{Canvas, Drawn, GRID, pen, scaled, text, tint};
 
-/// Left of the maps: names of groups, and of rows from `ROW` on; above: names of columns; below: ticks and labels.
+/// Margins in pixels: left of the maps for names of groups and, from `ROW` on, of rows; above them for names of
+/// columns; below them for ticks and labels.
 const NAMES: f64 = 205.0;
 const ROW: f64 = 152.0;
 const ABOVE: f64 = 46.0;
 const BELOW: f64 = 34.0;
 
-/// Between maps, and how much more between groups.
+/// Gap between maps, and additional gap between groups, pixels.
 const GAP: f64 = 5.0;
 const GROUP_GAP: f64 = 9.0;
 
-/// Heights of letters.
+/// Font heights of names and ticks, pixels.
 const SMALL: f64 = 17.0;
 const TICK: f64 = 14.0;
 
@@ -29,13 +30,13 @@ struct Axis {
     cell: f64,
 }
 
-/// Where the maps are, in pixels of the large picture.
+/// Positions of the maps, in pixels of the oversampled picture.
 struct Layout<'a, 'b> {
     area: &'a Canvas<'b>,
-    /// Columns of each group.
+    /// Number of columns of each group.
     of_group: usize,
     columns: usize,
-    /// Groups of rows that have begun before or with each row, beyond the first.
+    /// For each row, the number of groups that begin up to this row, without the first group.
     started: Vec<f64>,
     /// Size of a map.
     wide: f64,
@@ -49,7 +50,7 @@ impl Axis {
         Self { low, high, cell: spacing(&values) }
     }
 
-    /// Where a value lies between the outer edges of the first and the last cell.
+    /// Position of a value between the outer edges of the first and the last cell, from 0 to 1.
     fn part(&self, value: f64) -> f64 {
         (value - self.low + 0.5 * self.cell) / (self.high - self.low + self.cell)
     }
@@ -159,7 +160,7 @@ fn draw_ticks(layout: &Layout, [across, up]: &[Axis; 2], [x, y]: [&str; 2]) -> D
     layout.write(&upwards, SMALL, (0.0, height), HPos::Left)
 }
 
-/// [`scaled`] for sums of many.
+/// [`scaled`] as a float, for sums of many lengths.
 fn full(length: f64) -> f64 {
     f64::from(scaled(length))
 }

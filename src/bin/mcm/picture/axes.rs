@@ -11,7 +11,7 @@ type Chart<'a, 'b> = ChartContext<'a, BitMapBackend<'b>, Cartesian2d<RangedCoord
 /// Colour scale of maps, readable with colour blindness and in grey: viridis, from low to high.
 const SCALE: ViridisRGB = ViridisRGB;
 
-/// Columns against a column.
+/// Draws columns over one column.
 pub(super) fn curves(
     study: &Study,
     area: &Canvas,
@@ -39,7 +39,7 @@ pub(super) fn curves(
     draw_points(&mut chart, marks)
 }
 
-/// Points on logarithmic axes.
+/// Draws points on logarithmic axes.
 pub(super) fn places(area: &Canvas, labels: [&str; 2], series: &[Series], marks: &[Mark]) -> Drawn {
     let marks: Vec<Mark> = marks
         .iter()
@@ -67,7 +67,7 @@ pub(super) fn places(area: &Canvas, labels: [&str; 2], series: &[Series], marks:
     draw_points(&mut chart, &marks)
 }
 
-/// A column as colours over the grid of two others, with its scale beside it.
+/// Draws a colour map of one column over the grid of two others, with its colour scale.
 pub(super) fn map(
     study: &Study,
     area: &Canvas,
@@ -152,13 +152,13 @@ where
     Ok(chart)
 }
 
-/// A tick's number without the rounding of its sum of steps.
+/// Label of a tick, without the rounding errors of its value.
 pub(super) fn tick(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded == 0.0 { "0".into() } else { rounded.to_string() }
 }
 
-/// A power of ten by its exponent; nothing between.
+/// Label of a power of ten by its exponent; empty between powers.
 fn power(exponent: f64) -> String {
     if (exponent - exponent.round()).abs() < 1e-6 { format!("1e{exponent:.0}") } else { String::new() }
 }
@@ -179,7 +179,7 @@ fn draw_curve(chart: &mut Chart, run: &[(f64, f64)], number: usize, stroke: Stro
     Ok(())
 }
 
-/// Levels and bands, behind the curves.
+/// Draws levels and bands, behind the curves.
 fn draw_backdrop(chart: &mut Chart, [left, right]: [f64; 2], marks: &[Mark]) -> Drawn {
     for mark in marks {
         match mark {
@@ -210,7 +210,7 @@ fn column<'a>(study: &'a Study, name: &str) -> Result<&'a [f64], String> {
     study.column(name).ok_or_else(|| format!("there is no column {name}"))
 }
 
-/// Smallest and largest value; from 0 to 1 without any.
+/// Smallest and largest value; 0 and 1 if there are none.
 pub(super) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values
         .filter(|value| !value.is_nan())
@@ -219,13 +219,13 @@ pub(super) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
         .unwrap_or([0.0, 1.0])
 }
 
-/// A range with some air at both ends.
+/// A range with a margin added at both ends.
 fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     let air = 0.05 * (high - low);
     [low - air, high + air]
 }
 
-/// Smallest distance of two different values: that of a grid.
+/// Smallest distance between two different values: the grid spacing.
 pub(super) fn spacing(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -236,7 +236,7 @@ pub(super) fn spacing(values: &[f64]) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// Size of the values, beside which a step is rounding or real.
+/// Range of the values, relative to which a step is real or rounding.
 fn pair_scale(sorted: &[f64]) -> f64 {
     sorted.last().zip(sorted.first()).map_or(1.0, |(last, first)| last - first)
 }

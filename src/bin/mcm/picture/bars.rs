@@ -7,17 +7,18 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::axes::tick;
 use super::{Canvas, Drawn, GRID, INK, colour, pen, scaled, text};
 
-/// Left of the axis: labels; right of it: numbers; below it: ticks and the label of the abscissa.
+/// Margins in pixels: left of the axis for labels, right of it for numbers, below it for ticks and the abscissa's
+/// label.
 const LABELS: f64 = 385.0;
 const NUMBERS: f64 = 140.0;
 const BELOW: f64 = 52.0;
 
-/// Heights of a row, of a heading, of the bars of a row together, and of letters.
+/// Heights of a row or heading, of all bars of a row together, and of the font, pixels.
 pub(super) const ROW: f64 = 25.0;
 const BARS: f64 = 16.0;
 const SMALL: f64 = 17.0;
 
-/// Spaces between ticks, about.
+/// Approximate number of intervals between ticks.
 const TICKS: f64 = 8.0;
 
 /// Height of all rows and the axis in pixels of the picture.
@@ -73,7 +74,7 @@ pub(super) fn draw(area: &Canvas, x: &str, range: [f64; 2], bars: &[Bar]) -> Dra
     Ok(())
 }
 
-/// Points the end of a bar at `edge`, which says that it goes on beyond the axis.
+/// Cuts the end of a bar at `edge` to a point, which shows that the bar extends beyond the axis.
 fn point(area: &Canvas, edge: i32, [top, bottom]: [i32; 2], inwards: i32) -> Drawn {
     let half = (bottom - top) / 2;
     for corner in [top, bottom] {
@@ -83,7 +84,7 @@ fn point(area: &Canvas, edge: i32, [top, bottom]: [i32; 2], inwards: i32) -> Dra
     Ok(())
 }
 
-/// Round values within a range, zero among them if it is there.
+/// Round values within a range, with zero if the range contains it.
 fn ticks([low, high]: [f64; 2]) -> impl Iterator<Item = f64> {
     let rough = (high - low) / TICKS;
     let power = 10.0_f64.powf(rough.log10().floor());

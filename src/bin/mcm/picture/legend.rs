@@ -5,12 +5,12 @@ use plotters::prelude::*;
 
 use super::{Canvas, INK, LINE, PAPER, TEXT, colour, pen, scaled, text, tint};
 
-/// Length of a sample of a line, pixels.
+/// Length of a line sample, gap and height of a line of text, pixels.
 const SAMPLE: f64 = 30.0;
 const GAP: f64 = 8.0;
 const LINE_HEIGHT: f64 = 27.0;
 
-/// What a sample shows.
+/// Symbol of a legend entry.
 pub(super) enum Sample {
     Curve(usize, Stroke),
     Level,
@@ -19,7 +19,7 @@ pub(super) enum Sample {
     Kind(Tint),
 }
 
-/// Title and legend of a panel; what has no label has no entry.
+/// Title and legend entries of a panel; curves and marks without a label have no entry.
 pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
     let curve = |label, colour, stroke| (label, Sample::Curve(colour, stroke));
     let (title, curves, marks): (_, Vec<(&str, Sample)>, _) = match panel {
@@ -46,7 +46,7 @@ pub(super) fn entries(panel: &Panel) -> (&str, Vec<(&str, Sample)>) {
     (title, curves.into_iter().chain(marks).filter(|(label, _)| !label.is_empty()).collect())
 }
 
-/// Draws title and legend in as many lines as they need; returns where they end.
+/// Draws title and legend in as many lines as they need; returns the height at which they end.
 pub(super) fn draw(
     title: &str,
     entries: &[(&str, Sample)],

@@ -15,36 +15,36 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::failure::Failure;
 
-/// Width of a picture in pixels, its least height, and that of a row of panels, without and with long legends.
+/// Width and minimum height of a picture, and heights of a row of panels without and with long legends, pixels.
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 600;
 const ROW: u32 = 300;
 const TALL_ROW: u32 = 500;
 
-/// Title, legend and margins around bars.
+/// Height of title, legend and margins around bars, pixels.
 const ABOVE_BARS: f64 = 115.0;
 
 /// Pictures are drawn this many times larger and averaged, which smooths lines and letters.
 const OVERSAMPLING: u32 = 3;
 
-/// Step between shades: as many as smooth edges need, so that the files stay small. It divides white.
+/// Step between shades: fine enough for smooth edges, coarse enough for small files. It divides 255, which is white.
 const SHADE: usize = 5;
 
-/// Name under which the embedded font is known: Ubuntu Light (Ubuntu Font Licence 1.0, in `epaint_default_fonts`), so that
-/// pictures need no font of the system and look the same everywhere.
+/// Name under which the embedded font is registered: Ubuntu Light (Ubuntu Font Licence 1.0, in `epaint_default_fonts`),
+/// so that pictures need no font of the system and look the same everywhere.
 const FONT: &str = "sans";
 
-/// Heights of letters and widths of lines in pixels of the picture.
+/// Font heights and line width, pixels of the final picture.
 const TITLE: f64 = 24.0;
 const TEXT: f64 = 21.0;
 const LINE: f64 = 2.6;
 
 const INK: RGBColor = RGBColor(0x22, 0x25, 0x2a);
 const GRID: RGBColor = RGBColor(0xdc, 0xdc, 0xdc);
-/// What comes from the paper.
+/// Colour of values from the paper.
 const PAPER: RGBColor = RGBColor(0x80, 0x86, 0x8f);
 
-/// Colours that also people with colour blindness tell apart: M. Okabe and K. Ito, Color Universal Design (2002).
+/// Colours that people with colour blindness can distinguish: M. Okabe and K. Ito, Color Universal Design (2002).
 const COLOURS: [RGBColor; 6] = [
     RGBColor(0x00, 0x72, 0xb2),
     RGBColor(0xd5, 0x5e, 0x00),
@@ -56,7 +56,7 @@ const COLOURS: [RGBColor; 6] = [
 
 type Canvas<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 
-/// Why a picture could not be drawn.
+/// Result of drawing; the error says why a picture could not be drawn.
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Draws a study into a PNG file.
@@ -96,7 +96,7 @@ fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
     Ok(())
 }
 
-/// Height of a picture of bars, whose rows must not be squeezed.
+/// Height in pixels that a panel of bars needs; 0 for other panels.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some hundred pixels")]
 fn bars_height(panel: &Panel) -> u32 {
     match panel {
@@ -118,13 +118,13 @@ fn draw_panel(study: &Study, panel: &Panel, area: &Canvas) -> Drawn {
     }
 }
 
-/// Pixels of the large picture for a length in those of the final one.
+/// Converts a length from pixels of the final picture to those of the oversampled one.
 #[allow(clippy::cast_possible_truncation, reason = "lengths are far below the largest integer")]
 fn scaled(length: f64) -> i32 {
     (length * f64::from(OVERSAMPLING)).round() as i32
 }
 
-/// Letters of the given height; a text begins at its position, which is half way up.
+/// Text style of the given height; the position of a text is its left end, at half its height.
 fn text(height: f64) -> TextStyle<'static> {
     (FONT, scaled(height)).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center))
 }
@@ -134,12 +134,12 @@ fn pen(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(scaled(width).unsigned_abs())
 }
 
-/// The colour of a number.
+/// The colour with this index.
 fn colour(number: usize) -> RGBColor {
     COLOURS[number % COLOURS.len()]
 }
 
-/// The colour of a kind of cells.
+/// The colour of a category of cells.
 fn tint(tint: Tint) -> RGBColor {
     match tint {
         Tint::Colour(number) => colour(number),
@@ -148,7 +148,7 @@ fn tint(tint: Tint) -> RGBColor {
     }
 }
 
-/// Means over squares of the large picture.
+/// Means over squares of the oversampled picture, rounded to the shades.
 fn averaged(large: &[u8], (width, height): (u32, u32)) -> Vec<u8> {
     let factor = OVERSAMPLING as usize;
     let (width, height) = (width as usize, height as usize);

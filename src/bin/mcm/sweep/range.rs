@@ -1,8 +1,8 @@
-//! Values of one key, as `--vary` states them.
+//! Values of one key, as given by `--vary`.
 
 use std::str::FromStr;
 
-/// More values of one key are a slip of the pen: their table would not fit into memory.
+/// Maximum number of values of one key; a larger table would not fit into memory.
 const MOST_VALUES: u32 = 1_000_000;
 
 /// Values of one key.
@@ -24,7 +24,7 @@ impl FromStr for Range {
             _ => Err(format!("\"{text}\" is no finite number")),
         };
         let (start, stop) = (number(start)?, number(stop)?);
-        let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is no count"))?;
+        let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is not a valid count"))?;
         if !(1..=MOST_VALUES).contains(&count) {
             return Err(format!("COUNT = {count} is not allowed: it must be from 1 to {MOST_VALUES}"));
         }
@@ -35,7 +35,7 @@ impl FromStr for Range {
 }
 
 impl Range {
-    /// From the first to the last value.
+    /// Distance between the first and the last value.
     pub(super) fn span(&self) -> f64 {
         let (first, last) = (self.values[0], self.values[self.values.len() - 1]);
         (last - first).abs()

@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 use super::Way;
 use crate::verdict;
 
-/// Tips closer than this are those of one shape, mm: ten thousand times what a solve leaves.
+/// Tip distance up to which two shapes count as equal, mm: ten thousand times the error that a solve leaves.
 const SAME_TIP: f64 = 1e-4;
 
-/// Those of the shape, which a row that did not converge has not.
+/// Columns of the shape, which are empty in a row that did not converge.
 const NUMBERS: [&str; 29] = [
     "alpha_deg",
     "tip_x_mm",
@@ -42,7 +42,7 @@ const NUMBERS: [&str; 29] = [
     "error_estimate_m",
 ];
 
-/// Those of the search.
+/// Columns of the solve.
 const SEARCH: [&str; 9] = [
     "predicted_fold",
     "stable",
@@ -141,7 +141,7 @@ impl Row {
         self.outcome.is_solved()
     }
 
-    /// Whether the tip is elsewhere, or one of the two is no solved shape.
+    /// Whether the tip positions differ, or only one of the two rows converged.
     pub(super) fn differs(&self, other: &Self) -> bool {
         let tip = |row: &Self| Vector3::from_row_slice(&row.numbers[1..4]);
         self.converged() != other.converged() || (tip(self) - tip(other)).norm() > SAME_TIP

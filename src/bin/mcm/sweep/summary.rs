@@ -1,4 +1,4 @@
-//! Folds as a table, and what a sweep found in words.
+//! Folds of a sweep as a table, and a summary of its results in words.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub(super) fn write_folds(path: &Path, keys: &[&str], walks: &[Walk]) -> Result<
     Ok(table.flush()?)
 }
 
-/// What one combination did, in lines for people; empty when there is nothing to tell.
+/// Summary of one combination in lines of text; empty if there is nothing to report.
 pub(super) fn describe(keys: &[&str], walk: &Walk) -> String {
     let mut text = String::new();
     for (fold, way) in &walk.folds {
@@ -63,7 +63,7 @@ fn fold_in_words(key: &str, fold: &Fold, way: Way) -> String {
     }
 }
 
-/// Where the way back is not the way forth; `None` without a way back.
+/// Where the way back differs from the way forth, in words; `None` without a way back.
 fn hysteresis(key: &str, rows: &[Row]) -> Option<String> {
     let forth = rows.len().div_ceil(2);
     let pairs = || rows[..forth].iter().zip(rows[forth - 1..].iter().rev());
