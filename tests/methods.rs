@@ -7,8 +7,8 @@ use mcm::methods::{Method, Settings};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{
-    METHOD_ARCS, METHOD_BALANCE, METHOD_COARSE, METHOD_FINE, METHOD_ORDER, METHOD_RESIDUAL, PAIRS,
-    assert_close,
+    METHOD_ARCS, METHOD_ARCS_STOPPED, METHOD_BALANCE, METHOD_COARSE, METHOD_FINE, METHOD_ORDER,
+    METHOD_RESIDUAL, PAIRS, assert_close,
 };
 
 /// Fields and loads in which shapes are compared, all in the plane of y and z.
@@ -110,6 +110,48 @@ fn every_method_agrees_with_the_potential_one() {
                         assert!(worst <= METHOD_COARSE, "{case}: above {METHOD_COARSE:e}");
                     }
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn every_method_has_the_same_bending_stop() {
+    // Closed, in transition and open: field (mT, towards y and z) in which three segments bend.
+    for (interaction, field) in [
+        (Interaction::None, [20.0, -10.0]),
+        (Interaction::Rings, [15.0, 2.0]),
+        (Interaction::Rings, [9.0, -3.0]),
+    ] {
+        let [y, z] = field;
+        let mut scene = scene(&format!("[field]\nuniform_mt = [0, {y}, {z}]"), 3, interaction);
+        scene.settings.bending_stop = true;
+        let design = scene.design().expect("a design");
+        let length = design.length();
+        let reference = reference(&scene, equilibrium::Settings { degree: 8, ..scene.settings });
+        let free = equilibrium::Settings { bending_stop: false, ..scene.settings };
+        let open = device(&Scene { settings: free, ..scene.clone() }, Settings::default())
+            .solve(&scene.inputs)
+            .map(|out| (out.status == Status::Solved, out.tip_angle));
+        println!(
+            "{interaction:?} {field:?}: cores {:.1?} deg, tip {:.1} deg, without stop {:.1?}",
+            reference.core_angles.iter().map(|angle| angle.to_degrees()).collect::<Vec<_>>(),
+            reference.tip_angle.to_degrees(),
+            open.map(|(solved, angle)| (solved, angle.to_degrees())),
+        );
+        for (method, label) in others() {
+            let got = solved(&scene, by(method));
+            let Errors { positions, wrenches, energy } = errors(length, &got, &reference);
+            println!("{label}: {positions:.1e} {wrenches:.1e} {energy:.1e}");
+            let case = format!("{label}, {}, {field:?} mT", interaction.name());
+            if method == Method::ConstantCurvature {
+                assert!(
+                    positions.max(wrenches) <= METHOD_ARCS_STOPPED,
+                    "{case}: above {METHOD_ARCS_STOPPED:e}"
+                );
+            } else {
+                let worst = positions.max(wrenches).max(energy);
+                assert!(worst <= METHOD_COARSE, "{case}: above {METHOD_COARSE:e}");
             }
         }
     }
@@ -229,9 +271,6 @@ fn what_a_method_cannot_is_refused() {
                 format!("method \"{label}\" has no interaction \"{level}\": choose \"none\" or \"rings\"");
             assert!(error.contains(&expected), "{error}");
         }
-        let stop = equilibrium::Settings { bending_stop: true, ..model(Interaction::None) };
-        assert!(new(stop, by(method)).expect_err(label).to_string().contains("bending stop"));
-
         let mut manipulator = new(model(Interaction::None), by(method)).expect("supported");
         let mut inputs = Inputs::unloaded(2);
         inputs.uniform_field.y = 0.02;

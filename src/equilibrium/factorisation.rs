@@ -1,7 +1,8 @@
 //! A factorised Hessian, with its origin and with how long its stability result stays valid.
 //!
 //! The Hessian depends on the shape and, through the rotation of the directors, on the forces and couples along the
-//! chain. While both have hardly changed, the factorisation and its stability result remain valid.
+//! chain. While both have hardly changed, the factorisation and its stability result remain valid, unless the stiffness
+//! of a load has changed that appears or vanishes abruptly, as that of touching windings does.
 
 use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -11,7 +12,37 @@ use super::condensation::{Condensation, turn_nodes};
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::numerics::cholesky;
-use crate::rod::ElementDerivatives;
+use crate::rod::{ElementDerivatives, Load};
+
+/// Total load on a node or element: what the validity of a Hessian depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TotalLoad {
+    /// Couple, N m.
+    couple: Matrix3<f64>,
+    /// Force, N.
+    force: Vector3<f64>,
+    /// Rotational stiffness of the loads that change abruptly with the shape, N m/rad.
+    abrupt: f64,
+}
+
+impl TotalLoad {
+    /// The sum of `loads`, with the stiffness of those that change abruptly.
+    pub(super) fn of<'a>(loads: impl IntoIterator<Item = &'a Load>, abrupt: f64) -> Self {
+        let none = Self { couple: Matrix3::zeros(), force: Vector3::zeros(), abrupt };
+        loads.into_iter().fold(none, |sum, load| Self {
+            couple: sum.couple + load.couple,
+            force: sum.force + load.force,
+            ..sum
+        })
+    }
+
+    /// Square of the change from `before`, with forces at the lever `arm` (m), (N m)2.
+    fn square_from(&self, before: &Self, arm: f64) -> f64 {
+        (self.couple - before.couple).norm_squared()
+            + ((self.force - before.force) * arm).norm_squared()
+            + (self.abrupt - before.abrupt).powi(2)
+    }
+}
 
 /// Coupling of rings and spans in the Hessian.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,8 +94,8 @@ pub(super) struct Linearisation {
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     origin: Origin,
-    /// Loads on nodes and elements: couple (N m) and force (N).
-    loads: Vec<(Matrix3<f64>, Vector3<f64>)>,
+    /// Loads on nodes and elements.
+    loads: Vec<TotalLoad>,
 }
 
 /// A factorised Hessian, with or without a shift.
@@ -100,7 +131,7 @@ impl Linearisation {
     pub(super) fn note(
         &mut self,
         (unknowns, nodes): (&[f64], &[Pose]),
-        loads: impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)>,
+        loads: impl Iterator<Item = TotalLoad>,
         inputs: &Inputs,
         rules: impl Iterator<Item = usize>,
     ) {
@@ -251,7 +282,7 @@ impl Factorisation {
         &self,
         chain: &Chain,
         unknowns: &[f64],
-        loads: impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)>,
+        loads: impl Iterator<Item = TotalLoad>,
         reach: f64,
     ) -> bool {
         let Linearisation { origin, loads: before, .. } = &*self.made;
@@ -261,13 +292,7 @@ impl Factorisation {
         let changes = unknowns.iter().zip(&origin.unknowns).map(|(a, b)| a - b);
         let turned: f64 = chain.metric.iter().zip(changes).map(|(k, change)| k * change * change).sum();
         let arm = chain.elements.first().map_or(0.0, |element| element.length);
-        let loaded: f64 = before
-            .iter()
-            .zip(loads)
-            .map(|(before, now)| {
-                (now.0 - before.0).norm_squared() + ((now.1 - before.1) * arm).norm_squared()
-            })
-            .sum();
+        let loaded: f64 = before.iter().zip(loads).map(|(before, now)| now.square_from(before, arm)).sum();
         let unit = chain.radian_norm();
         turned.sqrt() / unit + loaded.sqrt() / (unit * unit) <= reach
     }

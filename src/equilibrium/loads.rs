@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Matrix6};
 use super::pair_loads::Made;
 use super::potential::Potential;
 use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
-use crate::rod::{Load, Order};
+use crate::rod::{Configuration, Load, Order, PlacedCoupling, PlacedLoad};
 
 impl Potential<'_> {
     /// Places the chain and sums all loads; returns the energy, or `None` where bodies touch.
@@ -17,7 +17,7 @@ impl Potential<'_> {
             energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
         }
         self.work.wrenches = TermWrenches::none();
-        energy += self.load_stations(order)?;
+        energy += self.load_stations(order)? + self.load_stops(unknowns);
         self.load_nodes(order)?;
         if hessian {
             self.work.node_hessian.fill(0.0);
@@ -52,6 +52,36 @@ impl Potential<'_> {
             }
         }
         Some(energy)
+    }
+
+    /// Loads the ends of all cores whose windings touch; returns the energy of their contact.
+    fn load_stops(&mut self, unknowns: &[f64]) -> f64 {
+        let mut energy = 0.0;
+        if !self.terms.stops.act() {
+            return energy;
+        }
+        let work = &mut *self.work;
+        for (k, element) in self.chain.elements.iter().enumerate() {
+            let (placed, couplings) = &mut work.placed_loads[k];
+            placed.clear();
+            couplings.clear();
+            let amplitudes = self.chain.part(k, unknowns);
+            let tangents = element.core_ends.each_ref().map(|row| {
+                Configuration::rotation_at(element, row, amplitudes).matrix().column(2).into_owned()
+            });
+            let stop = self.terms.stops.loads(element, &tangents);
+            work.abrupt[k] = stop.as_ref().map_or(0.0, |stop| stop.stiffness);
+            let Some(stop) = stop else { continue };
+            for (row, load) in element.core_ends.iter().zip(stop.loads) {
+                energy += load.energy;
+                let frame = work.configurations[k].frame_at(element, row, amplitudes);
+                placed.push(PlacedLoad { row: row.clone(), frame, load });
+            }
+            let zero = Matrix3::zeros();
+            let matrix = blocks(&zero, &zero, &zero, &stop.mixed);
+            couplings.push(PlacedCoupling { between: [0, 1], matrix });
+        }
+        energy
     }
 
     fn load_nodes(&mut self, order: Order) -> Option<()> {

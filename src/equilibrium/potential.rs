@@ -12,7 +12,7 @@ use super::workspace::Workspace;
 use crate::numerics::arnoldi::smallest_real_part;
 use crate::numerics::eigenvalue::{Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
-use crate::rod::Order;
+use crate::rod::{ElementLoads, Order};
 
 /// Tolerance (radian norm) from which on tabulated ring fields may be used. Smaller tolerances are requested for finite
 /// differences, which the jumps of a table would spoil.
@@ -95,14 +95,15 @@ impl Potential<'_> {
             moment += load.moment();
             let axes = self.work.nodes[k].rotation;
             let tangent = &mut self.work.derivatives[k];
-            tangent.assemble(
-                element,
-                &self.work.configurations[k],
-                self.chain.part(k, unknowns),
-                &self.work.station_loads[k],
-                (&axes.tr_mul(&force), &axes.tr_mul(&moment)),
-                order,
-            );
+            let (placed, couplings) = &self.work.placed_loads[k];
+            let loads = ElementLoads {
+                stations: &self.work.station_loads[k],
+                placed,
+                couplings,
+                end: (axes.tr_mul(&force), axes.tr_mul(&moment)),
+            };
+            let amplitudes = self.chain.part(k, unknowns);
+            tangent.assemble(element, &self.work.configurations[k], amplitudes, &loads, order);
             let g = &tangent.gradient;
             force = axes * Vector3::new(g[0], g[1], g[2]);
             moment = axes * Vector3::new(g[3], g[4], g[5]);

@@ -1,14 +1,14 @@
 //! Workspace of the evaluations of the potential.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::chain::Chain;
-use super::factorisation::{Factorisation, Linearisation};
+use super::factorisation::{Factorisation, Linearisation, TotalLoad};
 use super::pair_loads::PairLoads;
 use super::settings::Settings;
 use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
-use crate::rod::{Configuration, ElementDerivatives, Load, START};
+use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
 
 /// Everything that an evaluation overwrites; kept between solves so that none of them allocates.
 #[derive(Debug, Clone)]
@@ -19,6 +19,10 @@ pub(super) struct Workspace {
     pub(super) placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
+    /// By element: loads on other frames, and their mixed derivatives.
+    pub(super) placed_loads: Vec<(Vec<PlacedLoad>, Vec<PlacedCoupling>)>,
+    /// By element: rotational stiffness (N m/rad) of the loads that change abruptly with the shape.
+    pub(super) abrupt: Vec<f64>,
     pub(super) pair_loads: PairLoads,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
@@ -46,6 +50,8 @@ impl Workspace {
             placed: vec![f64::NAN; chain.freedoms()],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
+            placed_loads: vec![(Vec::new(), Vec::new()); count],
+            abrupt: vec![0.0; count],
             pair_loads: PairLoads::new(chain),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
@@ -83,14 +89,15 @@ impl Workspace {
         self.factorisation.take().map(Factorisation::into_linearisation).or_else(|| self.linearisation.take())
     }
 
-    /// Loads on all nodes, then the total on each element: couple (N m) and force (N).
-    pub(super) fn loads(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_ {
-        let nodes = self.node_loads.iter().map(|load| (load.couple, load.force));
-        let elements = self.station_loads.iter().map(|loads| {
-            loads.iter().fold((Matrix3::zeros(), Vector3::zeros()), |(couple, force), load| {
-                (couple + load.couple, force + load.force)
-            })
-        });
+    /// Loads on all nodes, then the totals on each element.
+    pub(super) fn loads(&self) -> impl Iterator<Item = TotalLoad> + '_ {
+        let nodes = self.node_loads.iter().map(|load| TotalLoad::of([load], 0.0));
+        let elements = self.station_loads.iter().zip(&self.placed_loads).zip(&self.abrupt).map(
+            |((stations, (placed, _)), abrupt)| {
+                let placed = placed.iter().map(|placed| &placed.load);
+                TotalLoad::of(stations.iter().chain(placed), *abrupt)
+            },
+        );
         nodes.chain(elements)
     }
 }

@@ -3,7 +3,6 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::line::Line;
-use crate::design::SpanKind;
 use crate::geometry::{Pose, RotationVector};
 
 /// The arc of one element: its core, or all of a plain rod.
@@ -39,7 +38,7 @@ pub(super) struct Bent {
 impl Arc {
     pub(super) fn new(line: &Line, element: usize) -> Self {
         let spans = &line.spans[element];
-        let core = spans.iter().position(|span| span.kind == SpanKind::Core).unwrap_or(0);
+        let core = line.core(element);
         let lengths = |from: usize, to: usize| spans[from..to].iter().map(|span| span.length).sum::<f64>();
         let compliance: f64 = spans.iter().map(|span| span.length / span.stiffness.bending).sum();
         Self {

@@ -5,7 +5,7 @@
 //!
 //! Source: Webster and Jones, Int. J. Robot. Res. 29, 2010, doi:10.1177/0278364910368147 (kinematics).
 
-use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3, Matrix6, Vector2, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix2, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 use super::arc::{Arc, Bent};
 use super::line::{Line, Place};
@@ -182,10 +182,26 @@ impl Balance<'_, '_> {
         out
     }
 
+    /// Moment of an element's bending stop against its angles (N m), and its derivative.
+    fn stop(&self, element: usize, angles: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+        let (terms, chain) = (&self.around.terms, &self.around.line.chain);
+        let (bend, stop) = (angles.norm(), chain.elements[element].stop.as_ref());
+        let energy = stop.filter(|_| terms.stops.act()).and_then(|stop| stop.energy(bend));
+        energy.map_or_else(Default::default, |[_, first, second]| {
+            let (along, by_angle) = (angles / bend, first / bend);
+            let outer = along * along.transpose();
+            (along * first, Matrix2::identity() * by_angle + outer * (second - by_angle))
+        })
+    }
+
     /// The balance in units of moment; `columns` are the derivatives of all bodies, see [`Balance::columns`].
     fn balance(&self, angles: &[Vector2<f64>], bodies: &[Body], columns: &[DMatrix<f64>]) -> DVector<f64> {
         let mut out =
             DVector::from_fn(2 * self.arcs.len(), |i, _| self.arcs[i / 2].stiffness * angles[i / 2][i % 2]);
+        for (element, angles) in angles.iter().enumerate() {
+            let mut own = out.fixed_rows_mut::<2>(2 * element);
+            own += self.stop(element, angles).0;
+        }
         for (body, columns) in bodies.iter().zip(columns) {
             out += columns.tr_mul(&body.gradient);
         }
@@ -267,6 +283,10 @@ impl Equations for Balance<'_, '_> {
         for (row, by, block) in &couplings {
             let [row, by] = [row, by].map(|node| &columns[numbers[node - 1]]);
             matrix += row.tr_mul(&(block * by));
+        }
+        for (element, angles) in at.iter().enumerate() {
+            let mut own = matrix.fixed_view_mut::<2, 2>(2 * element, 2 * element);
+            own += self.stop(element, angles).1;
         }
         geometric(&mut matrix, &bodies, &bent);
         self.factors = Some((matrix / self.around.line.moment).lu());

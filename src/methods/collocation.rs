@@ -10,7 +10,7 @@
 
 use nalgebra::Matrix6;
 
-use super::condensation::Condensed;
+use super::condensation::{Condensed, Windings};
 use super::line::Line;
 use super::mesh::{Interval, Tableau};
 use super::node_shape::{Basis, NodeShape, couplings, flat, size};
@@ -100,8 +100,9 @@ impl Collocation {
         let Guess { shape, mesh } = &self.guess;
         let mut trace = Trace::default();
         for (element, intervals) in mesh.iter().enumerate() {
-            let mut state = around.offset(element, &shape.state(element), Some(&mut trace));
-            for interval in intervals {
+            around.offset(element, &shape.state(element), Some(&mut trace));
+            let (starts, _) = starts(around, &self.tableau, &self.guess, element);
+            for (interval, state) in intervals.iter().zip(starts) {
                 let mut from = (interval.at(0.0), state);
                 for part in 1..=LINKS {
                     let x = part as f64 / LINKS as f64;
@@ -111,12 +112,35 @@ impl Collocation {
                     trace.add(&from.0, length, [&from.1.pose, &to.1.pose], &rates);
                     from = to;
                 }
-                state = from.1;
             }
         }
         trace.add_rigid(around.line.chain.tip_offset, &shape.nodes[mesh.len()]);
         Some(Shape { nodes: shape.nodes.clone(), base: shape.wrenches[0], trace })
     }
+}
+
+/// The start of every interval of an element, and the element's end; then its touching windings.
+fn starts(
+    around: &Surroundings<'_>,
+    tableau: &Tableau,
+    at: &Guess,
+    element: usize,
+) -> (Vec<State>, Option<Windings>) {
+    let mut states = vec![around.offset(element, &at.shape.state(element), None)];
+    for (k, interval) in at.mesh[element].iter().enumerate() {
+        states.push(states[k].displaced(&interval.end(tableau)));
+    }
+    let core = around.line.core(element);
+    let piece = |piece: usize| at.mesh[element].partition_point(|interval| interval.place.piece < piece);
+    let intervals = piece(core)..piece(core + 1);
+    let ends = [intervals.start, intervals.end].map(|k| &states[k].pose);
+    let carried = around.winding_moment(element, ends);
+    if let Some(carried) = &carried {
+        for state in &mut states[intervals.clone()] {
+            *state = state.relieved(&carried.moment);
+        }
+    }
+    (states, carried.map(|carried| Windings { intervals, by_ends: carried.by_ends }))
 }
 
 impl<'a, 'b> Collocated<'a, 'b> {
@@ -149,20 +173,11 @@ impl<'a, 'b> Collocated<'a, 'b> {
         square.sqrt()
     }
 
-    /// The start of every interval of an element, and the element's end.
-    fn starts(&self, at: &Guess, element: usize) -> Vec<State> {
-        let mut states = vec![self.around.offset(element, &at.shape.state(element), None)];
-        for (k, interval) in at.mesh[element].iter().enumerate() {
-            states.push(states[k].displaced(&interval.end(self.tableau)));
-        }
-        states
-    }
-
     /// Divides intervals whose residual is too large; whether there were any, `None` where their number exceeds the limit.
     fn refined(&self, guess: &mut Guess, tolerance: f64) -> Option<bool> {
         let mut refined = false;
         for element in 0..guess.mesh.len() {
-            let starts = self.starts(guess, element);
+            let (starts, _) = starts(self.around, self.tableau, guess, element);
             let mut divided = Vec::new();
             for (interval, start) in guess.mesh[element].iter().zip(&starts) {
                 let excess = interval.residual(self.around, self.tableau, start, &self.scale)? / tolerance;
@@ -189,7 +204,7 @@ impl Equations for Collocated<'_, '_> {
         let mut ends = Vec::new();
         self.residuals.clear();
         for element in 0..at.mesh.len() {
-            let starts = self.starts(at, element);
+            let (starts, _) = starts(self.around, self.tableau, at, element);
             let mut residuals = Vec::new();
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
                 let lack = |j: usize| {
@@ -212,7 +227,7 @@ impl Equations for Collocated<'_, '_> {
         self.residuals.clear();
         self.condensed.clear();
         for element in 0..at.mesh.len() {
-            let starts = self.starts(at, element);
+            let (starts, windings) = starts(self.around, self.tableau, at, element);
             let mut condensed = Condensed::new(self.around, &self.basis, element, &at.shape.state(element));
             let mut residuals = Vec::new();
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
@@ -225,6 +240,9 @@ impl Equations for Collocated<'_, '_> {
                 residuals
                     .push(lack.map(|(stage, rate)| (stage.rate - rate).component_mul(&self.scale)).collect());
                 condensed.add(self.tableau, interval, &stages)?;
+            }
+            if let Some(windings) = windings {
+                condensed.couple(windings)?;
             }
             let end = starts[starts.len() - 1];
             let mut link = condensed.link();

@@ -92,10 +92,6 @@ impl Comparison {
                 "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
             )));
         }
-        if model.bending_stop {
-            let stop = "bending stop, which acts between the ends of a core";
-            return Err(Error::Unsupported(format!("method \"{own}\" has no {stop}: choose \"{other}\"")));
-        }
         let line = Line::new(design, &model)?;
         let state = State::straight(&line, &settings)?;
         Ok(Self {

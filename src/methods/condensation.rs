@@ -2,7 +2,9 @@
 //!
 //! All coordinates are nondimensional: a state's change relative to its units, a rate relative to its unit per element length.
 
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use core::ops::Range;
+
+use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix3, SMatrix, Vector3};
 
 use super::mesh::{Interval, Tableau};
 use super::node_shape::Basis;
@@ -22,6 +24,23 @@ struct Eliminated {
     end: Vector12,
 }
 
+/// Touching windings of an element's core.
+#[derive(Debug)]
+pub(super) struct Windings {
+    /// Intervals of the core.
+    pub(super) intervals: Range<usize>,
+    /// Derivatives of the moment that they carry with respect to rotations of both ends of the core, N m/rad.
+    pub(super) by_ends: [Matrix3<f64>; 2],
+}
+
+/// Their effect on the linearised element, in nondimensional coordinates.
+#[derive(Debug)]
+struct Coupled {
+    windings: Windings,
+    /// Inverse of the derivative of the moment's equation with respect to the moment.
+    inverse: Matrix3<f64>,
+}
+
 /// All intervals of an element, and the map of a change from its start to its end.
 #[derive(Debug)]
 pub(super) struct Condensed {
@@ -31,6 +50,7 @@ pub(super) struct Condensed {
     length: f64,
     offset: Matrix12,
     own: Matrix12,
+    coupled: Option<Coupled>,
 }
 
 impl Condensed {
@@ -40,7 +60,7 @@ impl Condensed {
         units.fixed_rows_mut::<6>(6).copy_from(&basis.wrench.diagonal());
         let rigid = start.advance_derivative(around.line.chain.elements[element].offset);
         let offset = Matrix12::from_fn(|i, j| rigid[(i, j)] * units[j] / units[i]);
-        Self { intervals: Vec::new(), units, length: around.line.length, offset, own: offset }
+        Self { intervals: Vec::new(), units, length: around.line.length, offset, own: offset, coupled: None }
     }
 
     /// Eliminates the rates of the next interval; `None` where they are indeterminate (singular matrix).
@@ -73,6 +93,37 @@ impl Condensed {
         solved.then_some(())
     }
 
+    /// Adds the moment that touching windings carry beside the core, after all intervals; `None` where it is
+    /// indeterminate.
+    pub(super) fn couple(&mut self, mut windings: Windings) -> Option<()> {
+        for by in &mut windings.by_ends {
+            *by /= self.units[9];
+        }
+        let Range { start, end } = windings.intervals;
+        let (mut own, mut turned) = (self.offset, [SMatrix::<f64, 3, 12>::zeros(); 2]);
+        let mut by_moment = SMatrix::<f64, 12, 3>::zeros();
+        let mut inverse = Matrix3::zeros();
+        for (k, interval) in self.intervals.iter().enumerate() {
+            if k == start {
+                turned[0] = own.fixed_rows::<3>(3).into_owned();
+                by_moment.fixed_rows_mut::<3>(9).fill_with_identity();
+                by_moment.neg_mut();
+            }
+            (own, by_moment) = (interval.carried(&own), interval.carried(&by_moment));
+            if k + 1 == end {
+                turned[1] = own.fixed_rows::<3>(3).into_owned();
+                let turned_by_moment = by_moment.fixed_rows::<3>(3);
+                inverse = (Matrix3::identity() - windings.by_ends[1] * turned_by_moment).try_inverse()?;
+                let mut moment = by_moment.fixed_rows_mut::<3>(9);
+                moment += Matrix3::identity();
+            }
+        }
+        let [near, far] = &windings.by_ends;
+        self.own = own + by_moment * (inverse * (near * turned[0] + far * turned[1]));
+        self.coupled = Some(Coupled { windings, inverse });
+        Some(())
+    }
+
     /// The linearised element for the nodal equations; `next` is not set.
     pub(super) fn link(&self) -> Link<6> {
         let own = |row: usize, column: usize| self.own.fixed_view::<6, 6>(row, column).into_owned();
@@ -96,16 +147,47 @@ impl Condensed {
         &self,
         particular: &[DVector<f64>],
         start: &Vector12,
+        step: Option<&mut Vec<f64>>,
+    ) -> Vector12 {
+        let mut moment = Vector3::zeros();
+        if let Some(Coupled { windings, inverse }) = &self.coupled {
+            let turned = |count: usize| {
+                let change = self.advance(&particular[..count], start, &moment, None);
+                change.fixed_rows::<3>(3).into_owned()
+            };
+            let [near, far] = &windings.by_ends;
+            moment =
+                inverse * (near * turned(windings.intervals.start) + far * turned(windings.intervals.end));
+        }
+        self.advance(particular, start, &moment, step)
+    }
+
+    /// Maps a change of the start node over as many intervals as there are particular solutions, with a change `moment` of
+    /// what the windings carry beside the core.
+    fn advance(
+        &self,
+        particular: &[DVector<f64>],
+        start: &Vector12,
+        moment: &Vector3<f64>,
         mut step: Option<&mut Vec<f64>>,
     ) -> Vector12 {
+        let core = self.coupled.as_ref().map_or(0..0, |coupled| coupled.windings.intervals.clone());
         let mut change = self.offset * start;
-        for (interval, own) in self.intervals.iter().zip(particular) {
+        for (k, (interval, own)) in self.intervals.iter().zip(particular).enumerate() {
+            if core.contains(&k) && k == core.start {
+                let mut internal = change.fixed_rows_mut::<3>(9);
+                internal -= moment;
+            }
             let rates = own + &interval.by_start * change;
             let (mut sum, turned) = split(&change);
             for (j, weight) in interval.weights.iter().enumerate() {
                 sum += rates.fixed_rows::<12>(12 * j) * *weight;
             }
             change = join(&interval.end, &sum, &turned);
+            if k + 1 == core.end {
+                let mut internal = change.fixed_rows_mut::<3>(9);
+                internal += moment;
+            }
             if let Some(step) = step.as_deref_mut() {
                 step.extend(rates.iter());
             }
@@ -116,7 +198,7 @@ impl Condensed {
 
 impl Eliminated {
     /// Maps columns of changes from the interval's start to its end.
-    fn carried(&self, start: &Matrix12) -> Matrix12 {
+    fn carried<const C: usize>(&self, start: &SMatrix<f64, 12, C>) -> SMatrix<f64, 12, C> {
         let (mut sum, turned) = split(start);
         for (j, weight) in self.weights.iter().enumerate() {
             sum += self.by_start.fixed_view::<12, 12>(12 * j, 0) * start * *weight;

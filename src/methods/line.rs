@@ -1,6 +1,6 @@
 //! The chain as a domain of differential equations: rigid offset and spans of each element, in sequence.
 
-use crate::design::{Design, Span};
+use crate::design::{Design, Span, SpanKind};
 use crate::equilibrium::{Chain, Interaction, Settings};
 use crate::error::Error;
 
@@ -49,6 +49,11 @@ impl Line {
     /// Number of elements.
     pub(super) fn count(&self) -> usize {
         self.spans.len()
+    }
+
+    /// Index of an element's core among its spans; 0 for a plain rod.
+    pub(super) fn core(&self, element: usize) -> usize {
+        self.spans[element].iter().position(|span| span.kind == SpanKind::Core).unwrap_or(0)
     }
 
     /// Units of force (N) and moment (N m): those that bend an element by one radian.

@@ -2,6 +2,7 @@
 
 mod arc;
 mod arcs;
+mod bending_stop;
 mod collocation;
 mod comparison;
 mod condensation;

@@ -115,6 +115,23 @@ impl<'a, 'b> InPlane<'a, 'b> {
         Some((end, by_start))
     }
 
+    /// Integrates a state along one span, with the derivative with respect to displacement and wrench in the plane.
+    fn span(&self, element: usize, piece: usize, state: &State) -> Option<(State, Matrix12)> {
+        let (mut y, mut own) = (self.coordinates(state), Matrix6::identity());
+        let (count, length) = self.around.steps(element, piece, self.steps);
+        for index in 0..count {
+            let place = Place { element, piece, s: index as f64 * length };
+            let (next, by_start) = self.step_linear(&place, length, &y)?;
+            (y, own) = (next, by_start * own);
+        }
+        let mut whole = Matrix12::zeros();
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let block = self.axes * own.fixed_view::<3, 3>(3 * i, 3 * j) * self.axes.transpose();
+            whole.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
+        }
+        Some((self.state(&y), whole))
+    }
+
     /// The rates in the form of those of a rod in space.
     fn spatial(&self, place: &Place, y: &Vector6<f64>) -> Option<Rates> {
         let (rates, _) = self.rates(place, y, Order::Gradient)?;
@@ -133,6 +150,11 @@ impl Crossing<3> for InPlane<'_, '_> {
         let mut y = self.coordinates(&self.around.offset(element, state, trace.as_deref_mut()));
         for piece in 0..self.around.line.spans[element].len() {
             let (count, length) = self.around.steps(element, piece, self.steps);
+            let relief = self
+                .around
+                .relief((element, piece), &self.state(&y), |state| self.span(element, piece, state))?;
+            let carried = self.plane.normal.dot(&relief.moment);
+            y[5] -= carried;
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
                 let next = self.step(&place, length, &y)?;
@@ -143,32 +165,21 @@ impl Crossing<3> for InPlane<'_, '_> {
                 }
                 y = next;
             }
+            y[5] += carried;
         }
         y.iter().all(|entry| entry.is_finite()).then(|| self.state(&y))
     }
 
     fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<3>)> {
-        let rigid = state.advance_derivative(self.around.line.chain.elements[element].offset);
-        let mut y = self.coordinates(&self.around.offset(element, state, None));
-        let mut own = Matrix6::zeros();
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let block = rigid.fixed_view::<6, 6>(6 * i, 6 * j);
-            own.fixed_view_mut::<3, 3>(3 * i, 3 * j).copy_from(&(self.axes.transpose() * block * self.axes));
-        }
+        let mut own = state.advance_derivative(self.around.line.chain.elements[element].offset);
+        let mut state = self.around.offset(element, state, None);
         for piece in 0..self.around.line.spans[element].len() {
-            let (count, length) = self.around.steps(element, piece, self.steps);
-            for index in 0..count {
-                let place = Place { element, piece, s: index as f64 * length };
-                let (next, by_start) = self.step_linear(&place, length, &y)?;
-                (y, own) = (next, by_start * own);
-            }
+            let across = |state: &State| self.span(element, piece, state);
+            let relief = self.around.relief((element, piece), &state, across)?;
+            let (end, span) = across(&state.relieved(&relief.moment))?;
+            (state, own) = (end.relieved(&-relief.moment), relief.with(&span) * own);
         }
-        let mut whole = Matrix12::zeros();
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            let block = self.axes * own.fixed_view::<3, 3>(3 * i, 3 * j) * self.axes.transpose();
-            whole.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
-        }
-        y.iter().all(|entry| entry.is_finite()).then(|| (self.state(&y), self.basis.link(&whole)))
+        state.is_finite().then(|| (state, self.basis.link(&own)))
     }
 }
 

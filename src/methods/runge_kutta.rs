@@ -43,6 +43,9 @@ impl Surroundings<'_> {
         let mut state = self.offset(element, state, trace.as_deref_mut());
         for piece in 0..self.line.spans[element].len() {
             let (count, length) = self.steps(element, piece, steps);
+            let relief = self
+                .relief((element, piece), &state, |state| self.span_linear((element, piece), state, steps))?;
+            state = state.relieved(&relief.moment);
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
                 let next = self.step(&Step { place, start: state, length })?;
@@ -53,6 +56,7 @@ impl Surroundings<'_> {
                 }
                 state = next;
             }
+            state = state.relieved(&-relief.moment);
         }
         state.is_finite().then_some(state)
     }
@@ -86,13 +90,28 @@ impl Surroundings<'_> {
         let mut own = state.advance_derivative(self.line.chain.elements[element].offset);
         let mut state = self.offset(element, state, None);
         for piece in 0..self.line.spans[element].len() {
-            let (count, length) = self.steps(element, piece, steps);
-            for index in 0..count {
-                let place = Place { element, piece, s: index as f64 * length };
-                (state, own) = self.step_linear(&Step { place, start: state, length }, &own)?;
-            }
+            let across = |state: &State| self.span_linear((element, piece), state, steps);
+            let relief = self.relief((element, piece), &state, across)?;
+            let (end, span) = across(&state.relieved(&relief.moment))?;
+            (state, own) = (end.relieved(&-relief.moment), relief.with(&span) * own);
         }
         state.is_finite().then_some((state, own))
+    }
+
+    /// Integrates `state` along one span, with the derivative with respect to displacement and wrench.
+    fn span_linear(
+        &self,
+        (element, piece): (usize, usize),
+        state: &State,
+        steps: usize,
+    ) -> Option<(State, Matrix12)> {
+        let (mut state, mut own) = (*state, Matrix12::identity());
+        let (count, length) = self.steps(element, piece, steps);
+        for index in 0..count {
+            let place = Place { element, piece, s: index as f64 * length };
+            (state, own) = self.step_linear(&Step { place, start: state, length }, &own)?;
+        }
+        Some((state, own))
     }
 
     /// One step, which also maps the changes in the columns of `own` from its start to its end.

@@ -5,7 +5,6 @@ use nalgebra::{Vector3, Vector6};
 use super::line::{Line, Place};
 use super::strong_form::Rates;
 use super::surroundings::Surroundings;
-use crate::design::SpanKind;
 use crate::equilibrium::{Frame, TermWrenches};
 use crate::geometry::{Pose, RotationVector, rotation_log};
 use crate::numerics::quadrature::gauss_legendre;
@@ -133,12 +132,9 @@ impl Trace {
 
     /// Bending angle of each core, or of each segment without one.
     pub(super) fn core_angles(&self, line: &Line) -> Vec<f64> {
-        let core = |element: usize| {
-            line.spans[element].iter().position(|span| span.kind == SpanKind::Core).unwrap_or(0)
-        };
         let axis = |link: Option<&Link>, x: f64| link.map_or(Vector3::z(), |link| link.at(x).0.axis());
         let on = |link: &&Link, element: usize| {
-            link.place.is_some_and(|place| place.element == element && place.piece == core(element))
+            link.place.is_some_and(|place| place.element == element && place.piece == line.core(element))
         };
         let angle = |&(first, last): &(usize, usize)| {
             let start = axis(self.links.iter().find(|link| on(link, first)), 0.0);
@@ -147,10 +143,21 @@ impl Trace {
         line.chain.cores.iter().map(angle).collect()
     }
 
-    /// External wrenches and energy of the spans, integrated along the shape.
+    /// Energy of touching windings, J.
+    fn stop_energy(&self, around: &Surroundings<'_>) -> f64 {
+        let (line, stops) = (around.line, around.terms.stops);
+        let cores = line.chain.cores.iter().zip(self.core_angles(line)).filter(|_| stops.act());
+        let energy = |((element, _), angle): (&(usize, usize), f64)| {
+            let stop = line.chain.elements[*element].stop.as_ref();
+            stop.and_then(|stop| stop.energy(angle)).map_or(0.0, |[energy, ..]| energy)
+        };
+        cores.map(energy).sum()
+    }
+
+    /// External wrenches on the spans and all energy of the spans, integrated along the shape.
     pub(super) fn totals(&self, around: &Surroundings<'_>) -> Option<Totals> {
         let (points, weights) = gauss_legendre(LINK_POINTS);
-        let mut out = Totals { wrenches: TermWrenches::none(), energy: 0.0 };
+        let mut out = Totals { wrenches: TermWrenches::none(), energy: self.stop_energy(around) };
         for (link, from) in self.links.iter().filter_map(|link| Some((link, link.place?))) {
             let span = &around.line.spans[from.element][from.piece];
             for (point, weight) in points.iter().zip(&weights) {

@@ -1,11 +1,11 @@
 //! The bending stop: adjacent windings touch when a core is bent by its boundary angle.
 
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3};
 
+use super::load::Load;
 use super::piece::Piece;
-use super::row::{ROTATIONS, Row};
 use crate::design::SpanKind;
-use crate::geometry::{RotationVector, hat};
+use crate::geometry::hat;
 
 /// Half the width of the transition from open to closed windings, relative to the boundary angle: the real windings
 /// of a core do not all touch at once.
@@ -29,24 +29,26 @@ const HALF_TURN: f64 = 0.999;
 ///
 /// Boundary angle: Richter et al., Fig. 2B, D; their model has no bending stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stop {
+pub struct BendingStop {
     /// Boundary angle, rad.
     angle: f64,
     /// Stiffness that the closed windings add, N m/rad.
     stiffness: f64,
 }
 
-/// Energy of a bending stop and its derivatives with respect to the rotation vectors at both ends of the core.
-pub(super) struct Contact {
-    /// Energy, J.
-    pub(super) energy: f64,
-    /// First derivatives with respect to both vectors, J/rad.
-    pub(super) slope: Vector6<f64>,
-    /// Second derivatives, J/rad2.
-    pub(super) curve: Matrix6<f64>,
+/// Energy of a bending stop as loads on the frames at both ends of the core.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StopLoads {
+    /// Loads on the near and the far end, couples alone; the energy is that of the second, infinite where the core is
+    /// bent by more than [`HALF_TURN`].
+    pub loads: [Load; 2],
+    /// Mixed second derivative with respect to the rotations of the near and the far end, N m.
+    pub mixed: Matrix3<f64>,
+    /// Stiffness that the closed windings add, N m/rad: it appears within a few degrees.
+    pub stiffness: f64,
 }
 
-impl Stop {
+impl BendingStop {
     /// The bending stop of an element's core; `None` if it has no windings.
     pub(super) fn new(pieces: &[Piece<'_>]) -> Option<Self> {
         let core = pieces.iter().find(|piece| piece.span.kind == SpanKind::Core)?;
@@ -55,57 +57,50 @@ impl Stop {
         Some(Self { angle: spiral.boundary_angle, stiffness: added / core.length })
     }
 
-    /// Contact of the windings of a core with these end rows; `None` where they are open.
-    pub(super) fn contact(
-        &self,
-        ends: &[Row; 2],
-        amplitudes: &[f64],
-        component: &[usize],
-    ) -> Option<Contact> {
-        let vectors = ends.each_ref().map(|row| rotation_vector(row, amplitudes, component));
-        let matrices = vectors.each_ref().map(RotationVector::matrix);
-        let tangents = matrices.each_ref().map(|matrix| matrix.column(2).into_owned());
-        let cosine = tangents[0].dot(&tangents[1]);
-        let sine = tangents[0].cross(&tangents[1]).norm();
-        let theta = sine.atan2(cosine);
-        let [potential, first, second] = transition(theta - self.angle, TRANSITION * self.angle)?;
+    /// Energy (J) at the bending angle `angle` (rad), with its first two derivatives; `None` where the windings are open.
+    #[must_use]
+    pub fn energy(&self, angle: f64) -> Option<[f64; 3]> {
+        let derivatives = transition(angle - self.angle, TRANSITION * self.angle)?;
+        Some(derivatives.map(|value| self.stiffness * value))
+    }
+
+    /// Fraction of the closed section's stiffness that is reached at the bending angle `angle` (rad), from 0 (open) to 1.
+    #[must_use]
+    pub fn closed(&self, angle: f64) -> f64 {
+        transition(angle - self.angle, TRANSITION * self.angle).map_or(0.0, |[_, _, second]| second)
+    }
+
+    /// Loads on the ends of a core with these unit tangents `d3`; `None` where the windings are open.
+    #[must_use]
+    pub fn loads(&self, tangents: &[Vector3<f64>; 2]) -> Option<StopLoads> {
+        let theta = bending_angle(tangents);
+        let [energy, first, second] = self.energy(theta)?;
+        let mut out = StopLoads { loads: [Load::zero(); 2], mixed: Matrix3::zeros(), stiffness: second };
         if theta > HALF_TURN * core::f64::consts::PI {
-            return Some(Contact { energy: f64::INFINITY, slope: Vector6::zeros(), curve: Matrix6::zeros() });
+            out.loads[1].energy = f64::INFINITY;
+            return Some(out);
         }
         // The angle as a function of its cosine c: d theta / d c = -1 / sine, d2 theta / d c2 = -cosine / sine^3.
+        let (sine, cosine) = theta.sin_cos();
         let by_cosine = -first / sine;
         let by_cosine_twice = second / (sine * sine) - first * cosine / sine.powi(3);
-        let end = Vector3::z().transpose();
-        let (slope_near, curve_near) = vectors[0].contract_rotation(&(tangents[1] * end));
-        let (slope_far, curve_far) = vectors[1].contract_rotation(&(tangents[0] * end));
-        let turned = |i: usize| -> Matrix3<f64> { hat(&tangents[i]) * vectors[i].left_jacobian() };
-        let mixed = turned(0).tr_mul(&turned(1));
-        let mut slope = Vector6::zeros();
-        slope.fixed_rows_mut::<3>(0).copy_from(&slope_near);
-        slope.fixed_rows_mut::<3>(3).copy_from(&slope_far);
-        let mut curve = slope * slope.transpose() * by_cosine_twice;
-        for (row, column, block) in
-            [(0, 0, curve_near), (0, 3, mixed), (3, 0, mixed.transpose()), (3, 3, curve_far)]
-        {
-            let mut target = curve.fixed_view_mut::<3, 3>(row, column);
-            target += block * by_cosine;
+        let [near, far] = tangents;
+        let across = near.cross(far);
+        let own = across * across.transpose() * by_cosine_twice;
+        for (load, (tangent, other)) in out.loads.iter_mut().zip([(near, far), (far, near)]) {
+            load.couple = other * tangent.transpose() * by_cosine;
+            load.rotation_rotation = own;
+            load.stiff = true;
         }
-        Some(Contact {
-            energy: self.stiffness * potential,
-            slope: slope * (self.stiffness * by_cosine),
-            curve: curve * self.stiffness,
-        })
+        out.loads[1].energy = energy;
+        out.mixed = hat(near).tr_mul(&hat(far)) * by_cosine - own;
+        Some(out)
     }
 }
 
-fn rotation_vector(row: &Row, amplitudes: &[f64], component: &[usize]) -> RotationVector {
-    let mut vector = Vector3::zeros();
-    for ((c, integral), amplitude) in component.iter().zip(&row.integral).zip(amplitudes) {
-        if *c < ROTATIONS {
-            vector[*c] += integral * amplitude;
-        }
-    }
-    RotationVector::new(vector)
+/// Angle between two unit tangents, rad.
+fn bending_angle([near, far]: &[Vector3<f64>; 2]) -> f64 {
+    near.cross(far).norm().atan2(near.dot(far))
 }
 
 /// `P` and its first two derivatives at `x`, with a transition from `-width` to `width`; `None` before it.

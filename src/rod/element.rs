@@ -1,17 +1,18 @@
 //! An element: the deformable spans between two nodes, with tables of its modes and stations.
 
 use core::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::Vector2;
 
 use super::basis::{Ends, Modes, Part};
+use super::bending_stop::BendingStop;
 use super::fine_points::fine_points;
 use super::moments::SectionMoments;
 use super::piece::Piece;
 use super::row::{COMPONENTS, Row};
 use super::section_material::SectionMaterial;
 use super::source_geometry::SourceGeometry;
-use super::stop::{Contact, Stop};
 use crate::design::{SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
@@ -34,7 +35,7 @@ pub struct Resolution {
     pub degree: usize,
     /// Geometry of the nearest ring whose field the Gauss points must resolve; `None` where no ring acts on the element.
     pub nearest: Option<SourceGeometry>,
-    /// Whether touching windings stiffen a core (bending stop).
+    /// Whether touching windings may stiffen a core (bending stop), which the bending modes beside the core must follow.
     pub bending_stop: bool,
 }
 
@@ -73,8 +74,9 @@ pub struct Element {
     /// The components as runs: component and range of degrees of freedom.
     pub runs: Vec<(usize, Range<usize>)>,
     /// Mode tables at the ends of the core (or of the whole element, for a plain rod).
-    pub core_ends: [Row; 2],
-    stop: Option<Stop>,
+    pub core_ends: [Arc<Row>; 2],
+    /// The bending stop of the core; `None` without windings.
+    pub stop: Option<BendingStop>,
     modes: [Modes; COMPONENTS],
     /// Length, nodes on [-1, 1] and first station of each piece.
     pieces: Vec<(f64, Vec<f64>, usize)>,
@@ -99,8 +101,9 @@ impl Element {
             });
             Modes::new(parts.collect(), core, degree, ends)
         };
-        let stop = if resolution.bending_stop { Stop::new(pieces) } else { None };
-        let bending = modes(|k| k.bending, if stop.is_some() { Ends::Jump } else { Ends::Linear });
+        let stop = BendingStop::new(pieces);
+        let jumps = resolution.bending_stop && stop.is_some();
+        let bending = modes(|k| k.bending, if jumps { Ends::Jump } else { Ends::Linear });
         let shear = modes(|k| k.shear, Ends::Constant);
         let (torsion, axial) = (modes(|k| k.torsion, Ends::Constant), modes(|k| k.axial, Ends::Constant));
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
@@ -122,7 +125,7 @@ impl Element {
             first += points;
         }
         let length = pieces.iter().map(|piece| piece.length).sum();
-        let empty = Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] };
+        let empty = Arc::new(Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] });
         let mut element = Self {
             offset,
             length,
@@ -135,7 +138,7 @@ impl Element {
             modes,
             pieces: tables,
         };
-        element.core_ends = [before, before + core_length].map(|s| element.row(s));
+        element.core_ends = [before, before + core_length].map(|s| Arc::new(element.row(s)));
         for (index, piece) in pieces.iter().enumerate() {
             element.add_stations(index, piece);
         }
@@ -176,11 +179,6 @@ impl Element {
         }
         out.retain(|entry| entry.2.abs() > NEGLIGIBLE);
         out
-    }
-
-    /// Contact energy of the core's windings; `None` where they do not touch.
-    pub(super) fn contact(&self, amplitudes: &[f64]) -> Option<Contact> {
-        self.stop.as_ref()?.contact(&self.core_ends, amplitudes, &self.component)
     }
 
     /// Tables at arc length `s` from the element's start, clamped to the element.

@@ -9,8 +9,8 @@ use super::bending::{self, Bending};
 use super::element::Element;
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
+use super::placed_load::{PlacedCoupling, PlacedLoad};
 use super::row::{COMPONENTS, ROTATIONS, Row};
-use super::stop::Contact;
 
 /// Order of the derivatives to evaluate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +23,19 @@ pub enum Order {
 
 /// Number of columns of the start node.
 pub const START: usize = 6;
+
+/// All loads on one element, in the axes of its start node.
+#[derive(Debug, Clone, Copy)]
+pub struct ElementLoads<'a> {
+    /// Load on each Gauss point.
+    pub stations: &'a [Load],
+    /// Loads on frames at other arc lengths.
+    pub placed: &'a [PlacedLoad],
+    /// Mixed second derivatives of pairs of these.
+    pub couplings: &'a [PlacedCoupling],
+    /// Force (N) and moment (N m) on the end: the load of the rest of the chain, as derivatives of its energy.
+    pub end: (Vector3<f64>, Vector3<f64>),
+}
 
 /// First and second derivatives of one element's contribution to the Lagrangian.
 #[derive(Debug, Clone)]
@@ -37,10 +50,10 @@ pub struct ElementDerivatives {
     pub end_position: Vec<Vector3<f64>>,
     /// Derivatives of each station's tangent with respect to the amplitudes: three rows per station.
     tangents: Vec<f64>,
-    /// Derivatives of one station's displacement and rotation with respect to every column: six rows.
-    motion: Vec<f64>,
-    /// The station's load stiffness times these: six rows.
-    answer: Vec<f64>,
+    /// Derivatives of one frame's displacement and rotation with respect to every column: six rows.
+    pub(super) motion: Vec<f64>,
+    /// The frame's load stiffness times these: six rows.
+    pub(super) answer: Vec<f64>,
 }
 
 impl ElementDerivatives {
@@ -60,50 +73,56 @@ impl ElementDerivatives {
         }
     }
 
-    /// Assembles the elastic energy, the station loads and the wrench `(end_force, end_moment)` on the end.
-    ///
-    /// That wrench is the load of the rest of the chain (derivatives of its energy). All are in the axes of the start node.
+    /// Assembles the elastic energy and all `loads`.
     pub fn assemble(
         &mut self,
         element: &Element,
         configuration: &Configuration,
         amplitudes: &[f64],
-        loads: &[Load],
-        end: (&Vector3<f64>, &Vector3<f64>),
+        loads: &ElementLoads<'_>,
         order: Order,
     ) {
         let second = order == Order::Hessian;
+        let (end_force, end_moment) = &loads.end;
         self.gradient.fill(0.0);
         if second {
             self.hessian.fill(0.0);
             self.end_position.fill(Vector3::zeros());
             self.fill_tangents(element, configuration);
         }
-        let mut whole = end.0 * configuration.end.position.transpose();
-        let mut start_force = *end.0;
-        let mut start_moment = configuration.end.position.cross(end.0) + end.1;
-        for (index, (state, load)) in configuration.stations.iter().zip(loads).enumerate() {
-            whole += load.couple + load.force * state.position.transpose();
+        let mut whole = end_force * configuration.end.position.transpose();
+        let mut start_force = *end_force;
+        let mut start_moment = configuration.end.position.cross(end_force) + end_moment;
+        let stations = configuration.stations.iter().map(|state| &state.position).zip(loads.stations);
+        let placed = loads.placed.iter().map(|placed| (&placed.frame.pose.position, &placed.load));
+        for (position, load) in stations.chain(placed) {
+            whole += load.couple + load.force * position.transpose();
             start_force += load.force;
-            start_moment += state.position.cross(&load.force) + load.moment();
+            start_moment += position.cross(&load.force) + load.moment();
+        }
+        for (index, (state, load)) in configuration.stations.iter().zip(loads.stations).enumerate() {
             // Force of everything beyond this station on its tangent.
-            let mut beyond = end.0 * element.stations[index].weight;
-            for (other, distant) in element.stations.iter().zip(loads) {
+            let mut beyond = end_force * element.stations[index].weight;
+            for (other, distant) in element.stations.iter().zip(loads.stations) {
                 beyond += distant.force * other.row.position[index];
+            }
+            for placed in loads.placed {
+                beyond += placed.load.force * placed.row.position[index];
             }
             if second {
                 self.add_station(element, index, state, load, &beyond);
                 if load.stiff {
-                    self.add_stiffness(element, index, state, load);
+                    self.station_motion(element, index, state);
+                    self.add_stiffness(load);
                 }
             } else {
                 self.add_station_gradient(element, index, state, load, &beyond);
             }
         }
-        self.add_end(configuration, end.1, second);
-        if let Some(contact) = element.contact(amplitudes) {
-            self.add_contact(element, &contact, second);
+        for placed in loads.placed {
+            self.add_placed(element, placed, second);
         }
+        self.add_end(configuration, end_moment, second);
         for i in 0..3 {
             self.gradient[i] = start_force[i];
             self.gradient[3 + i] = start_moment[i];
@@ -116,6 +135,9 @@ impl ElementDerivatives {
             }
         }
         if second {
+            for coupling in loads.couplings {
+                self.add_coupling(element, loads.placed, coupling);
+            }
             self.complete(element, &whole);
         }
     }
@@ -293,9 +315,9 @@ impl ElementDerivatives {
         &self.motion
     }
 
-    /// Adds the second derivatives of a station's load with respect to its own position and directors.
-    fn add_stiffness(&mut self, element: &Element, index: usize, state: &StationState, load: &Load) {
-        self.station_motion(element, index, state);
+    /// Adds the second derivatives of a load with respect to the position and directors of the frame whose motion was
+    /// computed last.
+    pub(super) fn add_stiffness(&mut self, load: &Load) {
         let size = self.size;
         let stiffness = |r: usize, c: usize| match (r / 3, c / 3) {
             (0, 0) => load.position_position[(r, c)],
@@ -325,28 +347,6 @@ impl ElementDerivatives {
                     core::array::from_fn(|k| &self.answer[(half + k) * size + i..][..size - i]);
                 for (entry, ((x, y), z)) in target.iter_mut().zip(x.iter().zip(y).zip(z)) {
                     *entry += factor[0] * x + factor[1] * y + factor[2] * z;
-                }
-            }
-        }
-    }
-
-    /// Adds the contact of closed windings, which acts on the rotation vectors at both ends of the core.
-    fn add_contact(&mut self, element: &Element, contact: &Contact, second: bool) {
-        let [near, far] = &element.core_ends;
-        for (i, a) in element.component.iter().enumerate().filter(|(_, a)| **a < ROTATIONS) {
-            let own = [near.integral[i], far.integral[i]];
-            self.gradient[START + i] += own[0] * contact.slope[*a] + own[1] * contact.slope[ROTATIONS + a];
-            if !second {
-                continue;
-            }
-            let by: [f64; 2 * ROTATIONS] = core::array::from_fn(|column| {
-                own[0] * contact.curve[(*a, column)] + own[1] * contact.curve[(ROTATIONS + a, column)]
-            });
-            let target = &mut self.hessian[(START + i) * self.size + START..][..element.freedoms()];
-            for (c, run) in element.runs.iter().filter(|(c, _)| *c < ROTATIONS) {
-                let columns = near.integral[run.clone()].iter().zip(&far.integral[run.clone()]);
-                for (entry, (near, far)) in target[run.clone()].iter_mut().zip(columns) {
-                    *entry += by[*c] * near + by[ROTATIONS + c] * far;
                 }
             }
         }

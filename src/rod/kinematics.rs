@@ -25,6 +25,17 @@ pub struct StationState {
     pub position: Vector3<f64>,
 }
 
+/// The frame at any arc length of a deformed element, in the frame of the preceding node.
+#[derive(Debug, Clone)]
+pub struct FrameState {
+    /// Rotation vector relative to the start.
+    pub theta: RotationVector,
+    /// Position (m) and directors `exp(theta)`.
+    pub pose: Pose,
+    /// Left Jacobian of the rotation vector.
+    pub left: Matrix3<f64>,
+}
+
 /// A deformed element, in the frame of the preceding node.
 #[derive(Debug, Clone)]
 pub struct Configuration {
@@ -105,6 +116,14 @@ impl Configuration {
         Pose { position: start + self.integrate(row), rotation }
     }
 
+    /// The frame at a tabulated arc length.
+    #[must_use]
+    pub fn frame_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> FrameState {
+        let theta = Self::rotation_at(element, row, amplitudes);
+        let position = Vector3::new(0.0, 0.0, element.offset) + self.integrate(row);
+        FrameState { pose: Pose { position, rotation: theta.matrix() }, left: theta.left_jacobian(), theta }
+    }
+
     /// The rotation vector at a tabulated arc length.
     #[must_use]
     pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
@@ -114,7 +133,7 @@ impl Configuration {
     /// Elastic energy, J.
     #[must_use]
     pub fn elastic_energy(&self, element: &Element, amplitudes: &[f64]) -> f64 {
-        let mut energy = element.contact(amplitudes).map_or(0.0, |contact| contact.energy);
+        let mut energy = 0.0;
         for (state, station) in self.stations.iter().zip(&element.stations) {
             let curvature = state.left.tr_mul(&state.rate);
             let k = &station.stiffness;

@@ -2,6 +2,7 @@
 
 mod basis;
 mod bending;
+mod bending_stop;
 mod charges;
 mod cubature;
 mod element;
@@ -11,20 +12,22 @@ mod kinematics;
 mod load;
 mod moments;
 mod piece;
+mod placed_load;
 mod row;
 mod section_dipoles;
 mod section_material;
 mod source_geometry;
-mod stop;
 
+pub use bending_stop::{BendingStop, StopLoads};
 pub use charges::Charges;
 pub use cubature::{SectionPoint, StationQuadrature};
 pub use element::{Element, Resolution, Station};
-pub use element_derivatives::{ElementDerivatives, Order, START};
-pub use kinematics::{Configuration, StationState};
+pub use element_derivatives::{ElementDerivatives, ElementLoads, Order, START};
+pub use kinematics::{Configuration, FrameState, StationState};
 pub use load::{Load, turning};
 pub use moments::SectionMoments;
 pub use piece::Piece;
+pub use placed_load::{PlacedCoupling, PlacedLoad};
 pub use row::{COMPONENTS, Row};
 pub use section_dipoles::SectionDipoles;
 pub use section_material::SectionMaterial;

@@ -2,5 +2,6 @@
 
 mod benchmarks;
 mod magnetic;
+mod placed;
 mod stations;
 pub(crate) mod table;

@@ -141,6 +141,9 @@ pub(crate) const METHOD_COARSE: f64 = 1e-5;
 /// Arcs of constant curvature: shear, extension and the moment's change along a core are missing (reached: 1.6e-2).
 pub(crate) const METHOD_ARCS: f64 = 0.02;
 
+/// The same with touching windings: an arc does not tell the discs' bend from the core's (reached: 2.2e-2).
+pub(crate) const METHOD_ARCS_STOPPED: f64 = 0.03;
+
 /// Tips by other methods with fine meshes, over the length: what the shear that varies along a disc leaves of the potential
 /// method, which gives it no mode (2e-9), and some.
 pub(crate) const METHOD_FINE: f64 = 1e-8;

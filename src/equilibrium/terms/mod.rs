@@ -1,10 +1,12 @@
 //! Terms of the potential, each in its own file: energies, loads, and derivatives with respect to the inputs.
 //!
 //! A [`Term`] acts on single frames: its load depends on the pose of that frame alone. The interactions of rings with one
-//! another and with spans ([`RingPairs`], [`RingsOnSpans`]) depend on two poses.
+//! another and with spans ([`RingPairs`], [`RingsOnSpans`]) depend on two poses, as does the bending stop of a core
+//! ([`BendingStops`]), which loads the frames at its ends.
 
 mod applied;
 mod background;
+mod bending_stops;
 mod frame;
 mod load_derivatives;
 mod magnet;
@@ -25,6 +27,7 @@ use crate::rod::{Load, Order};
 
 pub(crate) use applied::Applied;
 pub(crate) use background::Background;
+pub(crate) use bending_stops::BendingStops;
 pub(crate) use frame::Frame;
 pub(crate) use load_derivatives::{FIELD_INPUTS, FieldRate, LoadDerivatives};
 pub(crate) use magnet::Magnet;
@@ -64,6 +67,7 @@ pub(crate) struct Terms<'a> {
     pub(crate) applied: Applied<'a>,
     pub(crate) pairs: RingPairs<'a>,
     pub(crate) spans: RingsOnSpans<'a>,
+    pub(crate) stops: BendingStops,
 }
 
 impl<'a> Terms<'a> {
@@ -82,6 +86,7 @@ impl<'a> Terms<'a> {
             applied: Applied::new(inputs),
             pairs: RingPairs::new(chain, settings.interaction, rules),
             spans: RingsOnSpans::new(chain, settings.interaction, rules),
+            stops: BendingStops::new(settings),
         }
     }
 
