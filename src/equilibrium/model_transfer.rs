@@ -36,7 +36,7 @@ impl Equilibrium {
     /// by one Newton step of this model. The branch of this model is forgotten: it is left at the end of that step.
     ///
     /// `None` if nothing is solved yet, if the step is too long for an estimate, or if this model is not stable there.
-    pub fn gap(&mut self, other: &Self) -> Option<TipDeviation> {
+    pub fn deviation_of(&mut self, other: &Self) -> Option<TipDeviation> {
         let inputs = other.branch.inputs.clone()?;
         self.adopt(other, other.unknowns(), &inputs);
         let mut unknowns = std::mem::take(&mut self.branch.unknowns);
@@ -68,9 +68,9 @@ impl TipDeviation {
         Self { distance: (a.position - b.position).norm(), angle }
     }
 
-    /// The largest factor by which `gap` may be multiplied to stay within the fraction `part` of this deviation.
-    pub(crate) fn room(&self, gap: &Self, part: f64) -> f64 {
-        part * (self.distance / gap.distance).min(self.angle / gap.angle)
+    /// The largest factor by which `error` may be multiplied to stay within the fraction `part` of this tolerance.
+    pub(crate) fn room(&self, error: &Self, part: f64) -> f64 {
+        part * (self.distance / error.distance).min(self.angle / error.angle)
     }
 
     /// Distance and angle multiplied by a factor.

@@ -106,6 +106,13 @@ impl Equilibrium {
         self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
     }
 
+    /// Fraction of the closed section's stiffness that the windings of each core have reached, 0 (open) to 1, whether or
+    /// not the model has the bending stop.
+    pub(crate) fn closed_windings(&self) -> impl Iterator<Item = f64> + '_ {
+        let stops = self.chain.cores.iter().map(|(first, _)| self.chain.elements[*first].stop.as_ref());
+        self.core_angles().zip(stops).map(|(angle, stop)| stop.map_or(0.0, |stop| stop.closed(angle)))
+    }
+
     /// The settings of the model and its solver.
     #[must_use]
     pub fn settings(&self) -> &Settings {

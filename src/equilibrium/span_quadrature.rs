@@ -16,15 +16,15 @@ pub(super) const SPAN_SHARE: f64 = 0.3;
 struct SpanQuadrature {
     /// An element of this kind.
     element: usize,
-    sight: SourceGeometry,
+    geometry: SourceGeometry,
     samples: [Vec<StationQuadrature>; BENDS.len()],
 }
 
 /// The quadrature samples of all elements for all rings; equal ones are stored once.
 #[derive(Debug, Clone)]
 pub(super) struct SpanQuadratures {
-    views: Vec<SpanQuadrature>,
-    /// Index into `views` by element and ring; `None` where the ring does not act.
+    quadratures: Vec<SpanQuadrature>,
+    /// Index into `quadratures` by element and ring; `None` where the ring does not act.
     places: Vec<Vec<Option<usize>>>,
 }
 
@@ -36,24 +36,25 @@ impl SpanQuadratures {
         rings: &[RingBody],
         settings: &Settings,
     ) -> Self {
-        let mut views: Vec<SpanQuadrature> = Vec::new();
+        let mut quadratures: Vec<SpanQuadrature> = Vec::new();
         let mut place = |element: usize, body: &RingBody| {
-            let sight = sight(elements, element, body, settings)?;
-            let same = |view: &SpanQuadrature| view.sight == sight && pieces[view.element] == pieces[element];
-            Some(views.iter().position(same).unwrap_or_else(|| {
+            let geometry = source_geometry(elements, element, body, settings)?;
+            let same =
+                |own: &SpanQuadrature| own.geometry == geometry && pieces[own.element] == pieces[element];
+            Some(quadratures.iter().position(same).unwrap_or_else(|| {
                 let at =
-                    |bend| elements[element].samples(&pieces[element], &SourceGeometry { bend, ..sight });
-                views.push(SpanQuadrature { element, sight, samples: BENDS.map(at) });
-                views.len() - 1
+                    |bend| elements[element].samples(&pieces[element], &SourceGeometry { bend, ..geometry });
+                quadratures.push(SpanQuadrature { element, geometry, samples: BENDS.map(at) });
+                quadratures.len() - 1
             }))
         };
         let places = (0..elements.len()).map(|k| rings.iter().map(|body| place(k, body)).collect()).collect();
-        Self { views, places }
+        Self { quadratures, places }
     }
 
     /// The samples of an element for a ring, at a level of [`Self::level`].
     pub(super) fn samples(&self, element: usize, ring: usize, level: usize) -> &[StationQuadrature] {
-        self.places[element][ring].map_or(&[], |place| &self.views[place].samples[level])
+        self.places[element][ring].map_or(&[], |place| &self.quadratures[place].samples[level])
     }
 
     /// Number of levels.
@@ -68,7 +69,12 @@ impl SpanQuadratures {
 }
 
 /// Geometry of a ring as seen from element `k` of the straight chain, if it acts there.
-fn sight(elements: &[Element], k: usize, body: &RingBody, settings: &Settings) -> Option<SourceGeometry> {
+fn source_geometry(
+    elements: &[Element],
+    k: usize,
+    body: &RingBody,
+    settings: &Settings,
+) -> Option<SourceGeometry> {
     let beyond = body.node > k;
     let acts = match settings.interaction {
         Interaction::None | Interaction::Rings | Interaction::Auto => false,

@@ -28,23 +28,28 @@ pub(super) struct ErrorEstimate {
     inputs: Inputs,
     tip: Pose,
     field: Vector3<f64>,
-    /// Estimated error of the tip pose (tip deviation).
-    pub(super) gap: TipDeviation,
+    /// Fraction of closed windings of each core, whether or not the model has the bending stop.
+    closed: Vec<f64>,
+    /// Estimated error of the tip pose.
+    deviation: TipDeviation,
 }
 
 impl ErrorEstimate {
-    /// Records the tip deviation `gap` of the last solution of `model`, at `inputs`.
-    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) -> Self {
+    /// Records the estimated error of the last solution of `model`, at `inputs`.
+    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation) -> Self {
         let tip = model.tip();
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
-        Self { inputs: inputs.clone(), tip, field, gap }
+        let closed = model.closed_windings().collect();
+        Self { inputs: inputs.clone(), tip, field, closed, deviation }
     }
 
     /// Replaces the estimate by a new one without allocating.
-    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, gap: TipDeviation) {
+    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation) {
         self.inputs.copy_from(inputs);
-        (self.tip, self.gap) = (model.tip(), gap);
+        (self.tip, self.deviation) = (model.tip(), deviation);
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
+        self.closed.clear();
+        self.closed.extend(model.closed_windings());
     }
 
     /// Change since the estimate, in units of the change that calls for a new one (for an error close to the tolerance).
@@ -78,16 +83,19 @@ impl ErrorEstimate {
             other(&field, &self.field),
         ];
         let forces = ring_forces.iter().zip(&then.ring_forces).map(|(a, b)| other(a, b));
-        changes.into_iter().chain(forces).fold(0.0, f64::max)
+        // A stiffness that appears within a few degrees is missing from a cheaper model all at once.
+        let stops =
+            model.closed_windings().zip(&self.closed).map(|(now, then)| part((now - then).abs(), now, *then));
+        changes.into_iter().chain(forces).chain(stops).fold(0.0, f64::max)
     }
 
     /// Whether a new estimate is due at that age: the smaller the error relative to the tolerance, the older it may be.
     pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {
-        age > tolerance.room(&self.gap, CLIMB).clamp(1.0, STANDING)
+        age > tolerance.room(&self.deviation, CLIMB).clamp(1.0, STANDING)
     }
 
     /// The error extrapolated to that age.
     pub(super) fn error(&self, age: f64) -> TipDeviation {
-        self.gap.times((1.0 + CHANGED * age).powi(GROWTH))
+        self.deviation.times((1.0 + CHANGED * age).powi(GROWTH))
     }
 }

@@ -40,7 +40,7 @@ const PATIENCE: u32 = 16;
 pub(super) struct Hierarchy {
     models: Models,
     present: usize,
-    judged: Option<ErrorEstimate>,
+    estimate: Option<ErrorEstimate>,
     /// Change since the last estimate, see [`ErrorEstimate::age`].
     age: f64,
     wait: Wait,
@@ -86,7 +86,7 @@ pub(super) struct HierarchySnapshot {
     present: usize,
     wait: Wait,
     equilibrium: equilibrium::BranchSnapshot,
-    judged: Option<ErrorEstimate>,
+    estimate: Option<ErrorEstimate>,
     age: f64,
 }
 
@@ -102,7 +102,7 @@ impl Hierarchy {
         let mut out = Self {
             models: Models::new(design, magnet, &settings, shape_points)?,
             present: 0,
-            judged: None,
+            estimate: None,
             age: 0.0,
             wait: Wait::NONE,
             length: design.length(),
@@ -139,20 +139,20 @@ impl Hierarchy {
     /// Estimated distance of the tip (m) from the converged model; at most the length, which is returned where no estimate is
     /// available.
     pub(super) fn error_estimate(&self) -> f64 {
-        self.judged.as_ref().map_or(0.0, |judged| judged.error(self.age).distance.min(self.length))
+        self.estimate.as_ref().map_or(0.0, |estimate| estimate.error(self.age).distance.min(self.length))
     }
 
     /// Sets the tolerances; the next solve estimates the error anew.
     pub(super) fn set_tolerance(&mut self, tolerance: TipDeviation) {
         if self.tolerance != tolerance {
-            (self.tolerance, self.judged) = (tolerance, None);
+            (self.tolerance, self.estimate) = (tolerance, None);
             self.relax();
         }
     }
 
     /// Resets the shape.
     pub(super) fn reset(&mut self) {
-        (self.present, self.judged, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
+        (self.present, self.estimate, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
         self.models.reset();
     }
 
@@ -186,7 +186,7 @@ impl Hierarchy {
         let changed = report.solved() && self.has_changed(inputs);
         let due = report.solved() && from > 0 && self.wait.is_over(self.age);
         if let Some((before, shape)) = way_back
-            && !(self.is_sound(&report) && (!changed || self.holds(inputs, &deadline)?))
+            && !(self.is_sound(&report) && (!changed || self.is_accurate(inputs, &deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
             return self.ascend(next, inputs, &deadline, |models, level, _| {
@@ -199,7 +199,7 @@ impl Hierarchy {
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if changed && from >= richest && !self.holds(inputs, &deadline)? {
+        if changed && from >= richest && !self.is_accurate(inputs, &deadline)? {
             return self.refine(inputs, report, &deadline);
         }
         if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
@@ -225,11 +225,11 @@ impl Hierarchy {
             iterations += report.iterations;
             let (at_richest, report) = (self.present == richest, Report { iterations, ..report });
             if at_richest && !report.solved() {
-                self.judged = None;
+                self.estimate = None;
                 return Ok(report);
             }
             sound = self.is_sound(&report).then_some(self.present);
-            if (at_richest || sound.is_some()) && self.holds(inputs, deadline)? {
+            if (at_richest || sound.is_some()) && self.is_accurate(inputs, deadline)? {
                 return Ok(report);
             }
             if at_richest {
@@ -253,7 +253,7 @@ impl Hierarchy {
             let iterations = report.iterations + next.iterations;
             report = Report { iterations, snaps: report.snaps, ..next };
             self.present += 1;
-            if self.holds(inputs, deadline)? {
+            if self.is_accurate(inputs, deadline)? {
                 break;
             }
         }
@@ -265,17 +265,17 @@ impl Hierarchy {
         let from = self.present;
         // The richer models lose their branch when they estimate errors, so this one is saved.
         let kept = (from >= self.models.richest()).then(|| self.present().clone());
-        let judged = (self.judged.clone(), self.age);
+        let before = (self.estimate.clone(), self.age);
         self.models.warm_start(from - 1, from, inputs);
         let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
-        if self.is_sound(&other) && self.judge(inputs, DESCEND, deadline)? {
+        if self.is_sound(&other) && self.is_within(inputs, DESCEND, deadline)? {
             self.wait = Wait::NONE;
             let iterations = report.iterations + other.iterations;
             return Ok(Report { iterations, snaps: report.snaps, ..other });
         }
         (self.present, self.wait) = (from, self.wait.longer());
-        (self.judged, self.age) = judged;
+        (self.estimate, self.age) = before;
         if let Some(kept) = kept {
             *self.models.at_mut(from) = kept;
         }
@@ -289,38 +289,38 @@ impl Hierarchy {
     }
 
     /// Whether the error of the present model is small enough to keep it.
-    fn holds(&mut self, inputs: &Inputs, deadline: &Deadline) -> Result<bool, Error> {
+    fn is_accurate(&mut self, inputs: &Inputs, deadline: &Deadline) -> Result<bool, Error> {
         let part = if self.present < self.models.richest() { CLIMB } else { REFINE };
-        self.judge(inputs, part, deadline)
+        self.is_within(inputs, part, deadline)
     }
 
     /// Estimates the error of the present model; whether it is within the fraction `part` of the tolerance.
     ///
     /// Where no estimate is available, a cheaper model is rejected, but a discretisation of the richest is kept, as a finer one
     /// would not help. No estimate is made for a solution of the richest model that used up the time budget.
-    fn judge(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
+    fn is_within(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();
         let error = if late { None } else { self.models.error(self.present)? };
         let unknown = TipDeviation { distance: self.length, angle: core::f64::consts::PI };
-        self.note(inputs, error.unwrap_or(unknown));
-        let good = |gap| self.tolerance.room(&gap, part) >= 1.0;
-        Ok(error.map_or(self.present >= self.models.richest(), good))
+        self.record(inputs, error.unwrap_or(unknown));
+        let within = |error| self.tolerance.room(&error, part) >= 1.0;
+        Ok(error.map_or(self.present >= self.models.richest(), within))
     }
 
-    fn note(&mut self, inputs: &Inputs, gap: TipDeviation) {
+    fn record(&mut self, inputs: &Inputs, error: TipDeviation) {
         let model = self.models.at(self.present);
         (self.age, self.wait.counted) = (0.0, 0.0);
-        match &mut self.judged {
-            Some(judged) => judged.renew(model, inputs, gap),
-            None => self.judged = Some(ErrorEstimate::new(model, inputs, gap)),
+        match &mut self.estimate {
+            Some(estimate) => estimate.renew(model, inputs, error),
+            None => self.estimate = Some(ErrorEstimate::new(model, inputs, error)),
         }
     }
 
     /// Whether enough has changed since the last error estimate to make a new one.
     fn has_changed(&mut self, inputs: &Inputs) -> bool {
-        let Some(judged) = &self.judged else { return true };
-        self.age = judged.age(self.models.at(self.present), inputs, self.length);
-        judged.is_old(self.age, &self.tolerance)
+        let Some(estimate) = &self.estimate else { return true };
+        self.age = estimate.age(self.models.at(self.present), inputs, self.length);
+        estimate.is_old(self.age, &self.tolerance)
     }
 
     /// The state.
@@ -330,7 +330,7 @@ impl Hierarchy {
             present: self.present,
             wait: self.wait,
             equilibrium,
-            judged: self.judged.clone(),
+            estimate: self.estimate.clone(),
             age: self.age,
         }
     }
@@ -346,7 +346,8 @@ impl Hierarchy {
         }
         self.models.make(snapshot.present)?;
         self.models.at_mut(snapshot.present).restore(&snapshot.equilibrium)?;
-        (self.present, self.wait, self.judged) = (snapshot.present, snapshot.wait, snapshot.judged.clone());
+        (self.present, self.wait, self.estimate) =
+            (snapshot.present, snapshot.wait, snapshot.estimate.clone());
         self.age = snapshot.age;
         Ok(())
     }

@@ -139,9 +139,9 @@ impl Models {
         self.make(number.max(richest) + 1)?;
         let mut apart = TipDeviation::NONE;
         if number < richest {
-            let (cheaper, judge) = self.whole.split_at_mut(richest);
-            let Some(gap) = judge[0].gap(&cheaper[number]) else { return Ok(None) };
-            apart = gap;
+            let (cheaper, richest) = self.whole.split_at_mut(richest);
+            let Some(deviation) = richest[0].deviation_of(&cheaper[number]) else { return Ok(None) };
+            apart = deviation;
         }
         let number = number.max(richest);
         let (below, above) = self.finer.split_at_mut(number - richest);

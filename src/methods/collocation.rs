@@ -207,12 +207,12 @@ impl Equations for Collocated<'_, '_> {
             let (starts, _) = starts(self.around, self.tableau, at, element);
             let mut residuals = Vec::new();
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
-                let lack = |j: usize| {
+                let missing = |j: usize| {
                     let place = interval.stage(self.tableau, j);
-                    let asked = self.around.local_rate(&place, start, &interval.local(self.tableau, j))?;
-                    Some((asked - interval.rates[j]).component_mul(&self.scale))
+                    let required = self.around.local_rate(&place, start, &interval.local(self.tableau, j))?;
+                    Some((required - interval.rates[j]).component_mul(&self.scale))
                 };
-                residuals.push((0..interval.rates.len()).map(lack).collect::<Option<Vec<_>>>()?);
+                residuals.push((0..interval.rates.len()).map(missing).collect::<Option<Vec<_>>>()?);
             }
             self.residuals.push(residuals);
             ends.push(starts[starts.len() - 1]);
@@ -236,9 +236,10 @@ impl Equations for Collocated<'_, '_> {
                     self.around.stage(&place, start, &interval.local(self.tableau, j))
                 });
                 let stages = stages.collect::<Option<Vec<_>>>()?;
-                let lack = stages.iter().zip(&interval.rates);
-                residuals
-                    .push(lack.map(|(stage, rate)| (stage.rate - rate).component_mul(&self.scale)).collect());
+                let missing = stages.iter().zip(&interval.rates);
+                residuals.push(
+                    missing.map(|(stage, rate)| (stage.rate - rate).component_mul(&self.scale)).collect(),
+                );
                 condensed.add(self.tableau, interval, &stages)?;
             }
             if let Some(windings) = windings {

@@ -116,9 +116,9 @@ impl Interval {
     ) -> Option<f64> {
         let mut worst = 0.0;
         for x in [0.0, 1.0] {
-            let asked = around.local_rate(&self.at(x), start, &self.local_at(tableau, x))?;
-            let lack = asked - sum(&self.rates, &tableau.values(x));
-            worst = f64::max(worst, lack.component_mul(scale).norm());
+            let required = around.local_rate(&self.at(x), start, &self.local_at(tableau, x))?;
+            let missing = required - sum(&self.rates, &tableau.values(x));
+            worst = f64::max(worst, missing.component_mul(scale).norm());
         }
         Some(worst)
     }

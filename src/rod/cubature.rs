@@ -39,25 +39,25 @@ pub struct StationQuadrature {
 impl Element {
     /// Quadrature points for the energy of this element, made of `pieces`, in the field of a ring.
     #[must_use]
-    pub fn samples(&self, pieces: &[Piece<'_>], sight: &SourceGeometry) -> Vec<StationQuadrature> {
+    pub fn samples(&self, pieces: &[Piece<'_>], geometry: &SourceGeometry) -> Vec<StationQuadrature> {
         let mut out = Vec::new();
         let mut start = 0.0;
         for (index, piece) in pieces.iter().enumerate() {
-            let before = if sight.beyond { self.length - start - piece.length } else { start };
+            let before = if geometry.beyond { self.length - start - piece.length } else { start };
             start += piece.length;
-            let adjacent = index == if sight.beyond { pieces.len() - 1 } else { 0 };
-            if sight.bonded && adjacent && piece.span.kind == SpanKind::Disc {
+            let adjacent = index == if geometry.beyond { pieces.len() - 1 } else { 0 };
+            if geometry.bonded && adjacent && piece.span.kind == SpanKind::Disc {
                 continue;
             }
             let (nodes, first) = self.nodes(index);
-            let distance = sight.distance + before;
-            let chosen = subset(nodes, sight.interpolated(distance, piece.length));
+            let distance = geometry.distance + before;
+            let chosen = subset(nodes, geometry.interpolated(distance, piece.length));
             let own: Vec<f64> = chosen.iter().map(|i| nodes[*i]).collect();
             let fine: Vec<Fine> = fine_points(&own).collect();
             for (i, station) in chosen.iter().enumerate() {
-                let x = if sight.beyond { -nodes[*station] } else { nodes[*station] };
+                let x = if geometry.beyond { -nodes[*station] } else { nodes[*station] };
                 let at = distance + 0.5 * piece.length * (1.0 + x);
-                let points = Section { piece, nodes: &own, fine: &fine, node: i }.points(sight, at);
+                let points = Section { piece, nodes: &own, fine: &fine, node: i }.points(geometry, at);
                 out.push(StationQuadrature {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,
@@ -103,20 +103,20 @@ struct Section<'a> {
 }
 
 impl Section<'_> {
-    fn points(&self, sight: &SourceGeometry, distance: f64) -> Vec<SectionPoint> {
+    fn points(&self, geometry: &SourceGeometry, distance: f64) -> Vec<SectionPoint> {
         let span = self.piece.span;
-        let harmonics = |radius| sight.harmonics(distance, radius);
+        let harmonics = |radius| geometry.harmonics(distance, radius);
         let circle = [span.inner_radius, span.outer_radius];
-        if harmonics(sight.radius) <= 1
+        if harmonics(geometry.radius) <= 1
             && let Some(points) = self.moments()
         {
             return points;
         }
         let mut out = Vec::new();
-        self.add_circle(&mut out, circle, TAU, sight.radial(distance, circle), harmonics);
+        self.add_circle(&mut out, circle, TAU, geometry.radial(distance, circle), harmonics);
         if let Some(spiral) = &span.spiral {
             let sector = [spiral.inner_radius, spiral.outer_radius];
-            let radial = sight.radial(distance, sector);
+            let radial = geometry.radial(distance, sector);
             match spiral.kind {
                 SpiralKind::Axisymmetric => {
                     self.add_circle(&mut out, sector, spiral.sector_angle, radial, harmonics);

@@ -43,7 +43,7 @@ impl Load {
 
     /// A fixed force (N) at `arm` (m, fixed axes) from the frame's origin at `origin`.
     #[must_use]
-    pub fn dead_force(force: &Vector3<f64>, origin: &Vector3<f64>, arm: &Vector3<f64>) -> Self {
+    pub fn fixed_force(force: &Vector3<f64>, origin: &Vector3<f64>, arm: &Vector3<f64>) -> Self {
         Self {
             energy: -force.dot(&(origin + arm)),
             force: -force,

@@ -12,6 +12,7 @@ mod kinematics;
 mod load;
 mod moments;
 mod piece;
+mod placed_derivatives;
 mod placed_load;
 mod row;
 mod section_dipoles;

@@ -140,6 +140,39 @@ fn is_within_its_tolerance_of_the_richest_model() {
 }
 
 #[test]
+fn closing_windings_call_for_a_new_estimate() {
+    // Weak magnets in a strong field: models differ by the bending stop alone, which acts within a few degrees.
+    let mut weak = Segmented::paper(3);
+    (weak.spiral, weak.base_magnet) = (SpiralKind::Axisymmetric, false);
+    (weak.ring.remanence, weak.helix.volume_fraction) = (0.01, 0.002);
+    let design = Design::new(Specification::Segmented(weak)).unwrap();
+    let rings = design.rings().count();
+    for tolerance in [1e-3, 2e-3, 5e-3] {
+        let auto = Settings {
+            interaction: Interaction::Auto,
+            tolerance_position: tolerance * design.length(),
+            tolerance_angle: tolerance,
+            ..Settings::default()
+        };
+        let device = |settings| Manipulator::new(&design, None, settings, 2).unwrap();
+        let (mut own, mut judge) = (device(auto), device(richest(auto)));
+        let (mut worst, mut cheaper) = (0.0_f64, 0);
+        // The first core closes at 0.6 T and opens again on the way back.
+        for step in (0..=80).chain((0..80).rev()) {
+            let field = 12e-3 * f64::from(step);
+            let inputs = Inputs { uniform_field: Vector3::new(0.0, field, 0.0), ..Inputs::unloaded(rings) };
+            let (own, judge) = (own.solve(&inputs).unwrap(), judge.solve(&inputs).unwrap());
+            assert!(own.outcome.is_solved() && judge.outcome.is_solved(), "{field} T");
+            worst = worst.max(parts(&auto, own, judge));
+            cheaper += u32::from(own.interaction != Interaction::Full);
+        }
+        println!("tolerance {tolerance}: {cheaper} by a cheaper model, error at most {worst:.2} of it");
+        assert!(worst <= 1.0, "tolerance {tolerance}: {worst} of it");
+        assert!(cheaper >= 40, "tolerance {tolerance}: {cheaper} by a cheaper model");
+    }
+}
+
+#[test]
 fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump() {
     // Not the helix, which its rings bend by some degrees also without a field.
     let mut round = Segmented::paper(3);

@@ -147,7 +147,9 @@ fn derivatives_of_loads_between_the_stations_are_those_of_their_energy() {
     let (gradient, hessian) = derivatives(&element, &springs, &amplitudes, Order::Hessian);
     let at = |moved: &[(usize, f64)]| {
         let mut all = vec![0.0; size];
-        moved.iter().for_each(|(i, step)| all[*i] += step * units[*i]);
+        for (i, step) in moved {
+            all[*i] += step * units[*i];
+        }
         energy(&element, &springs, &amplitudes, &all)
     };
     let scaled: Vec<f64> = gradient.iter().zip(&units).map(|(g, unit)| g * unit).collect();
@@ -193,7 +195,7 @@ fn a_load_at_a_station_is_the_same_as_the_stations_load() {
     let mut derivatives = ElementDerivatives::new(&element);
     for (index, station) in element.stations.iter().enumerate() {
         let frame = configuration.frame_at(&element, &station.row, &amplitudes);
-        let mut load = Load::dead_force(
+        let mut load = Load::fixed_force(
             &Vector3::new(0.01, 0.03, -0.02),
             &frame.pose.position,
             &Vector3::new(1e-3, 0.0, 2e-3),

@@ -45,7 +45,7 @@ impl Term for Applied<'_> {
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, _: Order) -> Option<Load> {
         let Some((input, force, arm)) = self.force(frame, pose) else { return Some(Load::zero()) };
-        let mut load = Load::dead_force(&force, &pose.position, &arm);
+        let mut load = Load::fixed_force(&force, &pose.position, &arm);
         if input == Input::TipForce && !self.has_potential() {
             // A fixed moment has no energy and does not turn with the frame: its derivative is not symmetric.
             let turning = hat(&self.0.tip_moment) * -0.5;
