@@ -21,6 +21,9 @@ const TABLE_RESIDUAL: f64 = 5e-8;
 /// Number of Arnoldi vectors for the eigenvalues of a non-symmetric matrix.
 const ARNOLDI: usize = 48;
 
+/// Weight of the second softest direction in the guess for the next search, which finds it once it is the softest.
+const SECOND: f64 = 0.5;
+
 /// Search effort for the stability margin when the user asks for it.
 pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 
@@ -38,7 +41,7 @@ pub(super) struct Potential<'a> {
 impl Potential<'_> {
     /// Stability margin: smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper
     /// bound found by `search`. It is positive where the shape is stable and NaN where none is found. `softest` is the
-    /// initial guess and then the eigenvector.
+    /// initial guess and then that of the next search: the eigenvector with a share of the second softest one.
     ///
     /// For non-conservative forces it is the smallest real part of the eigenvalues: where that is negative, the shape
     /// diverges in overdamped motion. Flutter, a pair of complex eigenvalues of the undamped motion, is not covered: it
@@ -46,7 +49,9 @@ impl Potential<'_> {
     pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
         let metric = &self.chain.metric;
         if self.terms.have_potential() {
-            return lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
+            let margin = lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
+            lanczos.add_second(SECOND, softest);
+            return margin;
         }
         smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
     }

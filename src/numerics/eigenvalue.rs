@@ -28,7 +28,8 @@ pub struct Lanczos {
     image: Vec<f64>,
     diagonal: Vec<f64>,
     beside: Vec<f64>,
-    weights: Vec<f64>,
+    /// Coordinates of the two leading eigenvectors in the basis.
+    weights: [Vec<f64>; 2],
 }
 
 impl Lanczos {
@@ -85,24 +86,33 @@ impl Lanczos {
             }
             let value = largest(diagonal, beside, weights);
             let rest = inner(image, image).sqrt();
-            let last = weights.last().copied().unwrap_or(0.0).abs();
+            let last = weights[0].last().copied().unwrap_or(0.0).abs();
             // A single vector cannot check the initial guess: a second one must confirm it.
             let settled = count > 1 && rest * last <= search.settled * value;
             if settled || count == most || rest <= f64::EPSILON * value {
                 vector.fill(0.0);
-                for (weight, direction) in weights.iter().zip(basis.iter()) {
-                    for (entry, d) in vector.iter_mut().zip(direction) {
-                        *entry += weight * d;
-                    }
-                }
+                self.add_eigenvector(0, 1.0, vector);
                 return 1.0 / value - shift;
+            }
+        }
+    }
+
+    /// Adds to `vector` the approximation that the last search found of the second eigenvector, multiplied by `factor`.
+    pub fn add_second(&self, factor: f64, vector: &mut [f64]) {
+        self.add_eigenvector(1, factor, vector);
+    }
+
+    fn add_eigenvector(&self, number: usize, factor: f64, vector: &mut [f64]) {
+        for (weight, direction) in self.weights[number].iter().zip(&self.basis) {
+            for (entry, d) in vector.iter_mut().zip(direction) {
+                *entry += factor * weight * d;
             }
         }
     }
 }
 
-/// Largest eigenvalue of a symmetric tridiagonal matrix, with its eigenvector in `weights`.
-fn largest(diagonal: &[f64], beside: &[f64], weights: &mut Vec<f64>) -> f64 {
+/// Largest eigenvalue of a symmetric tridiagonal matrix, with the eigenvectors of the two largest in `weights`.
+fn largest(diagonal: &[f64], beside: &[f64], weights: &mut [Vec<f64>; 2]) -> f64 {
     let size = diagonal.len();
     let entry = |i: usize, j: usize| match i.abs_diff(j) {
         _ if i.max(j) >= size => 0.0,
@@ -110,17 +120,34 @@ fn largest(diagonal: &[f64], beside: &[f64], weights: &mut Vec<f64>) -> f64 {
         1 => beside[i.min(j)],
         _ => 0.0,
     };
-    weights.clear();
+    weights.iter_mut().for_each(Vec::clear);
     if size <= FEW {
         // Padding with zeros is harmless: the largest eigenvalue is positive.
         let eigen = SymmetricEigen::new(SMatrix::<f64, FEW, FEW>::from_fn(entry));
-        let top = eigen.eigenvalues.imax();
-        weights.extend(eigen.eigenvectors.column(top).iter().take(size));
-        eigen.eigenvalues[top]
+        let numbers = leading(eigen.eigenvalues.as_slice());
+        for (own, number) in weights.iter_mut().zip(numbers) {
+            own.extend(eigen.eigenvectors.column(number).iter().take(size));
+        }
+        eigen.eigenvalues[numbers[0]]
     } else {
         let eigen = SymmetricEigen::new(DMatrix::from_fn(size, size, entry));
-        let top = eigen.eigenvalues.imax();
-        weights.extend(eigen.eigenvectors.column(top).iter());
-        eigen.eigenvalues[top]
+        let numbers = leading(eigen.eigenvalues.as_slice());
+        for (own, number) in weights.iter_mut().zip(numbers) {
+            own.extend(eigen.eigenvectors.column(number).iter());
+        }
+        eigen.eigenvalues[numbers[0]]
     }
+}
+
+/// Indices of the two largest of at least two values.
+fn leading(values: &[f64]) -> [usize; 2] {
+    let mut out = if values[0] >= values[1] { [0, 1] } else { [1, 0] };
+    for (index, value) in values.iter().enumerate().skip(2) {
+        if *value > values[out[0]] {
+            out = [index, out[0]];
+        } else if *value > values[out[1]] {
+            out[1] = index;
+        }
+    }
+    out
 }

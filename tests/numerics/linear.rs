@@ -87,6 +87,46 @@ fn smallest_eigenvalue_is_the_dense_ones() {
 }
 
 #[test]
+fn the_next_search_knows_the_second_softest_direction() {
+    let (size, split) = (30, 1.2);
+    let own = SymmetricEigen::new(symmetric(size, 2, 0.5));
+    let vector = |number: usize| own.eigenvectors.column(number).into_owned();
+    let mut order: Vec<usize> = (0..size).collect();
+    order.sort_by(|a, b| own.eigenvalues[*a].total_cmp(&own.eigenvalues[*b]));
+    // Two soft modes, the others a hundred times as stiff; then they change places.
+    let matrix = |first: f64, second: f64| {
+        let values = order.iter().enumerate().map(|(rank, _)| match rank {
+            0 => first,
+            1 => second,
+            _ => 100.0,
+        });
+        let modes = order.iter().zip(values);
+        modes.fold(DMatrix::zeros(size, size), |sum, (number, value)| {
+            sum + vector(*number) * vector(*number).transpose() * value
+        })
+    };
+    let metric = vec![1.0; size];
+    let mut lanczos = Lanczos::default();
+    let mut search = |matrix: DMatrix<f64>, guess: &mut [f64], vectors: usize| {
+        let factor = Cholesky::new(matrix).expect("positive definite");
+        let found = lanczos.smallest(&metric, 0.0, guess, Search { vectors, settled: 1e-9 }, |x| {
+            x.copy_from_slice(factor.solve(&DVector::from_row_slice(x)).as_slice());
+        });
+        let mut second = vec![0.0; size];
+        lanczos.add_second(1.0, &mut second);
+        (found, second)
+    };
+    let mut guess: Vec<f64> = (0..size).map(|i| 1.5 + pseudo(4, i)).collect();
+    let (found, second) = search(matrix(1.0, split), &mut guess, 10);
+    assert!((found - 1.0).abs() <= EIGENVALUE, "{found}");
+    let along = DVector::from_row_slice(&second).dot(&vector(order[1])).abs();
+    assert!((along - 1.0).abs() <= EIGENVALUE, "{along} of the second mode");
+    guess.iter_mut().zip(&second).for_each(|(entry, s)| *entry += 0.5 * s);
+    let (found, _) = search(matrix(split, 1.0), &mut guess, 3);
+    assert!((found - 1.0).abs() <= EIGENVALUE, "after the modes have changed places: {found}");
+}
+
+#[test]
 fn an_early_end_of_the_search_is_an_upper_bound() {
     let size = 30;
     let matrix = symmetric(size, 2, 0.05);
