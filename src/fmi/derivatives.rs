@@ -22,7 +22,7 @@ impl Instance {
             let Some(variable) = self.variable(reference) else { return Ending::Error };
             let name = &variable.name;
             if variable.causality != Causality::Input || variable.variability != Variability::Continuous {
-                return self.refuse(&format!("{name} is no continuous input: it has no time derivative"));
+                return self.refuse(&format!("{name} is not a continuous input: it has no time derivative"));
             }
             if order < 1 {
                 return self.refuse(&format!("the order {order} of a derivative of {name} is not allowed"));
@@ -79,7 +79,7 @@ impl Instance {
             if !variable.derivative_role.is_known() {
                 let name = &variable.name;
                 return Err(
-                    self.refuse(&format!("there are no derivatives by {name}: it is no continuous input"))
+                    self.refuse(&format!("there are no derivatives by {name}: it is not a continuous input"))
                 );
             }
         }
@@ -87,7 +87,7 @@ impl Instance {
             let variable = self.variable(reference).ok_or(Ending::Error)?;
             if !variable.derivative_role.is_unknown() {
                 let name = &variable.name;
-                return Err(self.refuse(&format!("{name} has no derivatives: it is no continuous output")));
+                return Err(self.refuse(&format!("{name} has no derivatives: it is not a continuous output")));
             }
         }
         if let Some(value) = seed.iter().find(|value| !value.is_finite()) {

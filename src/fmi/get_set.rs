@@ -63,7 +63,8 @@ impl Instance {
             return Err(self.refuse(&format!("{} has no value: no equilibrium was found yet", variable.name)));
         };
         let of_type = value.and_then(read);
-        of_type.ok_or_else(|| self.refuse(&format!("{} is no {type_name}", variable.name)))
+        of_type
+            .ok_or_else(|| self.refuse(&format!("{} is not a variable of type {type_name}", variable.name)))
     }
 
     /// Sets all of these inputs and parameters, or none if one of the values is refused.

@@ -33,7 +33,7 @@ fn sweep(test: &str, scene: &str, vary: &str, back: bool, status: i32) -> Sweep 
 }
 
 fn number(cells: &HashMap<String, String>, key: &str) -> f64 {
-    cells[key].parse().unwrap_or_else(|_| panic!("{key} = {:?} is no number", cells[key]))
+    cells[key].parse().unwrap_or_else(|_| panic!("{key} = {:?} is not a number", cells[key]))
 }
 
 /// A dipole at the end of one core bends it to an arc: `theta = Lam sin(phi - theta)`. In the plane the arc folds at
@@ -85,7 +85,7 @@ fn a_passing_magnet_is_followed_with_hysteresis_however_fine_the_steps() {
     let run = |count: u32| {
         let found = sweep("passing", PASSING, &format!("{KEY}=-80:70:{count}"), true, 0);
         assert_eq!(found.folds.len(), 2, "{}", found.said);
-        assert!(found.said.contains("hysteresis: the way back is another from"), "{}", found.said);
+        assert!(found.said.contains("hysteresis: the way back differs from"), "{}", found.said);
         found
     };
     let (coarse, fine) = (run(16), run(61));
@@ -113,7 +113,7 @@ fn a_passing_magnet_is_followed_with_hysteresis_however_fine_the_steps() {
 fn where_a_branch_ends_the_rows_say_so_and_the_fold_is_seen_coming() {
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"";
     let Sweep { rows, folds, said } = sweep("end", scene, "field.uniform_mt[2]=0:40:21", false, 2);
-    assert!(said.contains("the way ends: ") && said.contains("3 of 21 rows did not converge"), "{said}");
+    assert!(said.contains("the branch ends: ") && said.contains("3 of 21 rows did not converge"), "{said}");
     assert_eq!(folds.len(), 1, "{said}");
     let fold = &folds[0];
     assert_eq!((fold["branch"].as_str(), fold["alpha_after_deg"].as_str()), ("end", ""));
@@ -164,7 +164,7 @@ fn a_way_back_over_other_devices_is_refused() {
     let (here, output) = with_scene("devices", "", &arguments);
     assert_status(&output, 1);
     assert!(
-        stderr(&output).contains("--back has no meaning for design.helix.length_mm"),
+        stderr(&output).contains("--back does not apply to design.helix.length_mm"),
         "{}",
         stderr(&output)
     );

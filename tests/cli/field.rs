@@ -59,7 +59,7 @@ fn external_field_adds_up_in_the_world_frame() {
 fn bad_points_are_refused_with_their_line() {
     for (points, expected) in [
         ("x_m,y_m,z_m\n0,0,0.01\n0.002,0,0.0005\n", "points.csv, line 3: the field at"),
-        ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is no number"),
+        ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is not a number"),
         ("x_m,y_m,z_m\n0,nan,0.01\n", "points.csv, line 2: "),
         ("x,y,z\n0,0,0.01\n", "points.csv has no column x_m; it has x, y, z"),
         ("x_m,y_m,z_m\n0,0\n", "line: 2"),

@@ -43,7 +43,7 @@ fn bad_ranges_are_refused() {
     for (vary, expected) in [
         ("field.uniform_mt[2]", "not of the form"),
         ("field.uniform_mt[2]=0:1", "not of the form"),
-        ("field.uniform_mt[2]=0:x:2", "\"x\" is no finite number"),
+        ("field.uniform_mt[2]=0:x:2", "\"x\" is not a finite number"),
         ("field.uniform_mt[2]=0:1:0", "COUNT = 0"),
         ("field.unifrom_mt[2]=0:1:2", "did you mean `uniform_mt`?"),
         ("field.uniform_mt[4]=0:1:2", "indices go from 1 to 3"),

@@ -50,7 +50,7 @@ fn magnet_pair(diameter: f64, length: f64, gap: f64, remanence: f64) -> Assembly
 
 /// The number at `key`, which must be one.
 pub(crate) fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap_or_else(|| panic!("{key} is no number: {}", value[key]))
+    value[key].as_f64().unwrap_or_else(|| panic!("{key} is not a number: {}", value[key]))
 }
 
 /// All numbers of a list.

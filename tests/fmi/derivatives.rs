@@ -116,9 +116,9 @@ fn derivatives_that_are_none_are_refused_by_name() {
     let of = |name: &str| reference(&table, name);
     let field = of("field.uniform[2]");
     for (name, reason) in [
-        ("tip.angle", "tip.angle is no continuous input"),
-        ("gravity[1]", "gravity[1] is no continuous input"),
-        ("model.interaction", "model.interaction is no continuous input"),
+        ("tip.angle", "tip.angle is not a continuous input"),
+        ("gravity[1]", "gravity[1] is not a continuous input"),
+        ("model.interaction", "model.interaction is not a continuous input"),
     ] {
         assert_eq!(instance.set_input_derivatives(&[of(name)], &[1], &[1.0]), Ending::Error);
         assert!(last(&told).contains(reason), "{}", last(&told));

@@ -91,7 +91,7 @@ fn wrong_references_and_types_are_refused_whole() {
     );
     assert_eq!(instance.set(&[strength], [Value::Integer(1)].into_iter()), Ending::Error);
     assert_eq!(instance.get(&[reference(&table, "solver.status")], "Real", Value::real), Err(Ending::Error));
-    assert!(last(&told).contains("solver.status is no Real"), "{}", last(&told));
+    assert!(last(&told).contains("solver.status is not a variable of type Real"), "{}", last(&told));
     let status = set(&mut instance, &table, "tip.angle", 1.0);
     assert_eq!(status, Ending::Error, "{}", last(&told));
     let status = set(&mut instance, &table, "design.helix.length", 0.005);

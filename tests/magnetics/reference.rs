@@ -21,7 +21,7 @@ pub(crate) fn table<const N: usize>(file: &str) -> Vec<Row<N>> {
             let record = record.unwrap_or_else(|error| panic!("{file}: {error}"));
             let numbers: Vec<f64> = record
                 .iter()
-                .map(|text| text.trim().parse().unwrap_or_else(|_| panic!("{file}: {text} is no number")))
+                .map(|text| text.trim().parse().unwrap_or_else(|_| panic!("{file}: {text} is not a number")))
                 .collect();
             assert_eq!(numbers.len(), 3 + N, "{file}: columns");
             Row {

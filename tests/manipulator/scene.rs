@@ -138,7 +138,7 @@ fn refusals_name_line_path_and_remedy() {
         ),
         (
             "[model]\ninteraction = \"all\"",
-            "test, line 2: `model.interaction`: \"all\" is no level: choose one of none, preceding, rings, full, auto",
+            "test, line 2: `model.interaction`: \"all\" is not a level: choose one of none, preceding, rings, full, auto",
         ),
         (
             "[model]\nmethod = \"shoting\"",

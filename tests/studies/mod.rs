@@ -38,6 +38,6 @@ fn row<'a>(study: &'a Study, quantity: &str) -> &'a Comparison {
 fn number(value: &Value) -> f64 {
     match value {
         Value::Number(number) => *number,
-        other => panic!("{other:?} is no number"),
+        other => panic!("{other:?} is not a number"),
     }
 }

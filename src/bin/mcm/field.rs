@@ -93,7 +93,7 @@ impl Field {
             for ((entry, &column), title) in point.iter_mut().zip(&columns).zip(POINT) {
                 let text = record.get(column).unwrap_or_default();
                 *entry = text.parse().map_err(|_| {
-                    Failure::Message(format!("{name}, line {line}: {title} = \"{text}\" is no number"))
+                    Failure::Message(format!("{name}, line {line}: {title} = \"{text}\" is not a number"))
                 })?;
             }
             points.push((line, point));

@@ -85,9 +85,9 @@ fn write_archive(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), String>
 /// The current time in UTC, in the format of FMI 2.0; `SOURCE_DATE_EPOCH` makes builds reproducible.
 fn now() -> Result<String, Failure> {
     let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
-        Ok(text) => text
-            .parse()
-            .map_err(|_| Failure::Message(format!("SOURCE_DATE_EPOCH = {text} is no number of seconds")))?,
+        Ok(text) => text.parse().map_err(|_| {
+            Failure::Message(format!("SOURCE_DATE_EPOCH = {text} is not a number of seconds"))
+        })?,
         Err(_) => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
     };
     let (year, month, day) = date(seconds / 86_400);

@@ -93,7 +93,7 @@ impl Sweep {
         }
         if self.back && !same_device {
             return Err(Failure::Message(format!(
-                "--back has no meaning for {}: each of its values is another device, which starts unloaded",
+                "--back does not apply to {}: each of its values is a separate device, which starts unloaded",
                 along.key
             )));
         }

@@ -277,7 +277,7 @@ fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::E
 fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
     let name = String::deserialize(input)?;
     let known = Interaction::ALL.iter().map(|row| row.1);
-    Interaction::named(&name).ok_or_else(|| unknown(&name, "no level", known))
+    Interaction::named(&name).ok_or_else(|| unknown(&name, "not a level", known))
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]

@@ -37,7 +37,7 @@ impl FromStr for Binary {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (name, library) = text.split_once('=').ok_or("say PLATFORM=FILE")?;
+        let (name, library) = text.split_once('=').ok_or("expected PLATFORM=FILE")?;
         let platform = named(name).ok_or_else(|| {
             let known = PLATFORMS.each_ref().map(|platform| platform.name);
             format!("FMI 2.0 has no platform `{name}`; its platforms are {}", known.join(", "))
@@ -54,7 +54,7 @@ impl Binary {
         let bytes = fs::read(library)
             .map_err(|error| Failure::Message(format!("cannot read the library {shown}: {error}")))?;
         if !beginnings.iter().any(|beginning| bytes.starts_with(beginning)) {
-            return Err(Failure::Message(format!("{shown} is no library for {name}")));
+            return Err(Failure::Message(format!("{shown} is not a library for {name}")));
         }
         Ok((format!("binaries/{name}/{MODEL_IDENTIFIER}.{ending}"), bytes))
     }

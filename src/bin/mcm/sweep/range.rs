@@ -21,7 +21,7 @@ impl FromStr for Range {
         let [start, stop, count] = range.split(':').collect::<Vec<_>>()[..] else { return Err(form()) };
         let number = |text: &str| match text.trim().parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("\"{text}\" is no finite number")),
+            _ => Err(format!("\"{text}\" is not a finite number")),
         };
         let (start, stop) = (number(start)?, number(stop)?);
         let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is not a valid count"))?;

@@ -59,7 +59,7 @@ fn fold_in_words(key: &str, fold: &Fold, way: Way) -> String {
             let at = if far { format!(", found at {value}") } else { String::new() };
             format!("{there}, it snaps to {angle:.2} deg{at}")
         }
-        None => format!("{there}, the way ends: {}", fold.outcome),
+        None => format!("{there}, the branch ends: {}", fold.outcome),
     }
 }
 
@@ -82,7 +82,7 @@ fn hysteresis(key: &str, rows: &[Row]) -> Option<String> {
     let difference = |(a, b): &&(&Row, &Row)| (a.angle() - b.angle()).abs();
     let (there, back) = apart.iter().max_by(|a, b| difference(a).total_cmp(&difference(b)))?;
     Some(format!(
-        "hysteresis: the way back is another from {key} = {} to {}, most at {}: {:.2} deg forth, {:.2} deg back",
+        "hysteresis: the way back differs from {key} = {} to {}, most at {}: {:.2} deg forth, {:.2} deg back",
         first.0.value(),
         last.0.value(),
         there.value(),
