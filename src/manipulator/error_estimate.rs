@@ -28,7 +28,7 @@ pub(super) struct ErrorEstimate {
     inputs: Inputs,
     tip: Pose,
     field: Vector3<f64>,
-    /// Fraction of closed windings of each core, whether or not the model has the bending stop.
+    /// Fraction of closed windings of each core, whether or not the model has the bending stop; empty if none has.
     closed: Vec<f64>,
     /// Estimated error of the tip pose.
     deviation: TipDeviation,
@@ -36,10 +36,12 @@ pub(super) struct ErrorEstimate {
 
 impl ErrorEstimate {
     /// Records the estimated error of the last solution of `model`, at `inputs`.
-    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation) -> Self {
+    ///
+    /// `stops` tells whether a model of the hierarchy has the bending stop.
+    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation, stops: bool) -> Self {
         let tip = model.tip();
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
-        let closed = model.closed_windings().collect();
+        let closed = model.closed_windings().filter(|_| stops).collect();
         Self { inputs: inputs.clone(), tip, field, closed, deviation }
     }
 
@@ -48,8 +50,7 @@ impl ErrorEstimate {
         self.inputs.copy_from(inputs);
         (self.tip, self.deviation) = (model.tip(), deviation);
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
-        self.closed.clear();
-        self.closed.extend(model.closed_windings());
+        self.closed.iter_mut().zip(model.closed_windings()).for_each(|(own, now)| *own = now);
     }
 
     /// Change since the estimate, in units of the change that calls for a new one (for an error close to the tolerance).

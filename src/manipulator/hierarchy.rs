@@ -310,9 +310,11 @@ impl Hierarchy {
     fn record(&mut self, inputs: &Inputs, error: TipDeviation) {
         let model = self.models.at(self.present);
         (self.age, self.wait.counted) = (0.0, 0.0);
-        match &mut self.estimate {
-            Some(estimate) => estimate.renew(model, inputs, error),
-            None => self.estimate = Some(ErrorEstimate::new(model, inputs, error)),
+        if let Some(estimate) = &mut self.estimate {
+            estimate.renew(model, inputs, error);
+        } else {
+            let stops = self.models.at(self.models.richest()).settings().bending_stop;
+            self.estimate = Some(ErrorEstimate::new(model, inputs, error, stops));
         }
     }
 

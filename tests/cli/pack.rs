@@ -81,7 +81,10 @@ fn the_own_platform_goes_with_others() {
 fn what_cannot_be_packed_is_said_and_nothing_is_written() {
     let folder = libraries("pack refused");
     for (arguments, reason) in [
-        (&["--binary", "amiga=windows.dll"][..], "no platform `amiga`; its platforms are linux64, linux32, win64"),
+        (
+            &["--binary", "amiga=windows.dll"][..],
+            "no platform `amiga`; its platforms are linux64, linux32, win64",
+        ),
         (&["--binary", "windows.dll"], "expected PLATFORM=FILE"),
         (&["--binary", "win64=absent.dll"], "cannot read the library absent.dll"),
         (&["--binary", "win64=text.dll"], "text.dll is not a library for win64"),
