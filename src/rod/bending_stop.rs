@@ -40,7 +40,7 @@ pub struct BendingStop {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StopLoads {
     /// Loads on the near and the far end, couples alone; the energy is that of the second, infinite where the core is
-    /// bent by more than [`HALF_TURN`].
+    /// bent by half a turn or more.
     pub loads: [Load; 2],
     /// Mixed second derivative with respect to the rotations of the near and the far end, N m.
     pub mixed: Matrix3<f64>,
