@@ -49,7 +49,7 @@ def test_unknown_value_reference(device: Device) -> None:
     device.start()
     for call, arguments in [("getReal", [[99999]]), ("setReal", [[99999], [1.0]]), ("getString", [[0]])]:
         message = refused(device, call, *arguments)
-        assert "99999" in message or "no String" in message
+        assert "99999" in message or "not a variable of type String" in message
     device.step(0.1)
 
 
