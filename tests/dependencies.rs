@@ -3,10 +3,11 @@
 use toml::{Table, Value};
 
 /// What the library and the FMU are made with.
-const OF_THE_LIBRARY: [&str; 10] = [
+const OF_THE_LIBRARY: [&str; 11] = [
     "cpu-time",
     "crc32fast",
     "libc",
+    "multiversion",
     "nalgebra",
     "postcard",
     "quick-xml",

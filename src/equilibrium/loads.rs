@@ -156,15 +156,20 @@ impl Potential<'_> {
             return Some(energy);
         }
         let mutual = spans.are_mutual();
-        for k in 0..self.chain.elements.len() {
+        let mut batch = std::mem::take(&mut self.work.batch);
+        for (k, element) in self.chain.elements.iter().enumerate() {
             self.work.mixed[k].clear();
             let start = self.work.nodes[k];
+            batch.place((0..element.stations.len()).map(|station| self.work.station(k, station)));
             for (ring, body) in self.chain.rings.iter().enumerate() {
                 let node = self.work.nodes[body.node];
                 let source = spans.source(ring, &node);
-                for sample in spans.samples(k, ring) {
-                    let pose = self.work.station(k, sample.station);
-                    let load = RingsOnSpans::load(&source, &node, sample, &pose, order)?;
+                let samples = spans.samples(k, ring);
+                if source.on_samples(samples, order, &mut batch).is_none() {
+                    self.work.batch = batch;
+                    return None;
+                }
+                for (sample, load) in samples.iter().zip(RingsOnSpans::loads(&source, &node, &batch)) {
                     energy += load.on_second.energy;
                     self.work.pair_loads.stations[k][sample.station] +=
                         load.on_second.in_axes(&start.rotation);
@@ -182,6 +187,7 @@ impl Potential<'_> {
                 }
             }
         }
+        self.work.batch = batch;
         Some(energy)
     }
 

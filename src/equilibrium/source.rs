@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use super::chain::Chain;
 use super::ring_body::RingBody;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable};
+use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable, Jet};
 use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station, StationQuadrature};
 
 /// The magnet that makes the field of a source.
@@ -15,6 +15,28 @@ use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station,
 enum Magnet<'a> {
     Assembly(&'a Assembly, f64),
     Ring(&'a AxialSource, Option<&'a FieldTable>),
+}
+
+/// Sections of an element in the field of one source, and the loads on them; storage that is used again.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SectionBatch {
+    /// Poses of the element's stations in the world.
+    stations: Vec<Pose>,
+    /// Poses of the sections in the frame of the source.
+    pub(super) sections: Vec<Pose>,
+    /// Energy of each section as a load on its frame, in the axes of the source.
+    pub(super) loads: Vec<Load>,
+    points: Vec<Vector3<f64>>,
+    fields: Vec<(Vector3<f64>, Matrix3<f64>)>,
+    jets: Vec<Jet>,
+}
+
+impl SectionBatch {
+    /// Places the stations of an element, given by their poses in the world.
+    pub(super) fn place(&mut self, stations: impl Iterator<Item = Pose>) {
+        self.stations.clear();
+        self.stations.extend(stations);
+    }
 }
 
 /// Field (T) and its derivatives at a point.
@@ -62,6 +84,11 @@ impl<'a> Source<'a> {
             magnet: Magnet::Ring(&body.source, body.table.as_deref().filter(|_| tabulated)),
             compact: 0.0,
         }
+    }
+
+    /// Position in world axes, m.
+    pub(crate) fn centre(&self) -> &Vector3<f64> {
+        &self.frame.position
     }
 
     /// The axes in which the energies are given, as columns in world axes.
@@ -187,10 +214,61 @@ impl<'a> Source<'a> {
         self.on_section(points.iter().map(|point| (*point, share)), &self.locate(pose), order)
     }
 
-    /// The same for a quadrature sample of the material.
-    pub(crate) fn on_sample(&self, sample: &StationQuadrature, pose: &Pose, order: Order) -> Option<Load> {
-        let dipoles = sample.points.iter().map(|point| (point.position, sample.magnetisation * point.volume));
-        self.on_section(dipoles, &self.locate(pose), order)
+    /// The same for a ring and quadrature samples of the material of the element that was placed last; sections and loads
+    /// are written to `batch` in the order of the samples. `None` for another source.
+    pub(crate) fn on_samples(
+        &self,
+        samples: &[StationQuadrature],
+        order: Order,
+        batch: &mut SectionBatch,
+    ) -> Option<()> {
+        batch.loads.clear();
+        batch.sections.clear();
+        batch.sections.extend(samples.iter().map(|sample| self.locate(&batch.stations[sample.station])));
+        let by_table = matches!((self.magnet, order), (Magnet::Ring(_, Some(_)), Order::Gradient));
+        let Magnet::Ring(ring, _) = self.magnet else { return None };
+        if by_table {
+            for (sample, pose) in samples.iter().zip(&batch.sections) {
+                let moment = |volume: f64| sample.magnetisation * volume;
+                let dipoles = sample.points.iter().map(|point| (point.position, moment(point.volume)));
+                batch.loads.push(self.on_section(dipoles, pose, order)?);
+            }
+            return Some(());
+        }
+        batch.points.clear();
+        for (sample, pose) in samples.iter().zip(&batch.sections) {
+            let [d1, d2]: [Vector3<f64>; 2] = core::array::from_fn(|i| pose.rotation.column(i).into_owned());
+            for point in &sample.points {
+                let place = pose.position + d1 * point.position.x + d2 * point.position.y;
+                if ring.contains(&place) {
+                    return None;
+                }
+                batch.points.push(place);
+            }
+        }
+        match order {
+            Order::Gradient => ring.field_gradients(&batch.points, &mut batch.fields).ok()?,
+            Order::Hessian => ring.jets(&batch.points, &mut batch.jets).ok()?,
+        }
+        let mut start = 0;
+        for (sample, pose) in samples.iter().zip(&batch.sections) {
+            let mut sheet = SectionDipoles::new(order == Order::Hessian);
+            let axis = pose.axis();
+            for (number, point) in (start..).zip(&sample.points) {
+                let moment = sample.magnetisation * point.volume;
+                if order == Order::Hessian {
+                    let jet = &batch.jets[number];
+                    let along = jet.hessian_along(&axis);
+                    sheet.add(moment, &point.position, &jet.field, &jet.gradient, Some(&along));
+                } else {
+                    let (field, gradient) = &batch.fields[number];
+                    sheet.add(moment, &point.position, field, gradient, None);
+                }
+            }
+            start += sample.points.len();
+            batch.loads.push(sheet.load(&pose.rotation));
+        }
+        Some(())
     }
 
     /// Energy of dipoles (A m2) at points of a section whose pose is given in the source's frame.

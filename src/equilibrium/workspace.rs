@@ -6,6 +6,7 @@ use super::chain::Chain;
 use super::factorisation::{Factorisation, Linearisation, TotalLoad};
 use super::pair_loads::PairLoads;
 use super::settings::Settings;
+use super::source::SectionBatch;
 use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
@@ -24,6 +25,8 @@ pub(super) struct Workspace {
     /// By element: rotational stiffness (N m/rad) of the loads that change abruptly with the shape.
     pub(super) abrupt: Vec<f64>,
     pub(super) pair_loads: PairLoads,
+    /// Sections in the field of one ring.
+    pub(super) batch: SectionBatch,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -53,6 +56,7 @@ impl Workspace {
             placed_loads: vec![(Vec::new(), Vec::new()); count],
             abrupt: vec![0.0; count],
             pair_loads: PairLoads::new(chain),
+            batch: SectionBatch::default(),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),

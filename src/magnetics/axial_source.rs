@@ -7,6 +7,7 @@ use super::edge::{Edges, FIELD, GRADIENT, HESSIAN};
 use super::jet::Jet;
 use super::multipole::{Multipole, TERMS};
 use super::overlap::Outline;
+use super::points::Edge;
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::{Error, check};
 
@@ -244,6 +245,21 @@ impl AxialSource {
         self.remanence * area * self.length() / VACUUM_PERMEABILITY
     }
 
+    /// Whether a point at the squared distance `r2` from the centre is near enough for the closed form.
+    #[inline]
+    pub(super) fn is_near(&self, r2: f64) -> bool {
+        r2 <= self.far2
+    }
+
+    /// Calls `function` with all edges.
+    #[inline]
+    pub(super) fn with_edges<T>(&self, function: impl FnOnce(&[Edge]) -> T) -> T {
+        match &self.edges {
+            SourceEdges::Cylinder(edges) => function(&edges.each()),
+            SourceEdges::Ring(edges) => function(&edges.each()),
+        }
+    }
+
     fn multipoles<const ORDER: u8>(
         &self,
         point: &Vector3<f64>,
@@ -285,7 +301,10 @@ impl AxialSource {
     }
 
     #[inline]
-    fn components<const ORDER: u8>(&self, point: &Vector3<f64>) -> Result<(Meridian, Components), Error> {
+    pub(super) fn components<const ORDER: u8>(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<(Meridian, Components), Error> {
         if !point.iter().all(|coordinate| coordinate.abs() <= FARTHEST) {
             return Err(refused(point));
         }

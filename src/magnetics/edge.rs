@@ -6,6 +6,11 @@
 //! needs one of the third kind. The closed forms are arranged so that nothing cancels near the axis, where the textbook
 //! differences of `K` and `E` lose all digits.
 
+#![expect(
+    clippy::inline_always,
+    reason = "the batch of points compiles these formulas for several processors"
+)]
+
 use core::array::from_fn;
 use core::f64::consts::PI;
 
@@ -38,6 +43,11 @@ pub(super) struct Edges<const N: usize> {
 }
 
 impl<const N: usize> Edges<N> {
+    /// Radius, axial position and signed strength of each.
+    pub(super) fn each(&self) -> [[f64; 3]; N] {
+        from_fn(|i| [self.radius[i], self.position[i], self.strength[i]])
+    }
+
     /// Components summed over the edges, at the distance `rho` from the axis and the height `z`; `None` on an edge.
     ///
     /// `ORDER` is the highest derivative; components of higher ones stay zero.
@@ -55,92 +65,96 @@ impl<const N: usize> Edges<N> {
     /// The potential, zero unless `POTENTIAL`, and the components.
     #[inline]
     fn sum<const ORDER: u8, const POTENTIAL: bool>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
-        let place = Place::new(Lanes(self.radius), z - Lanes(self.position), rho);
-        if (0..N).any(|i| place.near2.0[i] <= ON_EDGE * ON_EDGE * place.far2.0[i]) {
+        let place = Place::new(Lanes(self.radius), z - Lanes(self.position), Lanes::all(rho));
+        if place.is_on_edge() {
             return None;
         }
-        let m = 4.0 * rho * place.radius * place.inverse_far2;
-        let integrals = Integrals::new(m, (place.near2 * place.inverse_far2).sqrt(), place.ratio);
+        let integrals = Integrals::new(place.parameter(), place.complement(), place.ratio());
+        let parts = place.components::<ORDER>(&integrals);
         let weights = &self.strength;
-        let (radial, axial) = place.field(&integrals);
         let mut sum = Components {
-            radial: radial.weighted_sum(weights),
-            axial: axial.weighted_sum(weights),
+            radial: parts.radial.weighted_sum(weights),
+            axial: parts.axial.weighted_sum(weights),
             ..Components::default()
         };
-        let potential =
-            if POTENTIAL { place.potential(&integrals, radial, axial).weighted_sum(weights) } else { 0.0 };
-        if ORDER == FIELD {
-            return Some((potential, sum));
+        let potential = if POTENTIAL {
+            place.potential(&integrals, parts.radial, parts.axial).weighted_sum(weights)
+        } else {
+            0.0
+        };
+        if ORDER >= GRADIENT {
+            sum.radial_dz = parts.radial_dz.weighted_sum(weights);
+            sum.axial_dz = parts.axial_dz.weighted_sum(weights);
         }
-        let close: [bool; N] = from_fn(|i| m.0[i] > NEAR_EDGE);
-        let any_close = close.contains(&true);
-        let (mut radial_dz, mut axial_dz) = place.gradient(&integrals);
-        if any_close {
-            let (radial_dz_close, axial_dz_close) = place.gradient_near_edge(&integrals);
-            radial_dz = radial_dz.replaced(close, radial_dz_close);
-            axial_dz = axial_dz.replaced(close, axial_dz_close);
-        }
-        sum.radial_dz = radial_dz.weighted_sum(weights);
-        sum.axial_dz = axial_dz.weighted_sum(weights);
         if ORDER >= HESSIAN {
-            let [mut radial_dzz, mut axial_dzz, mut twist] = place.hessian(&integrals);
-            if any_close {
-                let [radial_dzz_close, axial_dzz_close] = place.hessian_near_edge(&integrals);
-                radial_dzz = radial_dzz.replaced(close, radial_dzz_close);
-                axial_dzz = axial_dzz.replaced(close, axial_dzz_close);
-                twist = twist.replaced(close, (axial_dz + 2.0 * radial) / place.rho2);
-            }
-            sum.radial_dzz = radial_dzz.weighted_sum(weights);
-            sum.axial_dzz = axial_dzz.weighted_sum(weights);
-            sum.twist = twist.weighted_sum(weights);
+            sum.radial_dzz = parts.radial_dzz.weighted_sum(weights);
+            sum.axial_dzz = parts.axial_dzz.weighted_sum(weights);
+            sum.twist = parts.twist.weighted_sum(weights);
         }
         Some((potential, sum))
     }
 }
 
-/// Position of a point relative to each edge, and the quantities that the formulas share.
-struct Place<const N: usize> {
+/// Components per unit remanence, a lane for each pair of a point and an edge; see [`Components`].
+pub(super) struct Parts<const N: usize> {
+    pub(super) radial: Lanes<N>,
+    pub(super) axial: Lanes<N>,
+    pub(super) radial_dz: Lanes<N>,
+    pub(super) axial_dz: Lanes<N>,
+    pub(super) radial_dzz: Lanes<N>,
+    pub(super) axial_dzz: Lanes<N>,
+    pub(super) twist: Lanes<N>,
+}
+
+/// Positions of points relative to edges, and the quantities that the formulas share: a lane for each pair.
+pub(super) struct Place<const N: usize> {
     radius: Lanes<N>,
     /// Height above the edge's plane.
     u: Lanes<N>,
-    rho2: f64,
+    rho: Lanes<N>,
+    rho2: Lanes<N>,
     a2: Lanes<N>,
     u2: Lanes<N>,
     /// `a^2 - rho^2`, without cancellation.
     w: Lanes<N>,
-    /// `1 / (a + rho)`.
+    /// `a + rho`, `a - rho` and `1 / (a + rho)`.
+    pub(super) sum: Lanes<N>,
+    pub(super) difference: Lanes<N>,
     inverse_sum: Lanes<N>,
-    /// `(a - rho) / (a + rho)`.
-    ratio: Lanes<N>,
     /// Square of the smallest distance to the edge, `q`.
     near2: Lanes<N>,
+    inverse_near2: Lanes<N>,
     /// Square of the largest distance to the edge, `R^2`.
     far2: Lanes<N>,
-    inverse_far: Lanes<N>,
+    pub(super) inverse_far: Lanes<N>,
     inverse_far2: Lanes<N>,
     inverse_far3: Lanes<N>,
 }
 
 impl<const N: usize> Place<N> {
-    #[inline]
-    fn new(radius: Lanes<N>, u: Lanes<N>, rho: f64) -> Self {
+    #[inline(always)]
+    pub(super) fn new(radius: Lanes<N>, u: Lanes<N>, rho: Lanes<N>) -> Self {
         let (sum, difference) = (radius + rho, radius - rho);
         let u2 = u.squared();
-        let far2 = sum.squared() + u2;
-        let inverse_far2 = 1.0 / far2;
+        let (near2, far2) = (difference.squared() + u2, sum.squared() + u2);
+        // Three reciprocals from that of their product.
+        let (both, beside) = (near2 * far2, far2 * sum);
+        let whole = 1.0 / (both * sum);
+        let inverse_far2 = whole * (near2 * sum);
         let inverse_far = far2.sqrt() * inverse_far2;
-        let inverse_sum = 1.0 / sum;
         Self {
             radius,
             u,
-            rho2: rho * rho,
+            rho,
+            rho2: rho.squared(),
             a2: radius.squared(),
             u2,
             w: sum * difference,
-            inverse_sum,
-            ratio: difference * inverse_sum,
-            near2: difference.squared() + u2,
+            sum,
+            difference,
+            inverse_sum: whole * both,
+            near2,
+            inverse_near2: whole * beside,
             far2,
             inverse_far,
             inverse_far2,
@@ -148,8 +162,71 @@ impl<const N: usize> Place<N> {
         }
     }
 
+    /// Whether one of the points lies on its edge.
+    #[inline(always)]
+    pub(super) fn is_on_edge(&self) -> bool {
+        (0..N).any(|i| self.near2.0[i] <= ON_EDGE * ON_EDGE * self.far2.0[i])
+    }
+
+    /// Parameter `m` of the elliptic integrals.
+    #[inline(always)]
+    pub(super) fn parameter(&self) -> Lanes<N> {
+        4.0 * self.rho * self.radius * self.inverse_far2
+    }
+
+    /// Complementary modulus `kc`, the ratio of the smallest to the largest distance from the edge.
+    #[inline(always)]
+    pub(super) fn complement(&self) -> Lanes<N> {
+        (self.near2 * self.inverse_far2).sqrt()
+    }
+
+    /// `(a - rho) / (a + rho)`.
+    #[inline(always)]
+    fn ratio(&self) -> Lanes<N> {
+        self.difference * self.inverse_sum
+    }
+
+    /// All components up to the order `ORDER`; those of higher orders are zero.
+    #[inline(always)]
+    pub(super) fn components<const ORDER: u8>(&self, integrals: &Integrals<N>) -> Parts<N> {
+        let zero = Lanes::all(0.0);
+        let (radial, axial) = self.field(integrals);
+        let mut parts = Parts {
+            radial,
+            axial,
+            radial_dz: zero,
+            axial_dz: zero,
+            radial_dzz: zero,
+            axial_dzz: zero,
+            twist: zero,
+        };
+        if ORDER == FIELD {
+            return parts;
+        }
+        let m = self.parameter();
+        let close: [bool; N] = from_fn(|i| m.0[i] > NEAR_EDGE);
+        let any_close = close.contains(&true);
+        (parts.radial_dz, parts.axial_dz) = self.gradient(integrals);
+        if any_close {
+            let (radial_dz, axial_dz) = self.gradient_near_edge(integrals);
+            parts.radial_dz = parts.radial_dz.replaced(close, radial_dz);
+            parts.axial_dz = parts.axial_dz.replaced(close, axial_dz);
+        }
+        if ORDER >= HESSIAN {
+            [parts.radial_dzz, parts.axial_dzz, parts.twist] = self.hessian(integrals);
+            if any_close {
+                let [radial_dzz, axial_dzz] = self.hessian_near_edge(integrals);
+                parts.radial_dzz = parts.radial_dzz.replaced(close, radial_dzz);
+                parts.axial_dzz = parts.axial_dzz.replaced(close, axial_dzz);
+                let twist = (parts.axial_dz + 2.0 * radial) / self.rho2;
+                parts.twist = parts.twist.replaced(close, twist);
+            }
+        }
+        parts
+    }
+
     /// `B_rho / rho` and `B_z` per unit remanence.
-    #[inline]
+    #[inline(always)]
     fn field(&self, i: &Integrals<N>) -> (Lanes<N>, Lanes<N>) {
         let radial = (-8.0 / PI) * self.a2 * i.first * i.t * self.inverse_far3;
         let axial = (1.0 / PI) * self.u * self.radius * i.third * self.inverse_sum * self.inverse_far;
@@ -162,32 +239,32 @@ impl<const N: usize> Place<N> {
     /// its field differs from `B` by half of the remanence, with opposite signs on the two sides. The potential is
     /// homogeneous of degree one in the lengths; Euler's theorem gives it from the field and from the derivative with
     /// respect to the radius, `a K / (pi R)`, which is the potential of a charged circle.
-    #[inline]
+    #[inline(always)]
     fn potential(&self, i: &Integrals<N>, radial: Lanes<N>, axial: Lanes<N>) -> Lanes<N> {
-        let within = self.ratio.map(|ratio| if ratio > 0.0 { 0.5 } else { 0.25 * f64::from(ratio == 0.0) });
+        let within = self.ratio().map(|ratio| if ratio > 0.0 { 0.5 } else { 0.25 * f64::from(ratio == 0.0) });
         let circle = (1.0 / PI) * self.a2 * i.first * self.inverse_far;
         within * self.u.map(f64::abs) - circle - self.rho2 * radial - self.u * axial
     }
 
     /// `dB_rho/dz / rho` and `dB_z/dz`: a current loop's field.
-    #[inline]
+    #[inline(always)]
     fn gradient(&self, i: &Integrals<N>) -> (Lanes<N>, Lanes<N>) {
-        let scale = (1.0 / PI) * self.a2 / self.near2 * self.inverse_far;
+        let scale = (1.0 / PI) * self.a2 * self.inverse_near2 * self.inverse_far;
         let gk = 4.0 * i.first * i.g * self.inverse_far2;
         (scale * self.u * gk, scale * (i.second - self.rho2 * gk))
     }
 
     /// As [`Place::gradient`], for points near the edge.
-    #[inline]
+    #[inline(always)]
     fn gradient_near_edge(&self, i: &Integrals<N>) -> (Lanes<N>, Lanes<N>) {
         let scale = (0.5 / PI) * self.inverse_far;
-        let eq = i.second / self.near2;
+        let eq = i.second * self.inverse_near2;
         let radial_dz = scale * self.u * ((self.a2 + self.rho2 + self.u2) * eq - i.first) / self.rho2;
         (radial_dz, scale * (i.first + (self.w - self.u2) * eq))
     }
 
     /// The polynomials `V`, `P`, `Y` of the second derivatives.
-    #[inline]
+    #[inline(always)]
     fn polynomials(&self) -> [Lanes<N>; 3] {
         let (a2, u2, rho2) = (self.a2, self.u2, self.rho2);
         let (w2, u4, sum2) = (self.w.squared(), u2.squared(), a2 + rho2);
@@ -198,14 +275,14 @@ impl<const N: usize> Place<N> {
     }
 
     /// `d2B_rho/dz2 / rho`, `d2B_z/dz2` and `(dB_z/dz + 2 B_rho/rho) / rho^2`.
-    #[inline]
+    #[inline(always)]
     fn hessian(&self, i: &Integrals<N>) -> [Lanes<N>; 3] {
         let (a2, u2, rho2) = (self.a2, self.u2, self.rho2);
         let s2 = a2 + rho2 + u2;
         let [v, p, y] = self.polynomials();
         let tr = i.t * self.inverse_far2;
-        let loop_scale = (1.0 / PI) * a2 * i.first * self.inverse_far3 / self.near2;
-        let scale = loop_scale * self.inverse_far2 / self.near2;
+        let loop_scale = (1.0 / PI) * a2 * i.first * self.inverse_far3 * self.inverse_near2;
+        let scale = loop_scale * self.inverse_far2 * self.inverse_near2;
         let radial_dzz = 2.0 * scale * (v - 3.0 * u2 * s2 - 4.0 * p * tr);
         let axial_dzz = 0.5
             * self.u
@@ -217,10 +294,10 @@ impl<const N: usize> Place<N> {
     }
 
     /// The first two of [`Place::hessian`], for points near the edge.
-    #[inline]
+    #[inline(always)]
     fn hessian_near_edge(&self, i: &Integrals<N>) -> [Lanes<N>; 2] {
         let [v, p, y] = self.polynomials();
-        let scale = (0.5 / PI) * self.inverse_far3 / self.near2.squared();
+        let scale = (0.5 / PI) * self.inverse_far3 * self.inverse_near2.squared();
         let radial_dzz = scale * (p * i.second - self.near2 * v * i.first) / self.rho2;
         let axial_dzz = scale * self.u * (y * i.second + self.near2 * (self.w - self.u2) * i.first);
         [radial_dzz, axial_dzz]

@@ -1,4 +1,9 @@
-//! Short vectors with element-wise arithmetic: one number for each edge of a magnet.
+//! Short vectors with element-wise arithmetic: one number for each edge of a magnet, or for each of several points.
+
+#![expect(
+    clippy::inline_always,
+    reason = "the batch of points compiles these operations for several processors"
+)]
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Mul, Sub};
@@ -8,34 +13,34 @@ use core::ops::{Add, Div, Mul, Sub};
 pub(super) struct Lanes<const N: usize>(pub(super) [f64; N]);
 
 impl<const N: usize> Lanes<N> {
-    #[inline]
+    #[inline(always)]
     pub(super) fn all(value: f64) -> Self {
         Self([value; N])
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn map(self, function: impl Fn(f64) -> f64) -> Self {
         Self(from_fn(|i| function(self.0[i])))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn squared(self) -> Self {
         self * self
     }
 
     /// `sum_i self_i weights_i`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn weighted_sum(self, weights: &[f64; N]) -> f64 {
         self.0.iter().zip(weights).map(|(value, weight)| value * weight).sum()
     }
 
     /// Replaces the lanes where `chosen` is true by those of `other`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn replaced(self, chosen: [bool; N], other: Self) -> Self {
         Self(from_fn(|i| if chosen[i] { other.0[i] } else { self.0[i] }))
     }
@@ -45,21 +50,21 @@ macro_rules! lanewise {
     ($trait:ident, $method:ident, $operator:tt) => {
         impl<const N: usize> $trait for Lanes<N> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn $method(self, other: Self) -> Self {
                 Self(from_fn(|i| self.0[i] $operator other.0[i]))
             }
         }
         impl<const N: usize> $trait<f64> for Lanes<N> {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn $method(self, other: f64) -> Self {
                 Self(from_fn(|i| self.0[i] $operator other))
             }
         }
         impl<const N: usize> $trait<Lanes<N>> for f64 {
             type Output = Lanes<N>;
-            #[inline]
+            #[inline(always)]
             fn $method(self, other: Lanes<N>) -> Lanes<N> {
                 Lanes(from_fn(|i| self $operator other.0[i]))
             }

@@ -4,6 +4,7 @@ mod assembly;
 mod axial_rule;
 mod axial_source;
 mod axisymmetric;
+mod batch;
 mod dipole;
 mod edge;
 mod face_rule;
@@ -14,6 +15,7 @@ mod lanes;
 mod multipole;
 mod overlap;
 mod pair_table;
+mod points;
 mod uniform;
 mod wrench;
 

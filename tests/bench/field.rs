@@ -32,6 +32,14 @@ fn measure(
     group.bench_function("B+G", |b| b.iter(|| source.field_gradient(point())));
     group.bench_function("B+G+H", |b| b.iter(|| source.jet(point())));
     group.bench_function("magba B", |b| b.iter(|| other(point())));
+    let (mut fields, mut jets) = (Vec::new(), Vec::new());
+    let count = points.len();
+    group.bench_function(format!("B+G at {count} points"), |b| {
+        b.iter(|| source.field_gradients(black_box(points), &mut fields));
+    });
+    group.bench_function(format!("B+G+H at {count} points"), |b| {
+        b.iter(|| source.jets(black_box(points), &mut jets));
+    });
 }
 
 fn field(criterion: &mut Criterion) {

@@ -1,6 +1,7 @@
 //! Tests of `magnetics`.
 
 mod axial_rule;
+mod batch;
 mod consistency;
 pub(crate) mod face_integral;
 mod field;

@@ -83,3 +83,6 @@ pub(crate) const DEPTH: f64 = 1e-8;
 
 /// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
 pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
+
+/// Fields at many points beside those at single ones: other formulas of the same integrals.
+pub(crate) const BATCH: f64 = 1e-12;

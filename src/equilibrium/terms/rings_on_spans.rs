@@ -6,9 +6,9 @@ use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::settings::Interaction;
-use crate::equilibrium::source::Source;
+use crate::equilibrium::source::{SectionBatch, Source};
 use crate::geometry::Pose;
-use crate::rod::{Order, StationQuadrature};
+use crate::rod::StationQuadrature;
 
 /// All rings with all spans, except the discs bonded to their faces.
 #[derive(Debug, Clone, Copy)]
@@ -54,16 +54,16 @@ impl<'a> RingsOnSpans<'a> {
         self.chain.span_quadratures.samples(element, ring, self.rules.span(element, ring))
     }
 
-    /// The energy of a ring with its node at `node` and a sample of material with its station at `pose`, as loads on
-    /// both.
-    pub(crate) fn load(
+    /// The energies of a ring with its node at `node` and of the sections of `batch` as loads on both, after
+    /// [`Source::on_samples`].
+    pub(crate) fn loads(
         source: &Source<'_>,
         node: &Pose,
-        sample: &StationQuadrature,
-        pose: &Pose,
-        order: Order,
-    ) -> Option<PairLoad> {
-        let load = source.on_sample(sample, pose, order)?.in_axes(&source.axes().transpose());
-        Some(PairLoad::reciprocal(&load, pose.position - node.position))
+        batch: &SectionBatch,
+    ) -> impl Iterator<Item = PairLoad> {
+        let (axes, centre) = (*source.axes(), source.centre() - node.position);
+        batch.loads.iter().zip(&batch.sections).map(move |(load, section)| {
+            PairLoad::reciprocal(&load.in_axes(&axes.transpose()), centre + axes * section.position)
+        })
     }
 }
