@@ -25,7 +25,8 @@ use super::layout::{Counts, Input, Output};
 /// let mut manipulator = scene.manipulator(11)?;
 /// let alpha = manipulator.solve(&scene.inputs)?.tip_angle;
 /// let jacobian = manipulator.jacobian()?;
-/// let slope = jacobian.block(Output::TipAngle, Input::UniformField).expect("a quantity of every design")[(0, 1)];
+/// let by_field = jacobian.block(Output::TipAngle, Input::UniformField);
+/// let slope = by_field.map_or(f64::NAN, |block| block[(0, 1)]);
 /// let mut inputs = scene.inputs.clone();
 /// inputs.uniform_field.y += 1e-6; // T
 /// let moved = manipulator.solve(&inputs)?.tip_angle;

@@ -56,30 +56,25 @@ impl Potential<'_> {
 
     /// Loads the ends of all cores whose windings touch; returns the energy of their contact.
     fn load_stops(&mut self, unknowns: &[f64]) -> f64 {
-        let mut energy = 0.0;
-        if !self.terms.stops.act() {
-            return energy;
-        }
-        let work = &mut *self.work;
+        let (mut energy, work) = (0.0, &mut *self.work);
         for (k, element) in self.chain.elements.iter().enumerate() {
-            let (placed, couplings) = &mut work.placed_loads[k];
+            let placed = &mut work.placed_loads[k];
             placed.clear();
-            couplings.clear();
+            let Some(stop) = self.terms.stops.of(element) else { continue };
             let amplitudes = self.chain.part(k, unknowns);
             let tangents = element.core_ends.each_ref().map(|row| {
                 Configuration::rotation_at(element, row, amplitudes).matrix().column(2).into_owned()
             });
-            let stop = self.terms.stops.loads(element, &tangents);
-            work.abrupt[k] = stop.as_ref().map_or(0.0, |stop| stop.stiffness);
-            let Some(stop) = stop else { continue };
+            let Some(stop) = stop.loads(&tangents) else { continue };
             for (row, load) in element.core_ends.iter().zip(stop.loads) {
                 energy += load.energy;
                 let frame = work.configurations[k].frame_at(element, row, amplitudes);
-                placed.push(PlacedLoad { row: row.clone(), frame, load });
+                placed.loads.push(PlacedLoad { row: row.clone(), frame, load });
             }
             let zero = Matrix3::zeros();
             let matrix = blocks(&zero, &zero, &zero, &stop.mixed);
-            couplings.push(PlacedCoupling { between: [0, 1], matrix });
+            placed.couplings.push(PlacedCoupling { between: [0, 1], matrix });
+            placed.abrupt = stop.stiffness;
         }
         energy
     }

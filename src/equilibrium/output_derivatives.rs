@@ -16,7 +16,7 @@ use super::terms::FIELD_INPUTS;
 use crate::error::Error;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::Wrench;
-use crate::rod::{Configuration, Row};
+use crate::rod::Row;
 
 /// Sine of an angle below which it counts as not differentiable.
 const CORNER: f64 = 1e-9;
@@ -196,13 +196,13 @@ impl Equilibrium {
     fn place(&mut self, k: usize, row: &Row, motion: &Motion) -> (Pose, DMatrix<f64>) {
         let element = &self.chain.elements[k];
         let amplitudes = self.chain.part(k, &self.branch.unknowns);
-        let local = self.work.configurations[k].pose_at(element, row, amplitudes);
-        let left = Configuration::rotation_at(element, row, amplitudes).left_jacobian();
+        let frame = self.work.configurations[k].frame_at(element, row, amplitudes);
         let tangent = &mut self.work.derivatives[k];
         let size = tangent.size;
-        let columns = DMatrixView::from_slice(tangent.motion(element, row, &local.position, &left), size, 6);
+        let columns =
+            DMatrixView::from_slice(tangent.motion(element, row, &frame.pose.position, &frame.left), size, 6);
         let node = self.work.nodes[k];
-        (node.compose(&local), turned(&node.rotation, &columns.tr_mul(&motion.elements[k])))
+        (node.compose(&frame.pose), turned(&node.rotation, &columns.tr_mul(&motion.elements[k])))
     }
 }
 

@@ -8,7 +8,7 @@ use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
 use super::terms::Terms;
-use super::workspace::Workspace;
+use super::workspace::{PlacedLoads, Workspace};
 use crate::numerics::arnoldi::smallest_real_part;
 use crate::numerics::eigenvalue::{Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
@@ -100,7 +100,7 @@ impl Potential<'_> {
             moment += load.moment();
             let axes = self.work.nodes[k].rotation;
             let tangent = &mut self.work.derivatives[k];
-            let (placed, couplings) = &self.work.placed_loads[k];
+            let PlacedLoads { loads: placed, couplings, .. } = &self.work.placed_loads[k];
             let loads = ElementLoads {
                 stations: &self.work.station_loads[k],
                 placed,

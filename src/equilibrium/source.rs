@@ -211,7 +211,16 @@ impl<'a> Source<'a> {
             return Some(Load::zero());
         }
         let share = material.magnetisation * material.moments.volume / points.len() as f64;
-        self.on_section(points.iter().map(|point| (*point, share)), &self.locate(pose), order)
+        let section = self.locate(pose);
+        let [d1, d2, axis]: [Vector3<f64>; 3] =
+            core::array::from_fn(|i| section.rotation.column(i).into_owned());
+        let mut sheet = SectionDipoles::new(order == Order::Hessian);
+        for position in points {
+            let point = section.position + d1 * position.x + d2 * position.y;
+            let near = self.near(&point, &axis, order)?;
+            sheet.add(share, position, &near.field, &near.gradient, near.along.as_ref());
+        }
+        Some(sheet.load(&section.rotation))
     }
 
     /// The same for a ring and quadrature samples of the material of the element that was placed last; sections and loads
@@ -225,30 +234,25 @@ impl<'a> Source<'a> {
         batch.loads.clear();
         batch.sections.clear();
         batch.sections.extend(samples.iter().map(|sample| self.locate(&batch.stations[sample.station])));
-        let by_table = matches!((self.magnet, order), (Magnet::Ring(_, Some(_)), Order::Gradient));
-        let Magnet::Ring(ring, _) = self.magnet else { return None };
-        if by_table {
-            for (sample, pose) in samples.iter().zip(&batch.sections) {
-                let moment = |volume: f64| sample.magnetisation * volume;
-                let dipoles = sample.points.iter().map(|point| (point.position, moment(point.volume)));
-                batch.loads.push(self.on_section(dipoles, pose, order)?);
-            }
-            return Some(());
-        }
         batch.points.clear();
         for (sample, pose) in samples.iter().zip(&batch.sections) {
             let [d1, d2]: [Vector3<f64>; 2] = core::array::from_fn(|i| pose.rotation.column(i).into_owned());
-            for point in &sample.points {
-                let place = pose.position + d1 * point.position.x + d2 * point.position.y;
-                if ring.contains(&place) {
-                    return None;
-                }
-                batch.points.push(place);
-            }
+            let place = |at: &Vector2<f64>| pose.position + d1 * at.x + d2 * at.y;
+            batch.points.extend(sample.points.iter().map(|point| place(&point.position)));
         }
-        match order {
-            Order::Gradient => ring.field_gradients(&batch.points, &mut batch.fields).ok()?,
-            Order::Hessian => ring.jets(&batch.points, &mut batch.jets).ok()?,
+        let Magnet::Ring(ring, table) = self.magnet else { return None };
+        if table.is_some() && order == Order::Gradient {
+            batch.fields.clear();
+            for point in &batch.points {
+                let near = self.near(point, &Vector3::z(), order)?;
+                batch.fields.push((near.field, near.gradient));
+            }
+        } else if batch.points.iter().any(|point| ring.contains(point)) {
+            return None;
+        } else if order == Order::Gradient {
+            ring.field_gradients(&batch.points, &mut batch.fields).ok()?;
+        } else {
+            ring.jets(&batch.points, &mut batch.jets).ok()?;
         }
         let mut start = 0;
         for (sample, pose) in samples.iter().zip(&batch.sections) {
@@ -269,24 +273,6 @@ impl<'a> Source<'a> {
             batch.loads.push(sheet.load(&pose.rotation));
         }
         Some(())
-    }
-
-    /// Energy of dipoles (A m2) at points of a section whose pose is given in the source's frame.
-    fn on_section(
-        &self,
-        dipoles: impl Iterator<Item = (Vector2<f64>, f64)>,
-        section: &Pose,
-        order: Order,
-    ) -> Option<Load> {
-        let turn = &section.rotation;
-        let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| turn.column(i).into_owned());
-        let mut sheet = SectionDipoles::new(order == Order::Hessian);
-        for (position, moment) in dipoles {
-            let point = section.position + d1 * position.x + d2 * position.y;
-            let near = self.near(&point, &axis, order)?;
-            sheet.add(moment, &position, &near.field, &near.gradient, near.along.as_ref());
-        }
-        Some(sheet.load(turn))
     }
 
     fn locate(&self, pose: &Pose) -> Pose {

@@ -20,10 +20,8 @@ pub(super) struct Workspace {
     pub(super) placed: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
-    /// By element: loads on other frames, and their mixed derivatives.
-    pub(super) placed_loads: Vec<(Vec<PlacedLoad>, Vec<PlacedCoupling>)>,
-    /// By element: rotational stiffness (N m/rad) of the loads that change abruptly with the shape.
-    pub(super) abrupt: Vec<f64>,
+    /// Loads on other frames, by element.
+    pub(super) placed_loads: Vec<PlacedLoads>,
     pub(super) pair_loads: PairLoads,
     /// Sections in the field of one ring.
     pub(super) batch: SectionBatch,
@@ -42,6 +40,24 @@ pub(super) struct Workspace {
     pub(super) factorisation: Option<Factorisation>,
 }
 
+/// Loads on frames of one element other than its stations and nodes.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PlacedLoads {
+    pub(super) loads: Vec<PlacedLoad>,
+    /// Mixed derivatives of pairs of them.
+    pub(super) couplings: Vec<PlacedCoupling>,
+    /// Rotational stiffness of those that change abruptly with the shape, N m/rad.
+    pub(super) abrupt: f64,
+}
+
+impl PlacedLoads {
+    pub(super) fn clear(&mut self) {
+        self.loads.clear();
+        self.couplings.clear();
+        self.abrupt = 0.0;
+    }
+}
+
 impl Workspace {
     pub(super) fn new(chain: &Chain, settings: &Settings) -> Self {
         let count = chain.elements.len();
@@ -53,8 +69,7 @@ impl Workspace {
             placed: vec![f64::NAN; chain.freedoms()],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
-            placed_loads: vec![(Vec::new(), Vec::new()); count],
-            abrupt: vec![0.0; count],
+            placed_loads: vec![PlacedLoads::default(); count],
             pair_loads: PairLoads::new(chain),
             batch: SectionBatch::default(),
             wrenches: TermWrenches::none(),
@@ -96,12 +111,10 @@ impl Workspace {
     /// Loads on all nodes, then the totals on each element.
     pub(super) fn loads(&self) -> impl Iterator<Item = TotalLoad> + '_ {
         let nodes = self.node_loads.iter().map(|load| TotalLoad::of([load], 0.0));
-        let elements = self.station_loads.iter().zip(&self.placed_loads).zip(&self.abrupt).map(
-            |((stations, (placed, _)), abrupt)| {
-                let placed = placed.iter().map(|placed| &placed.load);
-                TotalLoad::of(stations.iter().chain(placed), *abrupt)
-            },
-        );
+        let elements = self.station_loads.iter().zip(&self.placed_loads).map(|(stations, placed)| {
+            let others = placed.loads.iter().map(|placed| &placed.load);
+            TotalLoad::of(stations.iter().chain(others), placed.abrupt)
+        });
         nodes.chain(elements)
     }
 }

@@ -184,9 +184,8 @@ impl Balance<'_, '_> {
 
     /// Moment of an element's bending stop against its angles (N m), and its derivative.
     fn stop(&self, element: usize, angles: &Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
-        let (terms, chain) = (&self.around.terms, &self.around.line.chain);
-        let (bend, stop) = (angles.norm(), chain.elements[element].stop.as_ref());
-        let energy = stop.filter(|_| terms.stops.act()).and_then(|stop| stop.energy(bend));
+        let (bend, element) = (angles.norm(), &self.around.line.chain.elements[element]);
+        let energy = self.around.terms.stops.of(element).and_then(|stop| stop.energy(bend));
         energy.map_or_else(Default::default, |[_, first, second]| {
             let (along, by_angle) = (angles / bend, first / bend);
             let outer = along * along.transpose();

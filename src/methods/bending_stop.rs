@@ -10,6 +10,7 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use super::strong_form::{Matrix12, State};
 use super::surroundings::{Surroundings, derivative};
 use crate::geometry::Pose;
+use crate::rod::BendingStop;
 
 /// Limit of the remaining moment, relative to that which bends an element by one radian.
 const SETTLED: f64 = 1e-13;
@@ -26,12 +27,15 @@ pub(super) struct WindingMoment {
     pub(super) by_ends: [Matrix3<f64>; 2],
 }
 
-/// The moment that a core's windings carry, as a function of the state at its start.
+/// A span crossed from its start to its end, beside the moment that its windings carry.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Relief {
-    pub(super) moment: Vector3<f64>,
-    /// Derivative with respect to displacement and wrench.
-    by_state: SMatrix<f64, 3, 12>,
+pub(super) struct Crossed {
+    /// The moment that the windings carry, N m.
+    moment: Vector3<f64>,
+    /// State at the end.
+    pub(super) end: State,
+    /// Derivative of that state with respect to displacement and wrench at the start.
+    pub(super) own: Matrix12,
 }
 
 impl State {
@@ -44,56 +48,56 @@ impl State {
     }
 }
 
-impl Relief {
-    /// That of open windings.
-    fn none() -> Self {
-        Self { moment: Vector3::zeros(), by_state: SMatrix::zeros() }
-    }
-
-    /// Derivative of the state after the core, given that of the core alone.
-    pub(super) fn with(&self, own: &Matrix12) -> Matrix12 {
-        let mut relieved = Matrix12::identity();
-        let mut rows = relieved.fixed_rows_mut::<3>(9);
-        rows -= self.by_state;
-        let mut out = own * relieved;
-        let mut rows = out.fixed_rows_mut::<3>(9);
-        rows += self.by_state;
-        out
-    }
-}
-
 impl Surroundings<'_> {
     /// The moment carried by the windings of an element's core with these poses of its ends; `None` where they are open.
     pub(super) fn winding_moment(&self, element: usize, ends: [&Pose; 2]) -> Option<WindingMoment> {
-        let stop = self.terms.stops.loads(&self.line.chain.elements[element], &ends.map(Pose::axis))?;
+        let stop = self.terms.stops.of(&self.line.chain.elements[element])?.loads(&ends.map(Pose::axis))?;
         let by_far = derivative(&stop.loads[1]).fixed_view::<3, 3>(3, 3).into_owned();
         Some(WindingMoment { moment: stop.loads[1].moment(), by_ends: [stop.mixed.transpose(), by_far] })
     }
 
-    /// The moment carried by the windings of a span that starts in the state `start`.
-    ///
-    /// `across` integrates the span alone, with its derivative. `None` where it does, and where no moment is found.
+    /// The bending stop of a span; `None` for a disc, too.
+    fn stop_of(&self, (element, piece): (usize, usize)) -> Option<&BendingStop> {
+        let own = self.line.core(element) == piece;
+        self.terms.stops.of(&self.line.chain.elements[element]).filter(|_| own)
+    }
+
+    /// The moment carried by the windings of a span that starts in the state `start`; arguments as of [`Self::crossed`].
     pub(super) fn relief(
         &self,
-        (element, piece): (usize, usize),
+        span: (usize, usize),
         start: &State,
         across: impl Fn(&State) -> Option<(State, Matrix12)>,
-    ) -> Option<Relief> {
-        let stops = self.terms.stops.act() && self.line.chain.elements[element].stop.is_some();
-        if !stops || self.line.core(element) != piece {
-            return Some(Relief::none());
+    ) -> Option<Vector3<f64>> {
+        match self.stop_of(span) {
+            None => Some(Vector3::zeros()),
+            Some(_) => Some(self.crossed(span, start, across)?.moment),
         }
-        let mut moment = self.first_guess(element, piece, start);
+    }
+
+    /// Crosses a span, given by its element and piece, from the state `start`.
+    ///
+    /// `across` integrates the span alone, with its derivative. `None` where it does, and where no moment of the windings
+    /// is found.
+    pub(super) fn crossed(
+        &self,
+        span: (usize, usize),
+        start: &State,
+        across: impl Fn(&State) -> Option<(State, Matrix12)>,
+    ) -> Option<Crossed> {
+        let open = Vector3::zeros();
+        let mut moment = self.stop_of(span).map_or(open, |stop| self.first_guess(stop, span, start));
         for _ in 0..STEPS {
             let (end, own) = across(&start.relieved(&moment))?;
-            let turned = own.fixed_rows::<3>(3);
-            let Some(carried) = self.winding_moment(element, [&start.pose, &end.pose]) else {
-                if moment == Vector3::zeros() {
-                    return Some(Relief::none());
+            let touching = self.stop_of(span).and(self.winding_moment(span.0, [&start.pose, &end.pose]));
+            let Some(carried) = touching else {
+                if moment == open {
+                    return Some(Crossed { moment, end, own });
                 }
-                moment = Vector3::zeros();
+                moment = open;
                 continue;
             };
+            let turned = own.fixed_rows::<3>(3);
             let [by_near, by_far] = carried.by_ends;
             let rate = Matrix3::identity() + by_far * turned.fixed_columns::<3>(9);
             let inverse = rate.try_inverse()?;
@@ -102,7 +106,8 @@ impl Surroundings<'_> {
                 let mut by_state = by_far * turned;
                 let mut by_near_end = by_state.fixed_columns_mut::<3>(3);
                 by_near_end += by_near;
-                return Some(Relief { moment, by_state: inverse * by_state });
+                let own = beside(&(inverse * by_state), &own);
+                return Some(Crossed { moment, end: end.relieved(&-moment), own });
             }
             moment -= inverse * excess;
         }
@@ -110,17 +115,27 @@ impl Surroundings<'_> {
     }
 
     /// The moment carried by the windings if the moment at the core's start acted all along it.
-    fn first_guess(&self, element: usize, piece: usize, start: &State) -> Vector3<f64> {
-        let span = &self.line.spans[element][piece];
+    fn first_guess(&self, stop: &BendingStop, span: (usize, usize), start: &State) -> Vector3<f64> {
+        let span = &self.line.spans[span.0][span.1];
         let axis = start.pose.axis();
         let across = start.moment() - axis * axis.dot(&start.moment());
         let flexibility = span.length / span.stiffness.bending;
         let bend = across.norm() * flexibility;
-        let stop = self.line.chain.elements[element].stop.as_ref();
         // Where the windings are fully closed, their moment is linear in the angle.
-        let closed = stop.and_then(|stop| stop.energy(bend)).filter(|_| bend > 0.0);
+        let closed = stop.energy(bend).filter(|_| bend > 0.0);
         closed.map_or_else(Vector3::zeros, |[_, first, second]| {
             across * (first / (1.0 + second * flexibility) / across.norm())
         })
     }
+}
+
+/// Derivative of the state after a core, given that of the core alone and that of the moment which its windings carry.
+fn beside(moment: &SMatrix<f64, 3, 12>, own: &Matrix12) -> Matrix12 {
+    let mut relieved = Matrix12::identity();
+    let mut rows = relieved.fixed_rows_mut::<3>(9);
+    rows -= moment;
+    let mut out = own * relieved;
+    let mut rows = out.fixed_rows_mut::<3>(9);
+    rows += moment;
+    out
 }

@@ -174,7 +174,7 @@ impl Condensed {
         let core = self.coupled.as_ref().map_or(0..0, |coupled| coupled.windings.intervals.clone());
         let mut change = self.offset * start;
         for (k, (interval, own)) in self.intervals.iter().zip(particular).enumerate() {
-            if core.contains(&k) && k == core.start {
+            if k == core.start {
                 let mut internal = change.fixed_rows_mut::<3>(9);
                 internal -= moment;
             }

@@ -153,7 +153,7 @@ impl Crossing<3> for InPlane<'_, '_> {
             let relief = self
                 .around
                 .relief((element, piece), &self.state(&y), |state| self.span(element, piece, state))?;
-            let carried = self.plane.normal.dot(&relief.moment);
+            let carried = self.plane.normal.dot(&relief);
             y[5] -= carried;
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
@@ -175,9 +175,8 @@ impl Crossing<3> for InPlane<'_, '_> {
         let mut state = self.around.offset(element, state, None);
         for piece in 0..self.around.line.spans[element].len() {
             let across = |state: &State| self.span(element, piece, state);
-            let relief = self.around.relief((element, piece), &state, across)?;
-            let (end, span) = across(&state.relieved(&relief.moment))?;
-            (state, own) = (end.relieved(&-relief.moment), relief.with(&span) * own);
+            let span = self.around.crossed((element, piece), &state, across)?;
+            (state, own) = (span.end, span.own * own);
         }
         state.is_finite().then(|| (state, self.basis.link(&own)))
     }

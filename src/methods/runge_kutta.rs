@@ -45,7 +45,7 @@ impl Surroundings<'_> {
             let (count, length) = self.steps(element, piece, steps);
             let relief = self
                 .relief((element, piece), &state, |state| self.span_linear((element, piece), state, steps))?;
-            state = state.relieved(&relief.moment);
+            state = state.relieved(&relief);
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
                 let next = self.step(&Step { place, start: state, length })?;
@@ -56,7 +56,7 @@ impl Surroundings<'_> {
                 }
                 state = next;
             }
-            state = state.relieved(&-relief.moment);
+            state = state.relieved(&-relief);
         }
         state.is_finite().then_some(state)
     }
@@ -91,9 +91,8 @@ impl Surroundings<'_> {
         let mut state = self.offset(element, state, None);
         for piece in 0..self.line.spans[element].len() {
             let across = |state: &State| self.span_linear((element, piece), state, steps);
-            let relief = self.relief((element, piece), &state, across)?;
-            let (end, span) = across(&state.relieved(&relief.moment))?;
-            (state, own) = (end.relieved(&-relief.moment), relief.with(&span) * own);
+            let span = self.crossed((element, piece), &state, across)?;
+            (state, own) = (span.end, span.own * own);
         }
         state.is_finite().then_some((state, own))
     }

@@ -145,13 +145,12 @@ impl Trace {
 
     /// Energy of touching windings, J.
     fn stop_energy(&self, around: &Surroundings<'_>) -> f64 {
-        let (line, stops) = (around.line, around.terms.stops);
-        let cores = line.chain.cores.iter().zip(self.core_angles(line)).filter(|_| stops.act());
+        let chain = &around.line.chain;
         let energy = |((element, _), angle): (&(usize, usize), f64)| {
-            let stop = line.chain.elements[*element].stop.as_ref();
+            let stop = around.terms.stops.of(&chain.elements[*element]);
             stop.and_then(|stop| stop.energy(angle)).map_or(0.0, |[energy, ..]| energy)
         };
-        cores.map(energy).sum()
+        chain.cores.iter().zip(self.core_angles(around.line)).map(energy).sum()
     }
 
     /// External wrenches on the spans and all energy of the spans, integrated along the shape.

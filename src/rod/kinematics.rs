@@ -80,8 +80,7 @@ impl Configuration {
 
     /// Updates all states for the mode amplitudes `amplitudes`.
     pub fn update(&mut self, element: &Element, amplitudes: &[f64]) {
-        let start = Vector3::new(0.0, 0.0, element.offset);
-        let mut end = start;
+        let mut end = Vector3::new(0.0, 0.0, element.offset);
         for (state, station) in self.stations.iter_mut().zip(&element.stations) {
             let (theta, _) = components(element, &station.row.integral, amplitudes);
             let (rate, strain) = components(element, &station.row.rate, amplitudes);
@@ -94,34 +93,33 @@ impl Configuration {
             end += state.tangent * station.weight;
         }
         for (index, station) in element.stations.iter().enumerate() {
-            self.stations[index].position = start + self.integrate(&station.row);
+            self.stations[index].position = self.position_at(element, &station.row);
         }
         self.end_theta = RotationVector::new(Vector3::new(amplitudes[0], amplitudes[1], amplitudes[2]));
         self.end = Pose { position: end, rotation: self.end_theta.matrix() };
     }
 
-    fn integrate(&self, row: &Row) -> Vector3<f64> {
+    fn position_at(&self, element: &Element, row: &Row) -> Vector3<f64> {
         let mut sum = Vector3::zeros();
         for (state, weight) in self.stations.iter().zip(&row.position) {
             sum += state.tangent * *weight;
         }
-        sum
+        Vector3::new(0.0, 0.0, element.offset) + sum
     }
 
     /// The pose at a tabulated arc length, in the frame of the preceding node.
     #[must_use]
     pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
-        let start = Vector3::new(0.0, 0.0, element.offset);
         let rotation = Self::rotation_at(element, row, amplitudes).matrix();
-        Pose { position: start + self.integrate(row), rotation }
+        Pose { position: self.position_at(element, row), rotation }
     }
 
     /// The frame at a tabulated arc length.
     #[must_use]
     pub fn frame_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> FrameState {
         let theta = Self::rotation_at(element, row, amplitudes);
-        let position = Vector3::new(0.0, 0.0, element.offset) + self.integrate(row);
-        FrameState { pose: Pose { position, rotation: theta.matrix() }, left: theta.left_jacobian(), theta }
+        let pose = Pose { position: self.position_at(element, row), rotation: theta.matrix() };
+        FrameState { pose, left: theta.left_jacobian(), theta }
     }
 
     /// The rotation vector at a tabulated arc length.
