@@ -4,17 +4,12 @@ use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
 use crate::rod::{Element, Piece, Resolution, SourceGeometry};
 
-use super::ring_body::{RingBody, tabulate};
+use super::ring_body::RingBody;
 use super::settings::Settings;
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
 
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
-
-/// Accuracy of the pairs from which on tables replace the rings' fields at spans: their errors differ from point to point
-/// and average out over the many points. They are not used for pairs of rings, whose few points have large weights of
-/// both signs.
-const TABLE_ACCURACY: f64 = 1e-4;
 
 /// Arc lengths (m) of `points` equally spaced points on a centreline of `length` (m).
 ///
@@ -87,9 +82,6 @@ impl Chain {
                 rings.push(RingBody::new(ring, elements.len())?);
                 offset = ring.length;
             }
-        }
-        if spans && settings.pair_accuracy >= TABLE_ACCURACY {
-            tabulate(&mut rings);
         }
         let mut first = vec![0];
         for element in &elements {

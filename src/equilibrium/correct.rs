@@ -116,7 +116,7 @@ impl Search<'_> {
         let Model { chain, settings, .. } = self.model;
         for done in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
-            let Some(energy) = potential.chord_slope(unknowns) else { return false };
+            let Some(energy) = potential.slope(unknowns) else { return false };
             let residual = dual_norm(potential.metric(), potential.gradient()) / chain.radian_norm();
             (self.report.residual, self.report.energy) = (residual, energy);
             let holds = until == 0.0 || self.holds(unknowns);
@@ -194,13 +194,13 @@ impl Search<'_> {
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut potential = self.potential(before);
-        let returned = potential.chord_slope(now).is_some() && {
+        let returned = potential.slope(now).is_some() && {
             potential.add_newton_step(&mut between);
             norm(metric, &between) <= MISSED * distance
         };
         self.scratch.between = between;
         // The workspace must hold the solved shape at its own inputs, from which results are read.
-        let again = self.potential(inputs).chord_slope(now).is_some();
+        let again = self.potential(inputs).slope(now).is_some();
         (self.report.residual, self.report.energy) = (residual, energy);
         returned && again
     }

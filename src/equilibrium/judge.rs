@@ -35,7 +35,7 @@ impl Search<'_> {
             }
             Outcome::Neutral => {
                 // Factorisation and loads belong to a shape on the way, or on the way back.
-                self.potential(target).chord_slope(&branch.unknowns);
+                self.potential(target).slope(&branch.unknowns);
                 self.work.factorisation = None;
                 self.report.stable = Some(false);
                 Outcome::Neutral

@@ -94,8 +94,8 @@ impl Potential<'_> {
     ///
     /// The first step after a change of the inputs starts from the shape of the last solve, whose pair loads are reused.
     pub(super) fn add_pair_loads(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
-        let (base, rules, tabulated) = (&self.inputs.base, self.rules.number(), self.terms.spans.tabulated);
-        let kept = self.work.pair_loads.at(unknowns, base, rules, tabulated);
+        let (base, rules) = (&self.inputs.base, self.rules.number());
+        let kept = self.work.pair_loads.at(unknowns, base, rules);
         let kept = kept.filter(|_| order == Order::Gradient);
         let energy = if let Some(energy) = kept {
             energy
@@ -106,7 +106,7 @@ impl Potential<'_> {
             pair_loads.stations.iter_mut().for_each(|loads| loads.fill(Load::zero()));
             let energy = self.load_ring_pairs(order)? + self.load_rings_on_spans(order)?;
             let pair_loads = &mut self.work.pair_loads;
-            pair_loads.made = Some(Made { energy, rules, tabulated });
+            pair_loads.made = Some(Made { energy, rules });
             pair_loads.base = *base;
             pair_loads.unknowns.copy_from_slice(unknowns);
             energy
@@ -159,8 +159,8 @@ impl Potential<'_> {
             for (ring, body) in self.chain.rings.iter().enumerate() {
                 let node = self.work.nodes[body.node];
                 let source = spans.source(ring, &node);
-                let samples = spans.samples(k, ring);
-                if source.on_samples(samples, order, &mut batch).is_none() {
+                let (samples, exact) = spans.samples(k, ring);
+                if source.on_samples(samples, exact, order, &mut batch).is_none() {
                     self.work.batch = batch;
                     return None;
                 }

@@ -23,7 +23,6 @@ pub(super) struct Made {
     pub(super) energy: f64,
     /// Version number of the quadrature rules.
     pub(super) rules: u64,
-    pub(super) tabulated: bool,
 }
 
 impl PairLoads {
@@ -37,10 +36,10 @@ impl PairLoads {
         }
     }
 
-    /// The energy, if the loads are those at this shape with these rules; tabulated ones count where tables are allowed.
-    pub(super) fn at(&self, unknowns: &[f64], base: &Pose, rules: u64, tabulated: bool) -> Option<f64> {
-        let alike = |made: &Made| made.rules == rules && (tabulated || !made.tabulated);
-        let made = self.made.filter(|made| alike(made) && self.base == *base && self.unknowns == unknowns);
+    /// The energy, if the loads are those at this shape with these rules.
+    pub(super) fn at(&self, unknowns: &[f64], base: &Pose, rules: u64) -> Option<f64> {
+        let alike = |made: &Made| made.rules == rules && self.base == *base && self.unknowns == unknowns;
+        let made = self.made.filter(alike);
         made.map(|made| made.energy)
     }
 }

@@ -54,13 +54,11 @@ impl PairQuadrature {
                 }
             }
         }
-        for (slot, (ends, body)) in self
-            .spans
-            .iter_mut()
-            .zip(nodes.windows(2).flat_map(|ends| chain.rings.iter().map(move |body| (ends, body))))
-        {
-            let level = SpanQuadratures::level(&nodes[body.node], [&ends[0], &ends[1]]);
-            changed |= level != std::mem::replace(slot, level);
+        for (element, levels) in self.spans.chunks_exact_mut(chain.rings.len().max(1)).enumerate() {
+            for (slot, body) in levels.iter_mut().zip(&chain.rings) {
+                let level = chain.span_quadratures.level(element, body, nodes);
+                changed |= level != std::mem::replace(slot, level);
+            }
         }
         self.number += u64::from(changed);
         changed

@@ -14,10 +14,6 @@ use crate::numerics::eigenvalue::{Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
 use crate::rod::{ElementLoads, Order};
 
-/// Tolerance (radian norm) from which on tabulated ring fields may be used. Smaller tolerances are requested for finite
-/// differences, which the jumps of a table would spoil.
-const TABLE_RESIDUAL: f64 = 5e-8;
-
 /// Number of Arnoldi vectors for the eigenvalues of a non-symmetric matrix.
 const ARNOLDI: usize = 48;
 
@@ -65,15 +61,6 @@ impl Potential<'_> {
         let mut softest = vec![0.0; self.chain.metric.len()];
         spread(&self.chain.metric, &mut softest, 1.0);
         self.margin(&mut Lanczos::default(), &mut softest, THOROUGH) > 0.0
-    }
-
-    /// Computes the energy and the gradient at `x` without a new Hessian, so that the last factorisation is kept. Tables
-    /// may replace the rings' fields, so that these energies must not be compared.
-    pub(super) fn chord_slope(&mut self, x: &[f64]) -> Option<f64> {
-        self.terms.spans.tabulated = self.settings.tolerance >= TABLE_RESIDUAL;
-        let energy = self.slope(x);
-        self.terms.spans.tabulated = false;
-        energy
     }
 
     /// Adds to `x` the Newton step from the last gradient with the last factorisation; the gradient is overwritten.

@@ -1,12 +1,10 @@
 //! Ring of the chain: a rigid magnet on a node.
 
-use std::sync::Arc;
-
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::Ring;
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{AxialSource, FieldTable, Outline};
+use crate::magnetics::{AxialSource, Outline};
 
 /// A rigid ring with its proximal face at a node.
 #[derive(Debug, Clone)]
@@ -17,8 +15,6 @@ pub(crate) struct RingBody {
     pub(crate) node: usize,
     /// Its field, in its own frame.
     pub(crate) source: AxialSource,
-    /// The same field from a table, where tables are used for spans.
-    pub(crate) table: Option<Arc<FieldTable>>,
     /// Magnetisation, A/m.
     pub(crate) magnetisation: f64,
 }
@@ -29,7 +25,6 @@ impl RingBody {
             ring: *ring,
             node,
             source: AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?,
-            table: None,
             magnetisation: ring.remanence / VACUUM_PERMEABILITY,
         })
     }
@@ -47,15 +42,5 @@ impl RingBody {
     /// Pose of its centre for a node at the pose `node`.
     pub(crate) fn centre(&self, node: &Pose) -> Pose {
         node.advanced(self.half_length())
-    }
-}
-
-/// Tabulates the fields of the rings, once for equal rings.
-pub(super) fn tabulate(rings: &mut [RingBody]) {
-    for number in 0..rings.len() {
-        let (before, rest) = rings.split_at_mut(number);
-        let same = before.iter().find(|other| other.source == rest[0].source);
-        rest[0].table = same
-            .map_or_else(|| Some(Arc::new(FieldTable::new(&rest[0].source))), |other| other.table.clone());
     }
 }

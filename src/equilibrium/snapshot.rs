@@ -48,7 +48,7 @@ impl Equilibrium {
         }
         let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));
         let replaced = refactorised && self.rules.restore(rules);
-        if !replaced || self.potential_as_ruled(inputs).chord_slope(&branch.unknowns).is_none() {
+        if !replaced || self.potential_as_ruled(inputs).slope(&branch.unknowns).is_none() {
             self.reset();
             return Err(foreign());
         }

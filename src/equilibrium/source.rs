@@ -6,15 +6,16 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::chain::Chain;
 use super::ring_body::RingBody;
+use super::span_quadrature::SectionSample;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, FieldTable, Jet};
-use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station, StationQuadrature};
+use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, SecondSums, SheetSums};
+use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station};
 
 /// The magnet that makes the field of a source.
 #[derive(Debug, Clone, Copy)]
 enum Magnet<'a> {
     Assembly(&'a Assembly, f64),
-    Ring(&'a AxialSource, Option<&'a FieldTable>),
+    Ring(&'a AxialSource),
 }
 
 /// Sections of an element in the field of one source, and the loads on them; storage that is used again.
@@ -26,9 +27,6 @@ pub(crate) struct SectionBatch {
     pub(super) sections: Vec<Pose>,
     /// Energy of each section as a load on its frame, in the axes of the source.
     pub(super) loads: Vec<Load>,
-    points: Vec<Vector3<f64>>,
-    fields: Vec<(Vector3<f64>, Matrix3<f64>)>,
-    jets: Vec<Jet>,
 }
 
 impl SectionBatch {
@@ -77,13 +75,9 @@ impl<'a> Source<'a> {
         if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
     }
 
-    /// A ring of the manipulator whose node is at `node`; with `tabulated`, its table may replace field and gradient.
-    pub(crate) fn ring(body: &'a RingBody, node: &Pose, tabulated: bool) -> Self {
-        Self {
-            frame: body.centre(node),
-            magnet: Magnet::Ring(&body.source, body.table.as_deref().filter(|_| tabulated)),
-            compact: 0.0,
-        }
+    /// A ring of the manipulator whose node is at `node`.
+    pub(crate) fn ring(body: &'a RingBody, node: &Pose) -> Self {
+        Self { frame: body.centre(node), magnet: Magnet::Ring(&body.source), compact: 0.0 }
     }
 
     /// Position in world axes, m.
@@ -108,7 +102,7 @@ impl<'a> Source<'a> {
         let local = || self.frame.rotation.tr_mul(&(point - self.frame.position));
         match self.magnet {
             Magnet::Assembly(assembly, _) => assembly.distance(&local()),
-            Magnet::Ring(ring, _) => ring.distance(&local()),
+            Magnet::Ring(ring) => ring.distance(&local()),
         }
     }
 
@@ -116,24 +110,19 @@ impl<'a> Source<'a> {
     /// `axis`. `None` inside a magnet.
     #[inline]
     fn near(&self, point: &Vector3<f64>, axis: &Vector3<f64>, order: Order) -> Option<Near> {
-        if let (Magnet::Ring(_, Some(table)), Order::Gradient) = (self.magnet, order)
-            && let Some((field, gradient)) = table.field_gradient(point)
-        {
-            return Some(Near { field, gradient, along: None });
-        }
         let (strength, jet) = match (self.magnet, order) {
             (Magnet::Assembly(assembly, _), _) if assembly.contains(point) => return None,
-            (Magnet::Ring(ring, _), _) if ring.contains(point) => return None,
+            (Magnet::Ring(ring), _) if ring.contains(point) => return None,
             (Magnet::Assembly(assembly, strength), Order::Gradient) => {
                 let (field, gradient) = assembly.field_gradient(point).ok()?;
                 return Some(Near { field: field * strength, gradient: gradient * strength, along: None });
             }
-            (Magnet::Ring(ring, _), Order::Gradient) => {
+            (Magnet::Ring(ring), Order::Gradient) => {
                 let (field, gradient) = ring.field_gradient(point).ok()?;
                 return Some(Near { field, gradient, along: None });
             }
             (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(point).ok()?),
-            (Magnet::Ring(ring, _), Order::Hessian) => (1.0, ring.jet(point).ok()?),
+            (Magnet::Ring(ring), Order::Hessian) => (1.0, ring.jet(point).ok()?),
         };
         Some(Near {
             field: jet.field * strength,
@@ -171,7 +160,7 @@ impl<'a> Source<'a> {
         rules: [&FaceRule; 2],
         order: Order,
     ) -> Option<Load> {
-        let Magnet::Ring(ring, _) = self.magnet else { return None };
+        let Magnet::Ring(ring) = self.magnet else { return None };
         let local = self.locate(node);
         let [d1, d2, axis]: [Vector3<f64>; 3] =
             core::array::from_fn(|i| local.rotation.column(i).into_owned());
@@ -218,59 +207,31 @@ impl<'a> Source<'a> {
         for position in points {
             let point = section.position + d1 * position.x + d2 * position.y;
             let near = self.near(&point, &axis, order)?;
-            sheet.add(share, position, &near.field, &near.gradient, near.along.as_ref());
+            sheet.add((share, &axis), position, &near.field, &near.gradient, near.along.as_ref());
         }
         Some(sheet.load(&section.rotation))
     }
 
-    /// The same for a ring and quadrature samples of the material of the element that was placed last; sections and loads
-    /// are written to `batch` in the order of the samples. `None` for another source.
+    /// The same for a ring and samples of the material of the element that was placed last; sections and loads are written
+    /// to `batch` in the order of the samples. `None` for another source.
     pub(crate) fn on_samples(
         &self,
-        samples: &[StationQuadrature],
+        samples: &[SectionSample],
+        exact: bool,
         order: Order,
         batch: &mut SectionBatch,
     ) -> Option<()> {
+        let Magnet::Ring(ring) = self.magnet else { return None };
         batch.loads.clear();
         batch.sections.clear();
-        batch.sections.extend(samples.iter().map(|sample| self.locate(&batch.stations[sample.station])));
-        batch.points.clear();
-        for (sample, pose) in samples.iter().zip(&batch.sections) {
-            let [d1, d2]: [Vector3<f64>; 2] = core::array::from_fn(|i| pose.rotation.column(i).into_owned());
-            let place = |at: &Vector2<f64>| pose.position + d1 * at.x + d2 * at.y;
-            batch.points.extend(sample.points.iter().map(|point| place(&point.position)));
-        }
-        let Magnet::Ring(ring, table) = self.magnet else { return None };
-        if table.is_some() && order == Order::Gradient {
-            batch.fields.clear();
-            for point in &batch.points {
-                let near = self.near(point, &Vector3::z(), order)?;
-                batch.fields.push((near.field, near.gradient));
-            }
-        } else if batch.points.iter().any(|point| ring.contains(point)) {
-            return None;
-        } else if order == Order::Gradient {
-            ring.field_gradients(&batch.points, &mut batch.fields).ok()?;
-        } else {
-            ring.jets(&batch.points, &mut batch.jets).ok()?;
-        }
-        let mut start = 0;
-        for (sample, pose) in samples.iter().zip(&batch.sections) {
-            let mut sheet = SectionDipoles::new(order == Order::Hessian);
-            let axis = pose.axis();
-            for (number, point) in (start..).zip(&sample.points) {
-                let moment = sample.magnetisation * point.volume;
-                if order == Order::Hessian {
-                    let jet = &batch.jets[number];
-                    let along = jet.hessian_along(&axis);
-                    sheet.add(moment, &point.position, &jet.field, &jet.gradient, Some(&along));
-                } else {
-                    let (field, gradient) = &batch.fields[number];
-                    sheet.add(moment, &point.position, field, gradient, None);
-                }
-            }
-            start += sample.points.len();
-            batch.loads.push(sheet.load(&pose.rotation));
+        let second = order == Order::Hessian;
+        for sample in samples {
+            let section = self.locate(&batch.stations[sample.station]);
+            let SheetSums { field, force, second: SecondSums { gradient, along } } =
+                ring.on_sheet(&sample.sheet, &section, sample.accuracy(exact), second)?;
+            let dipoles = SectionDipoles { field, force, second: second.then_some((gradient, along)) };
+            batch.loads.push(dipoles.load(&section.rotation));
+            batch.sections.push(section);
         }
         Some(())
     }

@@ -251,6 +251,11 @@ impl AxialSource {
         r2 <= self.far2
     }
 
+    /// The multipoles.
+    pub(super) fn multipole(&self) -> &Multipole {
+        &self.multipole
+    }
+
     /// Calls `function` with all edges.
     #[inline]
     pub(super) fn with_edges<T>(&self, function: impl FnOnce(&[Edge]) -> T) -> T {

@@ -70,7 +70,7 @@ impl<const N: usize> Edges<N> {
             return None;
         }
         let integrals = Integrals::new(place.parameter(), place.complement(), place.ratio());
-        let parts = place.components::<ORDER>(&integrals);
+        let parts = place.components::<ORDER, false>(&integrals);
         let weights = &self.strength;
         let mut sum = Components {
             radial: parts.radial.weighted_sum(weights),
@@ -180,6 +180,12 @@ impl<const N: usize> Place<N> {
         (self.near2 * self.inverse_far2).sqrt()
     }
 
+    /// Square of the smallest distance minus that of `least` times the largest one, m2: negative where `kc < least`.
+    #[inline(always)]
+    pub(super) fn excess(&self, least: f64) -> Lanes<N> {
+        self.near2 - least * least * self.far2
+    }
+
     /// `(a - rho) / (a + rho)`.
     #[inline(always)]
     fn ratio(&self) -> Lanes<N> {
@@ -187,8 +193,13 @@ impl<const N: usize> Place<N> {
     }
 
     /// All components up to the order `ORDER`; those of higher orders are zero.
+    ///
+    /// `BATCH`: without branches, so that the gradient alone is good to `eps / kc^2` near an edge.
     #[inline(always)]
-    pub(super) fn components<const ORDER: u8>(&self, integrals: &Integrals<N>) -> Parts<N> {
+    pub(super) fn components<const ORDER: u8, const BATCH: bool>(
+        &self,
+        integrals: &Integrals<N>,
+    ) -> Parts<N> {
         let zero = Lanes::all(0.0);
         let (radial, axial) = self.field(integrals);
         let mut parts = Parts {
@@ -204,22 +215,23 @@ impl<const N: usize> Place<N> {
             return parts;
         }
         let m = self.parameter();
-        let close: [bool; N] = from_fn(|i| m.0[i] > NEAR_EDGE);
-        let any_close = close.contains(&true);
+        let close = |i: usize| m.0[i] > NEAR_EDGE;
+        let any_close = if BATCH { ORDER >= HESSIAN } else { (0..N).any(close) };
+        let inverse_rho2 = || 1.0 / self.rho2.max(1e-3 * self.a2);
         (parts.radial_dz, parts.axial_dz) = self.gradient(integrals);
         if any_close {
-            let (radial_dz, axial_dz) = self.gradient_near_edge(integrals);
-            parts.radial_dz = parts.radial_dz.replaced(close, radial_dz);
-            parts.axial_dz = parts.axial_dz.replaced(close, axial_dz);
+            let (radial_dz, axial_dz) = self.gradient_near_edge(integrals, inverse_rho2());
+            parts.radial_dz = Lanes::select(close, radial_dz, parts.radial_dz);
+            parts.axial_dz = Lanes::select(close, axial_dz, parts.axial_dz);
         }
         if ORDER >= HESSIAN {
             [parts.radial_dzz, parts.axial_dzz, parts.twist] = self.hessian(integrals);
             if any_close {
-                let [radial_dzz, axial_dzz] = self.hessian_near_edge(integrals);
-                parts.radial_dzz = parts.radial_dzz.replaced(close, radial_dzz);
-                parts.axial_dzz = parts.axial_dzz.replaced(close, axial_dzz);
-                let twist = (parts.axial_dz + 2.0 * radial) / self.rho2;
-                parts.twist = parts.twist.replaced(close, twist);
+                let inverse = inverse_rho2();
+                let [radial_dzz, axial_dzz] = self.hessian_near_edge(integrals, inverse);
+                parts.radial_dzz = Lanes::select(close, radial_dzz, parts.radial_dzz);
+                parts.axial_dzz = Lanes::select(close, axial_dzz, parts.axial_dzz);
+                parts.twist = Lanes::select(close, (parts.axial_dz + 2.0 * radial) * inverse, parts.twist);
             }
         }
         parts
@@ -254,12 +266,12 @@ impl<const N: usize> Place<N> {
         (scale * self.u * gk, scale * (i.second - self.rho2 * gk))
     }
 
-    /// As [`Place::gradient`], for points near the edge.
+    /// As [`Place::gradient`], for points near the edge, where `rho` is not small.
     #[inline(always)]
-    fn gradient_near_edge(&self, i: &Integrals<N>) -> (Lanes<N>, Lanes<N>) {
+    fn gradient_near_edge(&self, i: &Integrals<N>, inverse_rho2: Lanes<N>) -> (Lanes<N>, Lanes<N>) {
         let scale = (0.5 / PI) * self.inverse_far;
         let eq = i.second * self.inverse_near2;
-        let radial_dz = scale * self.u * ((self.a2 + self.rho2 + self.u2) * eq - i.first) / self.rho2;
+        let radial_dz = scale * self.u * ((self.a2 + self.rho2 + self.u2) * eq - i.first) * inverse_rho2;
         (radial_dz, scale * (i.first + (self.w - self.u2) * eq))
     }
 
@@ -295,10 +307,10 @@ impl<const N: usize> Place<N> {
 
     /// The first two of [`Place::hessian`], for points near the edge.
     #[inline(always)]
-    fn hessian_near_edge(&self, i: &Integrals<N>) -> [Lanes<N>; 2] {
+    fn hessian_near_edge(&self, i: &Integrals<N>, inverse_rho2: Lanes<N>) -> [Lanes<N>; 2] {
         let [v, p, y] = self.polynomials();
         let scale = (0.5 / PI) * self.inverse_far3 * self.inverse_near2.squared();
-        let radial_dzz = scale * (p * i.second - self.near2 * v * i.first) / self.rho2;
+        let radial_dzz = scale * (p * i.second - self.near2 * v * i.first) * inverse_rho2;
         let axial_dzz = scale * self.u * (y * i.second + self.near2 * (self.w - self.u2) * i.first);
         [radial_dzz, axial_dzz]
     }

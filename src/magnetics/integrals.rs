@@ -15,11 +15,8 @@ const LAST_STEP: f64 = 4e-8;
 /// Largest number of steps: seven suffice for the smallest `kc` that can occur (about 1e-15).
 const MOST_STEPS: i32 = 12;
 
-/// Smallest `kc` for which so many steps leave an error of 2e-15.
-const STEPS: [(f64, u32); 4] = [(0.93, 3), (0.43, 4), (0.071, 5), (2e-3, 6)];
-
-/// Parameter `m` below which the means' differences from the third on are below the rounding of `t` and of `t2`.
-const SMALL: f64 = 5e-3;
+/// Fourth power of the parameter `m` below which the means' differences from the third on are below the rounding of `t2`.
+const SMALL: f64 = 6.25e-10;
 
 /// The integrals of parameter `m = 1 - kc^2`, and combinations of them without cancellation.
 ///
@@ -82,17 +79,11 @@ impl<const N: usize> Integrals<N> {
         Self {
             first,
             second: first * (1.0 - 0.5 * m - m2 * t),
-            third: third.replaced(gamma.0.map(|ratio| ratio == 0.0), first),
+            third: Lanes::select(|i| gamma.0[i] == 0.0, first, third),
             t,
             t2,
             g: 0.5 - (2.0 - m) * t,
         }
-    }
-
-    /// Number of steps that all of `kc` need; `None` where [`Integrals::with_steps`] does not serve, or for NaN.
-    #[inline(always)]
-    pub(super) fn steps(kc: &Lanes<N>) -> Option<u32> {
-        STEPS.iter().find(|(least, _)| kc.0.iter().all(|kc| kc >= least)).map(|(_, steps)| *steps)
     }
 
     /// The same integrals for `gamma = numerator / denominator` by a fixed number of steps, with one division.
@@ -100,22 +91,21 @@ impl<const N: usize> Integrals<N> {
     /// The third kind is carried as a quotient, with numerators `c`, `s` of cosine and sine over `d`, and the means'
     /// differences from the third on are subtractions: their errors do not count there. The denominator is of order one.
     #[inline(always)]
-    pub(super) fn with_steps(
+    pub(super) fn with_steps<const STEPS: u32>(
         m: Lanes<N>,
         kc: Lanes<N>,
         [numerator, denominator]: [Lanes<N>; 2],
-        steps: u32,
     ) -> Self {
-        let on_wall = numerator.0.map(|value| value == 0.0);
+        let on_wall = |i: usize| numerator.0[i] == 0.0;
         let one = Lanes::all(1.0);
         let (mut a, mut g) = (one, kc);
-        let mut p = numerator.map(f64::abs).replaced(on_wall, denominator);
+        let mut p = Lanes::select(on_wall, denominator, numerator.map(f64::abs));
         let mut q = denominator;
         let (mut c, mut s, mut d) = (one, numerator.map(|value| 1.0_f64.copysign(value)), one);
         let mut second_mean = one;
         let mut rest = Lanes::all(0.0); // sum of 2^(n-1) c_n^2 from n = 3
         let mut weight = 1.0;
-        for step in 0..steps {
+        for step in 0..STEPS {
             let product = a * g;
             let scaled = product * q;
             (c, s) = (c * p + s * q, c * scaled + s * p);
@@ -126,7 +116,7 @@ impl<const N: usize> Integrals<N> {
             }
             weight *= 2.0;
             a = 0.5 * (a + g);
-            if step + 1 < steps {
+            if step + 1 < STEPS {
                 g = product.sqrt();
             }
             if step == 1 {
@@ -134,8 +124,7 @@ impl<const N: usize> Integrals<N> {
             }
         }
         let m2 = m.squared();
-        let small = m.0.map(|value| value < SMALL);
-        let m4 = m2.squared().replaced(small, one);
+        let m4 = m2.squared().max(Lanes::all(SMALL));
         let sum2 = (1.0 + kc).squared();
         // Reciprocals of 16 sum^2 a_2, a, d (a q + p) and m^4 from that of their product.
         let (first, second, third) = (16.0 * sum2 * second_mean, a, d * (a * q + p));
@@ -146,14 +135,14 @@ impl<const N: usize> Integrals<N> {
         let inverse_sum2 = 16.0 * second_mean * v2;
         let t2 = (5.0 + kc * (4.0 + kc)) * inverse_sum2.squared() * (1.0 / 32.0)
             + 2.0 * v2.squared()
-            + (rest * (inverse_right * third)).replaced(small, Lanes::all(0.0));
+            + rest * (inverse_right * third);
         let t = 1.0 / 16.0 + m * (1.0 / 32.0) + m2 * t2;
         let first_kind = FRAC_PI_2 * (inverse_left * first);
         let third_kind = first_kind * ((s + c * a) * q * (inverse_right * m4));
         Self {
             first: first_kind,
             second: first_kind * (1.0 - 0.5 * m - m2 * t),
-            third: third_kind.replaced(on_wall, first_kind),
+            third: Lanes::select(on_wall, first_kind, third_kind),
             t,
             t2,
             g: 0.5 - (2.0 - m) * t,

@@ -39,10 +39,20 @@ impl<const N: usize> Lanes<N> {
         self.0.iter().zip(weights).map(|(value, weight)| value * weight).sum()
     }
 
-    /// Replaces the lanes where `chosen` is true by those of `other`.
+    /// The lanes of `yes` where `test` is true for their number, elsewhere those of `no`.
     #[inline(always)]
-    pub(super) fn replaced(self, chosen: [bool; N], other: Self) -> Self {
-        Self(from_fn(|i| if chosen[i] { other.0[i] } else { self.0[i] }))
+    pub(super) fn select(test: impl Fn(usize) -> bool, yes: Self, no: Self) -> Self {
+        Self(from_fn(|i| if test(i) { yes.0[i] } else { no.0[i] }))
+    }
+
+    #[inline(always)]
+    pub(super) fn max(self, other: Self) -> Self {
+        Self::select(|i| self.0[i] > other.0[i], self, other)
+    }
+
+    #[inline(always)]
+    pub(super) fn min(self, other: Self) -> Self {
+        Self::select(|i| self.0[i] < other.0[i], self, other)
     }
 }
 

@@ -3,7 +3,8 @@
 use core::f64::consts::PI;
 
 use super::axisymmetric::Components;
-use super::edge::{GRADIENT, HESSIAN};
+use super::edge::{GRADIENT, HESSIAN, Parts};
+use super::lanes::Lanes;
 
 /// Number of multipoles kept: the degrees 1, 3, .. 17.
 pub(super) const TERMS: usize = 9;
@@ -50,63 +51,106 @@ impl Multipole {
     #[inline]
     pub(super) fn potential(&self, z: f64, r2: f64) -> f64 {
         let inverse2 = 1.0 / r2;
-        let zonal = solid::<0>(inverse2.sqrt(), z * inverse2, inverse2, 2 * TERMS);
+        let zonal =
+            solid::<0, 1>(Lanes([inverse2.sqrt()]), Lanes([z * inverse2]), Lanes([inverse2]), 2 * TERMS);
         let degrees = (1..).step_by(2);
-        self.beta.iter().zip(degrees).map(|(beta, l)| beta * zonal[l] / (l as f64 + 1.0)).sum()
+        self.beta.iter().zip(degrees).map(|(beta, l)| beta * zonal[l].0[0] / (l as f64 + 1.0)).sum()
     }
 
     /// The components by `terms` terms, anywhere beyond the extent.
+    #[inline]
+    pub(super) fn sum<const ORDER: u8>(&self, z: f64, r2: f64, terms: usize) -> Components {
+        let parts = self.parts::<ORDER, 1>(Lanes([z]), Lanes([r2]), terms);
+        let [radial, axial, radial_dz, axial_dz] =
+            [parts.radial, parts.axial, parts.radial_dz, parts.axial_dz].map(|part| part.0[0]);
+        let [radial_dzz, axial_dzz, twist] =
+            [parts.radial_dzz, parts.axial_dzz, parts.twist].map(|part| part.0[0]);
+        Components { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
+    }
+
+    /// The components by `terms` terms at points side by side.
     ///
     /// With `S^k_n = P_n^(k)(z/r) / r^(n+1+k)`, `P_n^(k)` the `k`-th derivative of the Legendre polynomial, `B_z` is
     /// the sum of `beta_l S^0_{l+1}`, `B_rho / rho` that of `beta_l S^1_{l+1} / (l+1)`, and each derivative along `z`
     /// raises `n` by one.
-    #[inline]
-    pub(super) fn sum<const ORDER: u8>(&self, z: f64, r2: f64, terms: usize) -> Components {
+    #[expect(clippy::inline_always, reason = "compiled for several processors")]
+    #[inline(always)]
+    pub(super) fn parts<const ORDER: u8, const N: usize>(
+        &self,
+        z: Lanes<N>,
+        r2: Lanes<N>,
+        terms: usize,
+    ) -> Parts<N> {
+        let zero = Lanes::all(0.0);
         let inverse2 = 1.0 / r2;
         let inverse3 = inverse2 * inverse2.sqrt();
         let (along, last) = (z * inverse2, 2 * terms + usize::from(ORDER));
-        let zonal = solid::<0>(inverse3 * r2, along, inverse2, last);
-        let first = solid::<1>(inverse3, along, inverse2, last);
-        let mut sum = Components::default();
+        let zonal = solid::<0, N>(inverse3 * r2, along, inverse2, last);
+        let first = solid::<1, N>(inverse3, along, inverse2, last);
+        let (mut radial, mut axial) = (zero, zero);
+        let (mut radial_dz, mut axial_dz, mut radial_dzz, mut axial_dzz) = (zero, zero, zero, zero);
         for (term, &beta) in self.beta.iter().enumerate().take(terms) {
             let l = 2 * term + 1;
             let degree = l as f64;
-            sum.axial += beta * zonal[l + 1];
-            sum.radial += beta * first[l + 1] / (degree + 1.0);
+            axial = axial + beta * zonal[l + 1];
+            radial = radial + beta / (degree + 1.0) * first[l + 1];
             if ORDER >= GRADIENT {
-                sum.axial_dz -= beta * (degree + 2.0) * zonal[l + 2];
-                sum.radial_dz -= beta * first[l + 2];
+                axial_dz = axial_dz - beta * (degree + 2.0) * zonal[l + 2];
+                radial_dz = radial_dz - beta * first[l + 2];
             }
             if ORDER >= HESSIAN {
-                sum.axial_dzz += beta * (degree + 2.0) * (degree + 3.0) * zonal[l + 3];
-                sum.radial_dzz += beta * (degree + 2.0) * first[l + 3];
+                axial_dzz = axial_dzz + beta * (degree + 2.0) * (degree + 3.0) * zonal[l + 3];
+                radial_dzz = radial_dzz + beta * (degree + 2.0) * first[l + 3];
             }
         }
+        let mut twist = zero;
         if ORDER >= HESSIAN {
-            let second = solid::<2>(3.0 * inverse3 * inverse2, along, inverse2, last);
+            let second = solid::<2, N>(3.0 * inverse3 * inverse2, along, inverse2, last);
             for (term, &beta) in self.beta.iter().enumerate().take(terms) {
                 let l = 2 * term + 1;
-                sum.twist += beta * second[l + 2] / (l as f64 + 1.0);
+                twist = twist + beta / (l as f64 + 1.0) * second[l + 2];
             }
         }
-        sum
+        Parts { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
     }
+}
+
+/// Factors of the recurrence of `S^K_n`, by `K` and `n`.
+const RECURRENCE: [[[f64; 2]; DEGREES]; 3] = recurrence();
+
+const fn recurrence() -> [[[f64; 2]; DEGREES]; 3] {
+    let mut out = [[[0.0; 2]; DEGREES]; 3];
+    let mut k = 0;
+    while k < 3 {
+        let mut n = k;
+        while n < DEGREES {
+            let next = (n + 1 - k) as f64;
+            out[k][n] = [(2 * n + 1) as f64 / next, (n + k) as f64 / next];
+            n += 1;
+        }
+        k += 1;
+    }
+    out
 }
 
 /// `S^K_n` for `n` up to `last`, from `start = S^K_K`, `along = z / r^2` and `inverse2 = 1 / r^2`.
 ///
 /// `(n - K + 1) S^K_{n+1} = (2n + 1) (z/r^2) S^K_n - (n + K) S^K_{n-1} / r^2`.
-#[inline]
-fn solid<const K: usize>(start: f64, along: f64, inverse2: f64, last: usize) -> [f64; DEGREES] {
-    let mut values = [0.0; DEGREES];
+#[expect(clippy::inline_always, reason = "compiled for several processors")]
+#[inline(always)]
+fn solid<const K: usize, const N: usize>(
+    start: Lanes<N>,
+    along: Lanes<N>,
+    inverse2: Lanes<N>,
+    last: usize,
+) -> [Lanes<N>; DEGREES] {
+    let mut values = [Lanes::all(0.0); DEGREES];
     values[K] = start;
-    let mut before = 0.0;
+    let mut before = Lanes::all(0.0);
     for n in K..last.min(DEGREES - 1) {
         let here = values[n];
-        let k = K as f64;
-        let n_real = n as f64;
-        values[n + 1] =
-            ((2.0 * n_real + 1.0) * along * here - (n_real + k) * inverse2 * before) / (n_real - k + 1.0);
+        let [forth, back] = RECURRENCE[K][n];
+        values[n + 1] = forth * along * here - back * inverse2 * before;
         before = here;
     }
     values

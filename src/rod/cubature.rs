@@ -32,6 +32,8 @@ pub struct StationQuadrature {
     pub station: usize,
     /// Magnetisation, A/m.
     pub magnetisation: f64,
+    /// Distance from the ring's facing side along the straight manipulator, m.
+    pub distance: f64,
     /// Points of the section.
     pub points: Vec<SectionPoint>,
 }
@@ -61,6 +63,7 @@ impl Element {
                 out.push(StationQuadrature {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,
+                    distance: at,
                     points,
                 });
             }

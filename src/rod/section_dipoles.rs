@@ -9,11 +9,13 @@ use crate::geometry::hat;
 /// `d2`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionDipoles {
-    field: Vector3<f64>,
-    /// Gradient, weighted with 1, x, y.
-    gradient: [Matrix3<f64>; 3],
-    /// Second derivative of the field's component along the dipoles, weighted with 1, x, y, xx, xy, yy.
-    along: Option<[Matrix3<f64>; 6]>,
+    /// Field, J.
+    pub field: Vector3<f64>,
+    /// Gradient times the section's normal, weighted with 1, x, y.
+    pub force: [Vector3<f64>; 3],
+    /// For second derivatives: the gradient, weighted with 1, x, y, and the second derivative of the field's component
+    /// along the dipoles, weighted with 1, x, y, xx, xy, yy.
+    pub second: Option<([Matrix3<f64>; 3], [Matrix3<f64>; 6])>,
 }
 
 impl SectionDipoles {
@@ -22,16 +24,16 @@ impl SectionDipoles {
     pub fn new(stiff: bool) -> Self {
         Self {
             field: Vector3::zeros(),
-            gradient: [Matrix3::zeros(); 3],
-            along: stiff.then_some([Matrix3::zeros(); 6]),
+            force: [Vector3::zeros(); 3],
+            second: stiff.then_some(([Matrix3::zeros(); 3], [Matrix3::zeros(); 6])),
         }
     }
 
-    /// Adds a dipole (A m2) at `position` (m), with the field (T), its gradient and, for the second derivatives, `along = sum_i
-    /// axis_i d2B_i/dx_j dx_k` there.
+    /// Adds a dipole `moment axis` (A m2, `axis`: the section's normal) at `position` (m), with the field (T), its gradient
+    /// and, for the second derivatives, `along = sum_i axis_i d2B_i/dx_j dx_k` there.
     pub fn add(
         &mut self,
-        moment: f64,
+        (moment, axis): (f64, &Vector3<f64>),
         position: &Vector2<f64>,
         field: &Vector3<f64>,
         gradient: &Matrix3<f64>,
@@ -39,10 +41,14 @@ impl SectionDipoles {
     ) {
         let (x, y) = (position.x, position.y);
         self.field += field * moment;
-        for (sum, weight) in self.gradient.iter_mut().zip([moment, moment * x, moment * y]) {
+        let force = gradient * axis;
+        for (sum, weight) in self.force.iter_mut().zip([moment, moment * x, moment * y]) {
+            *sum += force * weight;
+        }
+        let (Some((gradients, sums)), Some(along)) = (&mut self.second, along) else { return };
+        for (sum, weight) in gradients.iter_mut().zip([moment, moment * x, moment * y]) {
             *sum += gradient * weight;
         }
-        let (Some(sums), Some(along)) = (&mut self.along, along) else { return };
         for (sum, weight) in sums.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
             *sum += along * (moment * weight);
         }
@@ -54,19 +60,19 @@ impl SectionDipoles {
     #[must_use]
     pub fn load(&self, directors: &Matrix3<f64>) -> Load {
         let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| directors.column(i).into_owned());
-        let [force, by_x, by_y] = self.gradient.map(|gradient| gradient * axis);
+        let [force, by_x, by_y] = &self.force;
         let mut load = Load {
             energy: -axis.dot(&self.field),
             force: -force,
             couple: -(by_x * d1.transpose() + by_y * d2.transpose() + self.field * axis.transpose()),
             ..Load::zero()
         };
-        let Some([one, x, y, xx, xy, yy]) = &self.along else { return load };
+        let Some((gradient, [one, x, y, xx, xy, yy])) = &self.second else { return load };
         let (turn, first, second) = (hat(&axis), hat(&d1), hat(&d2));
-        let cross = turn * (self.gradient[1] * first + self.gradient[2] * second);
+        let cross = turn * (gradient[1] * first + gradient[2] * second);
         let mixed = first * xy * second;
         load.position_position = -one;
-        load.position_rotation = self.gradient[0] * turn + x * first + y * second;
+        load.position_rotation = gradient[0] * turn + x * first + y * second;
         load.rotation_rotation =
             cross + cross.transpose() + first * xx * first + mixed + mixed.transpose() + second * yy * second;
         load.stiff = true;

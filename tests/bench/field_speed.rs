@@ -17,7 +17,7 @@ mod reference;
 use core::hint::black_box;
 use std::time::Instant;
 
-use mcm::magnetics::{AxialSource, Dipole, FieldTable};
+use mcm::magnetics::{AxialSource, Dipole};
 use nalgebra::{Matrix3, Vector3};
 
 const ROUNDS: usize = 2000;
@@ -101,12 +101,6 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
             |p| ring.multipole_field(p, degree).expect("apart"),
             |p| ring.multipole_field_gradient(p, degree).expect("apart"),
         );
-    }
-    let table = FieldTable::new(&ring);
-    let within: Vec<_> = points.iter().filter(|p| table.field_gradient(p).is_some()).copied().collect();
-    if !within.is_empty() {
-        let both = |p: &Vector3<f64>| table.field_gradient(p).expect("within");
-        model([distance, "table"], &within, |p| both(p).0, both);
     }
     let rows: Vec<reference::Row<12>> = reference::table("ring_field_dev.csv");
     let expected = |row: &reference::Row<12>| {

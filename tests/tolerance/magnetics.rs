@@ -63,9 +63,6 @@ pub(crate) const MAXWELL: f64 = 1e-13;
 /// points in the squared radius (reached: 2e-5).
 pub(crate) const FIRST_MOMENT: f64 = 1e-4;
 
-/// Mean error of the tabulated field of a ring and of its gradient, over their size (reached: 3e-6).
-pub(crate) const TABLE_MEAN: f64 = 1e-5;
-
 /// Demagnetising factors by two formulas, absolute: elliptic integrals lose two digits for very long or flat cylinders.
 pub(crate) const DEMAGNETISATION: f64 = 1e-12;
 
@@ -86,3 +83,10 @@ pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
 
 /// Fields at many points beside those at single ones: other formulas of the same integrals.
 pub(crate) const BATCH: f64 = 1e-12;
+
+/// Sums over the dipoles of a sheet by four steps of the means, beside single points.
+pub(crate) const ROUGH_SHEET: f64 = 2e-8;
+
+/// The gradient by so many multipoles, over its size and over the power of the extent's ratio to the distance that is left out
+/// (reached: 9).
+pub(crate) const LEFT_OUT: f64 = 12.0;

@@ -47,7 +47,7 @@ impl<'a> RingPairs<'a> {
         if overlap(first, nodes[0], second, nodes[1]) > 0.0 {
             return None;
         }
-        let source = Source::ring(first, nodes[0], false);
+        let source = Source::ring(first, nodes[0]);
         let load = match self.rules.between(pair[0], pair[1]) {
             PairRule::Axis(rule) => source.on_ring(second, nodes[1], rule, order)?,
             PairRule::Faces(rules) => source.on_faces(second, nodes[1], rules, order)?,

@@ -7,8 +7,8 @@ use crate::equilibrium::chain::Chain;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::{SectionBatch, Source};
+use crate::equilibrium::span_quadrature::SectionSample;
 use crate::geometry::Pose;
-use crate::rod::StationQuadrature;
 
 /// All rings with all spans, except the discs bonded to their faces.
 #[derive(Debug, Clone, Copy)]
@@ -16,8 +16,6 @@ pub(crate) struct RingsOnSpans<'a> {
     chain: &'a Chain,
     interaction: Interaction,
     rules: &'a PairQuadrature,
-    /// Whether tables may replace the rings' fields: only for a gradient whose energy is not compared.
-    pub(crate) tabulated: bool,
 }
 
 /// Mixed second derivative of the energy of a ring and a station: rows of the ring's node, columns of the station, in
@@ -31,7 +29,7 @@ pub(crate) struct Mixed {
 
 impl<'a> RingsOnSpans<'a> {
     pub(super) fn new(chain: &'a Chain, interaction: Interaction, rules: &'a PairQuadrature) -> Self {
-        Self { chain, interaction, rules, tabulated: false }
+        Self { chain, interaction, rules }
     }
 
     /// Whether rings act on spans at this level.
@@ -46,11 +44,11 @@ impl<'a> RingsOnSpans<'a> {
 
     /// Ring number `ring` with its node at `node`, as a field source for spans.
     pub(crate) fn source(&self, ring: usize, node: &Pose) -> Source<'a> {
-        Source::ring(&self.chain.rings[ring], node, self.tabulated)
+        Source::ring(&self.chain.rings[ring], node)
     }
 
-    /// The quadrature samples of an element for a ring.
-    pub(crate) fn samples(&self, element: usize, ring: usize) -> &'a [StationQuadrature] {
+    /// The quadrature samples of an element for a ring, and whether multipoles are too inaccurate for all of them.
+    pub(crate) fn samples(&self, element: usize, ring: usize) -> (&'a [SectionSample], bool) {
         self.chain.span_quadratures.samples(element, ring, self.rules.span(element, ring))
     }
 
