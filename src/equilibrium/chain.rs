@@ -62,7 +62,8 @@ impl Chain {
             }),
             bending_stop: settings.bending_stop,
         };
-        let (mut elements, mut cores, mut chains) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut elements, mut cores, mut chains): (Vec<Element>, _, Vec<Vec<Piece<'_>>>) =
+            (Vec::new(), Vec::new(), Vec::new());
         for segment in design.segments() {
             let first = elements.len();
             let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
@@ -73,7 +74,12 @@ impl Chain {
                     .iter()
                     .map(|span| Piece { span, length: span.length / parts as f64 })
                     .collect();
-                elements.push(Element::new(offset, &pieces, &resolution));
+                // The segments of most designs are alike.
+                let alike =
+                    elements.iter().zip(&chains).find(|(own, of)| own.offset == offset && **of == pieces);
+                let element =
+                    alike.map_or_else(|| Element::new(offset, &pieces, &resolution), |(own, _)| own.clone());
+                elements.push(element);
                 chains.push(pieces);
                 offset = 0.0;
             }

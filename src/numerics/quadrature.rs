@@ -1,6 +1,13 @@
 //! Gauss-Legendre quadrature.
 
 use core::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Number of points up to which rules are kept once they have been computed.
+const KEPT: usize = 64;
+
+/// Nodes and weights.
+type Rule = (Vec<f64>, Vec<f64>);
 
 /// Nodes and weights of the Gauss-Legendre rule with `points` points on `[-1, 1]`, nodes ascending.
 ///
@@ -22,6 +29,11 @@ use core::f64::consts::PI;
 /// Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 25.4.29 and 22.16.6.
 #[must_use]
 pub fn gauss_legendre(points: usize) -> (Vec<f64>, Vec<f64>) {
+    static RULES: [OnceLock<Rule>; KEPT + 1] = [const { OnceLock::new() }; KEPT + 1];
+    RULES.get(points).map_or_else(|| computed(points), |kept| kept.get_or_init(|| computed(points)).clone())
+}
+
+fn computed(points: usize) -> Rule {
     let mut nodes = vec![0.0; points];
     let mut weights = vec![0.0; points];
     for i in 0..points.div_ceil(2) {

@@ -6,7 +6,7 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::Vector2;
+use nalgebra::{Complex, Vector2};
 
 use super::element::Element;
 use super::fine_points::{Fine, fine_points};
@@ -176,28 +176,40 @@ impl Section<'_> {
     ) {
         for (radius, area) in radii([spiral.inner_radius, spiral.outer_radius], radial) {
             let points = 2 * harmonics(radius) + 2;
-            let mut shares = vec![0.0; points];
-            self.along(|s, weight| {
-                let from = TAU * spiral.windings * s / self.piece.span.length;
-                for (k, share) in shares.iter_mut().enumerate() {
-                    let angle = from - TAU * k as f64 / points as f64;
-                    *share += weight * part(angle, spiral.sector_angle, points);
-                }
-            });
+            let shares = self.shares(spiral, points);
             out.extend(shares.iter().enumerate().map(|(k, share)| SectionPoint {
                 position: direction(k, points) * radius,
                 volume: share * area,
             }));
         }
     }
-}
 
-/// Share (rad) of the sector from `angle` to `angle + width` assigned to the point at angle zero, one of `points`.
-fn part(angle: f64, width: f64, points: usize) -> f64 {
-    let sum: f64 = (1..=points / 2)
-        .map(|m| ((m as f64 * (angle + width)).sin() - (m as f64 * angle).sin()) / m as f64)
-        .sum();
-    (width + 2.0 * sum) / points as f64
+    /// Integral along the piece (m rad) of the sector's angle, distributed to so many points around the centreline.
+    ///
+    /// The share of a point is the integral over the sector of the trigonometric polynomial that is one there and zero at
+    /// the others.
+    fn shares(&self, spiral: &Spiral, points: usize) -> Vec<f64> {
+        let (mut whole, mut harmonics) = (0.0, vec![Complex::<f64>::ZERO; points / 2]);
+        self.along(|s, weight| {
+            let from = TAU * spiral.windings * s / self.piece.span.length;
+            whole += weight * spiral.sector_angle;
+            let ends = [from, from + spiral.sector_angle].map(|angle| Complex::from_polar(1.0, angle));
+            let mut powers = ends;
+            for (m, harmonic) in (1..).zip(&mut harmonics) {
+                *harmonic += (powers[1] - powers[0]) * (weight / f64::from(m));
+                powers = [powers[0] * ends[0], powers[1] * ends[1]];
+            }
+        });
+        let around: Vec<_> = (0..points).map(|k| direction(k, points)).collect();
+        let share = |k: usize| {
+            let polynomial = harmonics.iter().zip(1..).map(|(harmonic, m)| {
+                let turned = around[k * m % points];
+                harmonic.im * turned.x - harmonic.re * turned.y
+            });
+            (whole + 2.0 * polynomial.sum::<f64>()) / points as f64
+        };
+        (0..points).map(share).collect()
+    }
 }
 
 fn direction(k: usize, points: usize) -> Vector2<f64> {

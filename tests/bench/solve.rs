@@ -164,6 +164,18 @@ fn target(
     warm(criterion, &format!("target {name}"), &mut cheap, path);
 }
 
+/// Time to make a solver.
+fn making(criterion: &mut Criterion<CpuTime>) {
+    for interaction in ["rings", "full", "auto"] {
+        for segments in [1, 9] {
+            let scene = scene(segments, interaction, PAIR);
+            criterion.bench_function(&format!("make S={segments} {interaction}"), |b| {
+                b.iter(|| scene.manipulator(SHAPE_POINTS).expect("a valid design"));
+            });
+        }
+    }
+}
+
 /// Time against the number of segments.
 fn growth(criterion: &mut Criterion<CpuTime>) {
     for interaction in ["none", "rings", "full"] {
@@ -215,6 +227,6 @@ criterion_group! {
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(1))
         .sample_size(20);
-    targets = tip_dipole, targets, solve, growth
+    targets = tip_dipole, making, targets, solve, growth
 }
 criterion_main!(benches);
