@@ -75,8 +75,10 @@ impl Chain {
                     .map(|span| Piece { span, length: span.length / parts as f64 })
                     .collect();
                 // The segments of most designs are alike.
-                let alike =
-                    elements.iter().zip(&chains).find(|(own, of)| own.offset == offset && **of == pieces);
+                let alike = elements
+                    .iter()
+                    .zip(&chains)
+                    .find(|(own, of)| own.offset.to_bits() == offset.to_bits() && **of == pieces);
                 let element =
                     alike.map_or_else(|| Element::new(offset, &pieces, &resolution), |(own, _)| own.clone());
                 elements.push(element);

@@ -11,6 +11,16 @@ const CONTRACTION: f64 = 0.5;
 /// The same ratio for steps with an earlier factorisation, which only pay off if they contract faster.
 const CHORD_CONTRACTION: f64 = 0.1;
 
+/// Length of a Newton step (radian norm) from which on steps with the same factorisation are tried next: they cost a tenth.
+const SOON: f64 = 0.05;
+
+/// Smallest ratio of a first Newton step to the same step with the Hessian at the inputs before: where the change of the
+/// inputs stiffens the shape more, the step back will miss its start.
+const STIFFENED: f64 = 0.8 * MISSED;
+
+/// Residual at which a shape on the way to the target counts as solved.
+const PASSING: f64 = 1e-5;
+
 /// Largest distance, relative to a step, by which the step back may miss its start. A branch that turns more within a
 /// step is followed in shorter steps.
 const MISSED: f64 = 0.5;
@@ -28,6 +38,7 @@ impl Search<'_> {
         let Model { chain, settings, .. } = self.model;
         let unit = chain.radian_norm();
         self.kept = false;
+        let expected = std::mem::take(&mut self.trial).expected;
         self.choose_rules(inputs, unknowns);
         for _ in 0..RULE_CHOICES {
             if self.work.factorisation.is_none()
@@ -35,11 +46,13 @@ impl Search<'_> {
             {
                 break;
             }
-            if !self.choose_rules_here() {
+            if self.passing || !self.choose_rules_here() {
                 self.kept = true;
                 return true;
             }
         }
+        let mut expected = expected.or(self.trial.first).filter(|length| *length > self.reach);
+        let tolerance = self.tolerance();
         let first = reach / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
         for _ in 0..CORRECTIONS {
@@ -49,15 +62,24 @@ impl Search<'_> {
             if !potential.factorise(0.0) {
                 return false;
             }
-            let mut settled = residual <= settings.tolerance;
+            let mut settled = residual <= tolerance;
             (self.report.residual, self.report.energy) = (residual, energy);
             if !settled {
                 let length = self.step(inputs, 0);
                 self.report.iterations += 1;
+                let stiffened = expected.take().map(|expected| length / expected);
+                if stiffened.is_some_and(|ratio| ratio < STIFFENED) {
+                    self.trial.stiffened = stiffened;
+                    return false;
+                }
                 if length <= CONTRACTION * previous {
                     apply(unknowns, &self.scratch.steps[0]);
-                    settled =
-                        length <= NEARLY && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
+                    settled = length <= SOON && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
+                    if settled && length > NEARLY && !self.passing {
+                        // The stability is that of the shape itself, with its rules.
+                        self.choose_rules_here();
+                        settled = false;
+                    }
                     previous = length;
                 } else if length < ROUNDING {
                     settled = true;
@@ -65,16 +87,23 @@ impl Search<'_> {
                     return false;
                 }
             }
-            if settled {
+            while settled {
                 // The rules must be those of the solved shape, otherwise the solution would depend on the path to it.
-                if choices == 0 || !self.choose_rules_here() {
+                if self.passing || choices == 0 || !self.choose_rules_here() {
                     // For non-conservative forces a root may be an unstable shape.
                     return self.potential(inputs).is_stable();
                 }
                 (previous, choices) = (first, choices - 1);
+                settled = self.chord(inputs, unknowns, NEARLY, 0.0);
             }
         }
         false
+    }
+
+    /// Residual at which a shape counts as solved.
+    fn tolerance(&self) -> f64 {
+        let least = if self.passing { PASSING } else { 0.0 };
+        self.model.settings.tolerance.max(least)
     }
 
     /// Computes the step from the last gradient with the last factorisation, corrected by the last `done` steps of this
@@ -113,17 +142,18 @@ impl Search<'_> {
     /// The first step may be as long as `longest`. Where the factorisation is no longer valid, the steps end when the
     /// expected remainder is within `until`. Returns whether the shape is solved and evaluated.
     fn chord(&mut self, inputs: &Inputs, unknowns: &mut [f64], mut longest: f64, until: f64) -> bool {
-        let Model { chain, settings, .. } = self.model;
+        let (chain, tolerance) = (self.model.chain, self.tolerance());
         for done in 0..CORRECTIONS {
             let mut potential = self.potential(inputs);
             let Some(energy) = potential.slope(unknowns) else { return false };
             let residual = dual_norm(potential.metric(), potential.gradient()) / chain.radian_norm();
             (self.report.residual, self.report.energy) = (residual, energy);
             let holds = until == 0.0 || self.holds(unknowns);
-            if residual <= settings.tolerance {
+            if residual <= tolerance {
                 return holds;
             }
             let length = self.step(inputs, done);
+            self.trial.first.get_or_insert(length);
             if length.is_nan() || length > longest {
                 return holds && length < ROUNDING;
             }

@@ -12,7 +12,7 @@ use super::judge::measure;
 use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
 use super::report::Report;
-use super::search::{Model, Scratch, Search};
+use super::search::{Model, Scratch, Search, Trial};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::terms::Terms;
@@ -139,8 +139,19 @@ impl Equilibrium {
         let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
         let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
         let report = Report::start();
-        let mut search =
-            Search { model, work, rules, scratch, report, deadline, reached: None, reach: 0.0, kept: false };
+        let mut search = Search {
+            model,
+            work,
+            rules,
+            scratch,
+            report,
+            deadline,
+            reached: None,
+            reach: 0.0,
+            passing: false,
+            trial: Trial::default(),
+            kept: false,
+        };
         Ok(search.solve(&mut self.branch, inputs))
     }
 

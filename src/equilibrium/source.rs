@@ -9,7 +9,7 @@ use super::ring_body::RingBody;
 use super::span_quadrature::SectionSample;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, SecondSums, SheetSums};
-use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, Station};
+use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, SectionStiffness, Station};
 
 /// The magnet that makes the field of a source.
 #[derive(Debug, Clone, Copy)]
@@ -229,7 +229,11 @@ impl<'a> Source<'a> {
             let section = self.locate(&batch.stations[sample.station]);
             let SheetSums { field, force, second: SecondSums { gradient, along } } =
                 ring.on_sheet(&sample.sheet, &section, sample.accuracy(exact), second)?;
-            let dipoles = SectionDipoles { field, force, second: second.then_some((gradient, along)) };
+            let dipoles = SectionDipoles {
+                field,
+                force,
+                second: second.then_some(SectionStiffness { gradient, along }),
+            };
             batch.loads.push(dipoles.load(&section.rotation));
             batch.sections.push(section);
         }

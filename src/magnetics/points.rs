@@ -76,7 +76,7 @@ pub(super) fn components<const ORDER: u8>(
         Origin::Multipole(multipole, terms) => {
             let r2 = Lanes(*rho).squared() + Lanes(*z).squared();
             let parts = multipole.parts::<ORDER, WIDTH>(Lanes(*z), r2, *terms);
-            *out = rows(parts).map(|part| part.0);
+            *out = rows(&parts).map(|part| part.0);
         }
     }
 }
@@ -99,7 +99,7 @@ fn of_edges<const ORDER: u8, const STEPS: u32>(
         excess = excess.min(place.excess(least));
         let ratio = [place.difference * place.inverse_far, place.sum * place.inverse_far];
         let integrals = Integrals::with_steps::<STEPS>(place.parameter(), kc, ratio);
-        let parts = rows(place.components::<ORDER, true>(&integrals));
+        let parts = rows(&place.components::<ORDER, true>(&integrals));
         let count = if ORDER == HESSIAN { COMPONENTS } else { 4 };
         for (row, part) in out.iter_mut().zip(parts).take(count) {
             for (entry, value) in row.iter_mut().zip(part.0) {
@@ -111,7 +111,7 @@ fn of_edges<const ORDER: u8, const STEPS: u32>(
 }
 
 #[inline(always)]
-fn rows(parts: Parts<WIDTH>) -> [Lanes<WIDTH>; COMPONENTS] {
+fn rows(parts: &Parts<WIDTH>) -> [Lanes<WIDTH>; COMPONENTS] {
     let Parts { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist } = parts;
-    [radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist]
+    [*radial, *axial, *radial_dz, *axial_dz, *radial_dzz, *axial_dzz, *twist]
 }

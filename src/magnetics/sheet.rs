@@ -9,13 +9,6 @@ use super::lanes::Lanes;
 use super::points::{self, COMPONENTS, Origin, Row, WIDTH};
 use crate::geometry::Pose;
 
-/// Number of sums: of the field and of the force, weighted with 1, x and y.
-const SLOPES: usize = 12;
-
-/// Number of sums for second derivatives: of the field, of the gradient weighted with 1, x and y, and of the second
-/// derivative weighted with 1, x, y, xx, xy and yy.
-const CURVATURES: usize = 57;
-
 /// Dipoles at points of a plane, all perpendicular to it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct DipoleSheet {
@@ -87,6 +80,22 @@ impl DipoleSheet {
     }
 }
 
+/// Sums by lane: of the field, and of the force weighted with 1, x and y.
+#[derive(Debug)]
+struct Slopes {
+    field: [Row; 3],
+    force: [[Row; 3]; 3],
+}
+
+/// Sums by lane: of the field, of the gradient weighted with 1, x and y, and of the second derivative weighted with 1, x, y,
+/// xx, xy and yy; matrices as xx, xy, xz, yy, yz, zz.
+#[derive(Debug)]
+struct Curvatures {
+    field: [Row; 3],
+    gradient: [[Row; 6]; 3],
+    along: [[Row; 6]; 6],
+}
+
 /// A sheet's place: its origin, its first two axes and its normal, in the frame of the magnet.
 type Place = [[f64; 3]; 4];
 
@@ -153,14 +162,19 @@ impl AxialSource {
         let body = [bore, self.outer_radius(), 0.5 * self.length()];
         let mut least = [[f64::MAX; WIDTH]; 2];
         let mut sums = SheetSums::zero();
+        let zero = [0.0; WIDTH];
         if second {
-            let mut rows = [[0.0; WIDTH]; CURVATURES];
-            curvatures(origin, &body, &place, &sheet.octets, &mut rows, &mut least);
-            sums.set_curvatures(&rows.map(|row| total(&row)), &pose.axis());
+            let mut lanes = Curvatures { field: [zero; 3], gradient: [[zero; 6]; 3], along: [[zero; 6]; 6] };
+            curvatures(origin, &body, &place, &sheet.octets, &mut lanes, &mut least);
+            sums.field = vector(&lanes.field);
+            sums.second.gradient = lanes.gradient.each_ref().map(symmetric);
+            sums.second.along = lanes.along.each_ref().map(symmetric);
+            sums.force = sums.second.gradient.each_ref().map(|gradient| gradient * pose.axis());
         } else {
-            let mut rows = [[0.0; WIDTH]; SLOPES];
-            slopes(origin, &body, &place, &sheet.octets, &mut rows, &mut least);
-            sums.set_slopes(&rows.map(|row| total(&row)));
+            let mut lanes = Slopes { field: [zero; 3], force: [[zero; 3]; 3] };
+            slopes(origin, &body, &place, &sheet.octets, &mut lanes, &mut least);
+            sums.field = vector(&lanes.field);
+            sums.force = lanes.force.each_ref().map(vector);
         }
         (least.map(|row| row.into_iter().fold(f64::INFINITY, smaller)), sums)
     }
@@ -199,34 +213,15 @@ impl SheetSums {
         let second = SecondSums { gradient: [Matrix3::zeros(); 3], along: [Matrix3::zeros(); 6] };
         Self { field: Vector3::zeros(), force: [Vector3::zeros(); 3], second }
     }
+}
 
-    fn set_slopes(&mut self, sums: &[f64; SLOPES]) {
-        let (field, force) = sums.split_at(3);
-        self.field = Vector3::from_column_slice(field);
-        for (own, sums) in self.force.iter_mut().zip(force.chunks_exact(3)) {
-            *own = Vector3::from_column_slice(sums);
-        }
-    }
-
-    fn set_curvatures(&mut self, sums: &[f64; CURVATURES], axis: &Vector3<f64>) {
-        let (field, rest) = sums.split_at(3);
-        let (gradient, along) = rest.split_at(18);
-        self.field = Vector3::from_column_slice(field);
-        for (own, sums) in self.second.gradient.iter_mut().zip(gradient.chunks_exact(6)) {
-            *own = symmetric(sums);
-        }
-        for (own, sums) in self.second.along.iter_mut().zip(along.chunks_exact(6)) {
-            *own = symmetric(sums);
-        }
-        for (own, gradient) in self.force.iter_mut().zip(&self.second.gradient) {
-            *own = gradient * axis;
-        }
-    }
+fn vector(rows: &[Row; 3]) -> Vector3<f64> {
+    Vector3::from(rows.each_ref().map(total))
 }
 
 /// A symmetric matrix from xx, xy, xz, yy, yz, zz.
-fn symmetric(entries: &[f64]) -> Matrix3<f64> {
-    let &[xx, xy, xz, yy, yz, zz] = entries else { return Matrix3::zeros() };
+fn symmetric(rows: &[Row; 6]) -> Matrix3<f64> {
+    let [xx, xy, xz, yy, yz, zz] = rows.each_ref().map(total);
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
@@ -268,14 +263,34 @@ fn evaluate<const ORDER: u8>(
     Points { x, y, rho2 }
 }
 
-/// Adds to the [`SLOPES`] sums.
+/// Adds a weighted value to a sum.
+#[expect(clippy::inline_always, reason = "compiled for several processors")]
+#[inline(always)]
+fn add(sum: &mut Row, weight: Lanes<WIDTH>, value: &Row) {
+    *sum = (Lanes(*sum) + weight * Lanes(*value)).0;
+}
+
+/// Adds a weighted matrix to a sum. Neither here nor where it is called is there a loop over matrices or their entries: the
+/// compiler would put those side by side instead of the points.
+#[expect(clippy::inline_always, reason = "compiled for several processors")]
+#[inline(always)]
+fn add_matrix([xx, xy, xz, yy, yz, zz]: &mut [Row; 6], weight: Lanes<WIDTH>, value: &[Row; 6]) {
+    add(xx, weight, &value[0]);
+    add(xy, weight, &value[1]);
+    add(xz, weight, &value[2]);
+    add(yy, weight, &value[3]);
+    add(yz, weight, &value[4]);
+    add(zz, weight, &value[5]);
+}
+
+/// Adds to the sums for first derivatives.
 #[multiversion(targets("x86_64+avx+avx2+avx512f+avx512dq+avx512vl", "x86_64+avx+avx2"))]
 fn slopes(
     origin: &Origin<'_>,
     body: &Body,
     place: &Place,
     octets: &[Octet],
-    sums: &mut [Row; SLOPES],
+    sums: &mut Slopes,
     least: &mut Least,
 ) {
     let normal = &place[3];
@@ -288,31 +303,29 @@ fn slopes(
         let beside = x * normal[0] + y * normal[1];
         let turn = shear * beside + radial_dz * normal[2];
         let force = [
-            x * turn + radial * normal[0],
-            y * turn + radial * normal[1],
-            radial_dz * beside + axial_dz * normal[2],
+            (x * turn + radial * normal[0]).0,
+            (y * turn + radial * normal[1]).0,
+            (radial_dz * beside + axial_dz * normal[2]).0,
         ];
+        let field = [(x * radial).0, (y * radial).0, axial.0];
         let moment = Lanes(octet.moment);
-        let weights = [moment, moment * Lanes(octet.x), moment * Lanes(octet.y)];
-        for (sum, value) in sums.iter_mut().zip([x * radial, y * radial, axial]) {
-            *sum = (Lanes(*sum) + moment * value).0;
-        }
-        for (sums, weight) in sums[3..].chunks_exact_mut(3).zip(weights) {
-            for (sum, value) in sums.iter_mut().zip(force) {
-                *sum = (Lanes(*sum) + weight * value).0;
-            }
+        for i in 0..3 {
+            add(&mut sums.field[i], moment, &field[i]);
+            add(&mut sums.force[0][i], moment, &force[i]);
+            add(&mut sums.force[1][i], moment * Lanes(octet.x), &force[i]);
+            add(&mut sums.force[2][i], moment * Lanes(octet.y), &force[i]);
         }
     }
 }
 
-/// Adds to the [`CURVATURES`] sums.
+/// Adds to the sums for second derivatives.
 #[multiversion(targets("x86_64+avx+avx2+avx512f+avx512dq+avx512vl", "x86_64+avx+avx2"))]
 fn curvatures(
     origin: &Origin<'_>,
     body: &Body,
     place: &Place,
     octets: &[Octet],
-    sums: &mut [Row; CURVATURES],
+    sums: &mut Curvatures,
     least: &mut Least,
 ) {
     let [nx, ny, nz] = place[3];
@@ -321,13 +334,14 @@ fn curvatures(
         let Points { x, y, rho2 } = evaluate::<HESSIAN>(origin, body, place, octet, &mut parts, least);
         let [radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist] = parts.map(Lanes);
         let (x2, y2, xy) = (x.squared(), y.squared(), x * y);
+        let field = [(x * radial).0, (y * radial).0, axial.0];
         let gradient = [
-            radial - x2 * twist,
-            -1.0 * xy * twist,
-            x * radial_dz,
-            radial - y2 * twist,
-            y * radial_dz,
-            axial_dz,
+            (radial - x2 * twist).0,
+            (-1.0 * xy * twist).0,
+            (x * radial_dz).0,
+            (radial - y2 * twist).0,
+            (y * radial_dz).0,
+            axial_dz.0,
         ];
         // The second derivative, by cos^2, sin^2 and their product over the distance from the axis.
         let inverse = 1.0 / rho2.max(Lanes::all(f64::MIN_POSITIVE));
@@ -341,29 +355,27 @@ fn curvatures(
         let (xxz, yyz) = (c2 * zrr + s2 * radial_dz, s2 * zrr + c2 * radial_dz);
         let (xyz, xzz, yzz) = (cs * (zrr - radial_dz), x * radial_dzz, y * radial_dzz);
         let along = [
-            nx * xxx + ny * xxy + nz * xxz,
-            nx * xxy + ny * xyy + nz * xyz,
-            nx * xxz + ny * xyz + nz * xzz,
-            nx * xyy + ny * yyy + nz * yyz,
-            nx * xyz + ny * yyz + nz * yzz,
-            nx * xzz + ny * yzz + nz * axial_dzz,
+            (nx * xxx + ny * xxy + nz * xxz).0,
+            (nx * xxy + ny * xyy + nz * xyz).0,
+            (nx * xxz + ny * xyz + nz * xzz).0,
+            (nx * xyy + ny * yyy + nz * yyz).0,
+            (nx * xyz + ny * yyz + nz * yzz).0,
+            (nx * xzz + ny * yzz + nz * axial_dzz).0,
         ];
         let (px, py, moment) = (Lanes(octet.x), Lanes(octet.y), Lanes(octet.moment));
         let (by_x, by_y) = (moment * px, moment * py);
-        let weights = [moment, by_x, by_y, by_x * px, by_x * py, by_y * py];
-        for (sum, value) in sums.iter_mut().zip([x * radial, y * radial, axial]) {
-            *sum = (Lanes(*sum) + moment * value).0;
-        }
-        let (gradients, second) = sums[3..].split_at_mut(18);
-        for (sums, weight) in gradients.chunks_exact_mut(6).zip(weights) {
-            for (sum, value) in sums.iter_mut().zip(gradient) {
-                *sum = (Lanes(*sum) + weight * value).0;
-            }
-        }
-        for (sums, weight) in second.chunks_exact_mut(6).zip(weights) {
-            for (sum, value) in sums.iter_mut().zip(along) {
-                *sum = (Lanes(*sum) + weight * value).0;
-            }
-        }
+        let [of_x, of_y, of_z] = &mut sums.field;
+        add(of_x, moment, &field[0]);
+        add(of_y, moment, &field[1]);
+        add(of_z, moment, &field[2]);
+        add_matrix(&mut sums.gradient[0], moment, &gradient);
+        add_matrix(&mut sums.gradient[1], by_x, &gradient);
+        add_matrix(&mut sums.gradient[2], by_y, &gradient);
+        add_matrix(&mut sums.along[0], moment, &along);
+        add_matrix(&mut sums.along[1], by_x, &along);
+        add_matrix(&mut sums.along[2], by_y, &along);
+        add_matrix(&mut sums.along[3], by_x * px, &along);
+        add_matrix(&mut sums.along[4], by_x * py, &along);
+        add_matrix(&mut sums.along[5], by_y * py, &along);
     }
 }

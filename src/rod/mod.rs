@@ -30,6 +30,6 @@ pub use moments::SectionMoments;
 pub use piece::Piece;
 pub use placed_load::{PlacedCoupling, PlacedLoad};
 pub use row::{COMPONENTS, Row};
-pub use section_dipoles::SectionDipoles;
+pub use section_dipoles::{SectionDipoles, SectionStiffness};
 pub use section_material::SectionMaterial;
 pub use source_geometry::SourceGeometry;

@@ -13,9 +13,17 @@ pub struct SectionDipoles {
     pub field: Vector3<f64>,
     /// Gradient times the section's normal, weighted with 1, x, y.
     pub force: [Vector3<f64>; 3],
-    /// For second derivatives: the gradient, weighted with 1, x, y, and the second derivative of the field's component
-    /// along the dipoles, weighted with 1, x, y, xx, xy, yy.
-    pub second: Option<([Matrix3<f64>; 3], [Matrix3<f64>; 6])>,
+    /// For second derivatives.
+    pub second: Option<SectionStiffness>,
+}
+
+/// Sums of the field over the dipoles of a section for the second derivatives of their energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionStiffness {
+    /// Gradient, weighted with 1, x, y.
+    pub gradient: [Matrix3<f64>; 3],
+    /// Second derivative of the field's component along the dipoles, weighted with 1, x, y, xx, xy, yy.
+    pub along: [Matrix3<f64>; 6],
 }
 
 impl SectionDipoles {
@@ -25,7 +33,8 @@ impl SectionDipoles {
         Self {
             field: Vector3::zeros(),
             force: [Vector3::zeros(); 3],
-            second: stiff.then_some(([Matrix3::zeros(); 3], [Matrix3::zeros(); 6])),
+            second: stiff
+                .then(|| SectionStiffness { gradient: [Matrix3::zeros(); 3], along: [Matrix3::zeros(); 6] }),
         }
     }
 
@@ -45,11 +54,11 @@ impl SectionDipoles {
         for (sum, weight) in self.force.iter_mut().zip([moment, moment * x, moment * y]) {
             *sum += force * weight;
         }
-        let (Some((gradients, sums)), Some(along)) = (&mut self.second, along) else { return };
-        for (sum, weight) in gradients.iter_mut().zip([moment, moment * x, moment * y]) {
+        let (Some(second), Some(along)) = (&mut self.second, along) else { return };
+        for (sum, weight) in second.gradient.iter_mut().zip([moment, moment * x, moment * y]) {
             *sum += gradient * weight;
         }
-        for (sum, weight) in sums.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
+        for (sum, weight) in second.along.iter_mut().zip([1.0, x, y, x * x, x * y, y * y]) {
             *sum += along * (moment * weight);
         }
     }
@@ -67,7 +76,9 @@ impl SectionDipoles {
             couple: -(by_x * d1.transpose() + by_y * d2.transpose() + self.field * axis.transpose()),
             ..Load::zero()
         };
-        let Some((gradient, [one, x, y, xx, xy, yy])) = &self.second else { return load };
+        let Some(SectionStiffness { gradient, along: [one, x, y, xx, xy, yy] }) = &self.second else {
+            return load;
+        };
         let (turn, first, second) = (hat(&axis), hat(&d1), hat(&d2));
         let cross = turn * (gradient[1] * first + gradient[2] * second);
         let mixed = first * xy * second;

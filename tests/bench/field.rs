@@ -17,8 +17,9 @@ mod reference;
 use core::hint::black_box;
 
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main, measurement::WallTime};
-use mcm::magnetics::AxialSource;
-use nalgebra::Vector3;
+use mcm::geometry::Pose;
+use mcm::magnetics::{AxialSource, DipoleSheet, FieldAccuracy};
+use nalgebra::{Vector2, Vector3};
 
 fn measure(
     group: &mut BenchmarkGroup<'_, WallTime>,
@@ -37,6 +38,15 @@ fn measure(
     group.bench_function(format!("B+G at {count} points"), |b| {
         b.iter(|| source.field_gradients(black_box(points), &mut fields));
     });
+    // A section of the manipulator, four radii away.
+    let dipoles: Vec<_> = points.iter().map(|at| (Vector2::new(0.2 * at.x, 0.2 * at.y), 1e-6)).collect();
+    let (sheet, pose) = (DipoleSheet::new(&dipoles), Pose::identity().advanced(4.0 * source.outer_radius()));
+    for second in [false, true] {
+        for accuracy in [FieldAccuracy::Exact, FieldAccuracy::Rough, FieldAccuracy::Multipoles(9)] {
+            let name = format!("{} of {count} dipoles, {accuracy:?}", ["B+G", "B+G+H"][usize::from(second)]);
+            group.bench_function(name, |b| b.iter(|| source.on_sheet(&sheet, &pose, accuracy, second)));
+        }
+    }
     group.bench_function(format!("B+G+H at {count} points"), |b| {
         b.iter(|| source.jets(black_box(points), &mut jets));
     });
