@@ -40,16 +40,16 @@ impl Search<'_> {
         self.kept = false;
         let expected = std::mem::take(&mut self.trial).expected;
         self.choose_rules(inputs, unknowns);
-        for _ in 0..RULE_CHOICES {
-            if self.work.factorisation.is_none()
-                || !self.chord(inputs, unknowns, reach.min(settings.follow_step), NEARLY)
-            {
+        let mut longest = reach.min(settings.follow_step);
+        for left in (0..=RULE_CHOICES).rev() {
+            if self.work.factorisation.is_none() || !self.chord(inputs, unknowns, longest, NEARLY) {
                 break;
             }
-            if self.passing || !self.choose_rules_here() {
+            if self.passing || left == 0 || !self.choose_rules_here() {
                 self.kept = true;
                 return true;
             }
+            longest = self.model.nearly();
         }
         let mut expected = expected.or(self.trial.first).filter(|length| *length > self.reach);
         let tolerance = self.tolerance();
@@ -77,10 +77,11 @@ impl Search<'_> {
                     settled = length <= SOON && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
                     if settled && length > NEARLY && !self.passing {
                         // The stability is that of the shape itself, with its rules.
-                        self.choose_rules_here();
-                        settled = false;
+                        choices -= u32::from(choices > 0 && self.choose_rules_here());
+                        (previous, settled) = (first, false);
+                    } else {
+                        previous = length;
                     }
-                    previous = length;
                 } else if length < ROUNDING {
                     settled = true;
                 } else {
@@ -94,7 +95,7 @@ impl Search<'_> {
                     return self.potential(inputs).is_stable();
                 }
                 (previous, choices) = (first, choices - 1);
-                settled = self.chord(inputs, unknowns, NEARLY, 0.0);
+                settled = self.chord(inputs, unknowns, self.model.nearly(), 0.0);
             }
         }
         false

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Matrix6};
 use super::pair_loads::Made;
 use super::potential::Potential;
 use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
+use crate::geometry::hat;
 use crate::rod::{Configuration, Load, Order, PlacedCoupling, PlacedLoad};
 
 impl Potential<'_> {
@@ -146,43 +147,65 @@ impl Potential<'_> {
 
     /// Adds all rings with all spans to the stored loads; returns the sum of their energies.
     fn load_rings_on_spans(&mut self, order: Order) -> Option<f64> {
-        let (spans, mut energy) = (self.terms.spans, 0.0);
-        if !spans.act() {
-            return Some(energy);
+        if !self.terms.spans.act() {
+            return Some(0.0);
         }
-        let mutual = spans.are_mutual();
-        let mut batch = std::mem::take(&mut self.work.batch);
-        for (k, element) in self.chain.elements.iter().enumerate() {
+        let each =
+            if order == Order::Hessian { Self::load_ring_on_span } else { Self::load_ring_on_span_slope };
+        let mut energy = 0.0;
+        for k in 0..self.chain.elements.len() {
             self.work.mixed[k].clear();
-            let start = self.work.nodes[k];
-            batch.place((0..element.stations.len()).map(|station| self.work.station(k, station)));
-            for (ring, body) in self.chain.rings.iter().enumerate() {
-                let node = self.work.nodes[body.node];
-                let source = spans.source(ring, &node);
-                let (samples, exact) = spans.samples(k, ring);
-                if source.on_samples(samples, exact, order, &mut batch).is_none() {
-                    self.work.batch = batch;
-                    return None;
-                }
-                for (sample, load) in samples.iter().zip(RingsOnSpans::loads(&source, &node, &batch)) {
-                    energy += load.on_second.energy;
-                    self.work.pair_loads.stations[k][sample.station] +=
-                        load.on_second.in_axes(&start.rotation);
-                    if mutual {
-                        self.work.pair_loads.nodes[body.node] += load.on_first.wrench_alone();
-                    }
-                    if order == Order::Hessian && body.node > 0 {
-                        let second = load.hessian();
-                        if mutual {
-                            self.add_block(body.node, body.node, &second.first_first);
-                        }
-                        let (station, matrix) = (sample.station, second.first_second);
-                        self.work.mixed[k].push(Mixed { station, node: body.node, matrix });
-                    }
-                }
+            self.work.place_stations(k);
+            for ring in 0..self.chain.rings.len() {
+                energy += each(self, k, ring)?;
             }
         }
-        self.work.batch = batch;
+        Some(energy)
+    }
+
+    /// Adds ring number `ring` with element `k` without second derivatives; returns the energy.
+    fn load_ring_on_span_slope(&mut self, k: usize, ring: usize) -> Option<f64> {
+        let (spans, body) = (self.terms.spans, &self.chain.rings[ring]);
+        let (samples, near) = spans.samples(k, ring);
+        let work = &mut *self.work;
+        let source = spans.source(ring, &work.nodes[body.node]);
+        let element = (&work.nodes[k], &work.configurations[k].stations[..]);
+        let stations = &mut work.pair_loads.stations[k];
+        let (energy, force, moment) = source.add_on_samples(body, samples, near, element, stations)?;
+        if spans.are_mutual() {
+            let load = &mut work.pair_loads.nodes[body.node];
+            load.force += force;
+            load.couple += hat(&moment) * 0.5;
+        }
+        Some(energy)
+    }
+
+    /// Adds ring number `ring` with element `k`, whose stations are placed, with second derivatives; returns the energy.
+    fn load_ring_on_span(&mut self, k: usize, ring: usize) -> Option<f64> {
+        let (spans, body, mut energy) = (self.terms.spans, &self.chain.rings[ring], 0.0);
+        let mutual = spans.are_mutual();
+        let node = self.work.nodes[body.node];
+        let axes = self.work.nodes[k].rotation;
+        let source = spans.source(ring, &node);
+        let (samples, near) = spans.samples(k, ring);
+        source.on_samples(samples, near, &mut self.work.batch)?;
+        for (number, sample) in samples.iter().enumerate() {
+            let (station, work) = (sample.station, &mut *self.work);
+            let load = RingsOnSpans::load(&source, &node, &work.batch, number);
+            energy += load.on_second.energy;
+            work.pair_loads.stations[k][station] += load.on_second.in_axes(&axes);
+            if mutual {
+                work.pair_loads.nodes[body.node] += load.on_first.wrench_alone();
+            }
+            if body.node > 0 {
+                let second = load.hessian();
+                if mutual {
+                    self.add_block(body.node, body.node, &second.first_first);
+                }
+                let matrix = second.first_second;
+                self.work.mixed[k].push(Mixed { station, node: body.node, matrix });
+            }
+        }
         Some(energy)
     }
 

@@ -18,6 +18,7 @@ pub(crate) struct PairQuadrature {
     spans: Vec<usize>,
     /// Number of changes of the rules.
     number: u64,
+    accuracy: f64,
 }
 
 impl PairQuadrature {
@@ -33,7 +34,7 @@ impl PairQuadrature {
         let count = tables.len() * tables.len().saturating_sub(1) / 2;
         let elements = if settings.interaction.acts_on_spans() { chain.elements.len() } else { 0 };
         let spans = vec![0; elements * chain.rings.len()];
-        Self { tables, chosen: vec![0; count], spans, number: 0 }
+        Self { tables, chosen: vec![0; count], spans, number: 0, accuracy }
     }
 
     /// Chooses the rules for the present node poses; returns whether any rule has changed.
@@ -82,6 +83,11 @@ impl PairQuadrature {
             self.number += 1;
         }
         known
+    }
+
+    /// Relative accuracy that the rules are made for.
+    pub(crate) fn accuracy(&self) -> f64 {
+        self.accuracy
     }
 
     /// Version number of the rules: equal numbers mean equal rules.

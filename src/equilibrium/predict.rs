@@ -2,7 +2,7 @@
 
 use super::history::History;
 use super::inputs::Inputs;
-use super::search::{Model, NEARLY, Search};
+use super::search::{Model, Search};
 use crate::numerics::trust_region::norm;
 
 /// Largest correction of a predicted step, relative to its length.
@@ -17,7 +17,7 @@ impl Search<'_> {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         let expected = branch.predicted(target, &self.model, &mut trial);
         let found = expected.is_some_and(|length| {
-            let reach = (MISTAKEN * length).max(NEARLY);
+            let reach = (MISTAKEN * length).max(self.model.nearly());
             self.accept(branch.inputs.as_ref(), target, &mut branch.unknowns, &mut trial, reach)
         });
         self.scratch.trial = trial;

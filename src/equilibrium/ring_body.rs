@@ -34,6 +34,11 @@ impl RingBody {
         0.5 * self.ring.length
     }
 
+    /// Largest distance of its points from its centre, m.
+    pub(crate) fn extent(&self) -> f64 {
+        self.ring.outer_radius.hypot(self.half_length())
+    }
+
     /// Its outline without the bore: no part of the manipulator or of a magnet is assumed to fit into it.
     pub(crate) fn outline(&self) -> Outline {
         Outline::new(0.0, self.ring.outer_radius, self.ring.length)

@@ -30,6 +30,12 @@ pub(super) struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
+    /// Distance to the root (radian norm) at which a shape counts as nearly solved: at least as far as other quadrature rules
+    /// move it.
+    pub(super) fn nearly(&self) -> f64 {
+        NEARLY.max(self.settings.pair_accuracy)
+    }
+
     /// The potential at `inputs` with the quadrature rules chosen last.
     pub(super) fn potential(
         &self,

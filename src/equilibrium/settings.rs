@@ -63,11 +63,12 @@ impl Interaction {
 pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
-    /// Largest deviation of a manipulator's tip position from the converged solution of the model, m; default 1e-5. Where
+    /// Largest deviation of a manipulator's tip position from the converged solution of the model, m; default 5e-5, a
+    /// thousandth of the length of nine segments like the paper's: a tenth of what the model itself is uncertain by. Where
     /// the deviation is larger, a finer discretisation is solved; [`Interaction::Auto`] also chooses the interaction by
     /// it.
     pub tolerance_position: f64,
-    /// Largest rotation of the tip relative to the converged solution, rad; default 1e-3.
+    /// Largest rotation of the tip relative to the converged solution, rad; default 0.1 deg.
     pub tolerance_angle: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent windings
     /// touch; default no, as in the paper's model. [`Interaction::Auto`] always includes it.
@@ -106,8 +107,8 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             interaction: Interaction::Rings,
-            tolerance_position: 1e-5,
-            tolerance_angle: 1e-3,
+            tolerance_position: 5e-5,
+            tolerance_angle: 0.1 * core::f64::consts::PI / 180.0,
             bending_stop: false,
             degree: 2,
             cylinder_elements: 8,

@@ -8,8 +8,12 @@ use super::chain::Chain;
 use super::ring_body::RingBody;
 use super::span_quadrature::SectionSample;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialRule, AxialSource, FaceRule, SecondSums, SheetSums};
-use crate::rod::{Charges, Load, Order, SectionDipoles, SectionMaterial, SectionStiffness, Station};
+use crate::magnetics::{
+    Assembly, AxialRule, AxialSource, DipoleSheet, FaceRule, FieldAccuracy, SecondSums, SheetSums,
+};
+use crate::rod::{
+    Charges, Load, Order, SectionDipoles, SectionMaterial, SectionStiffness, Station, StationState,
+};
 
 /// The magnet that makes the field of a source.
 #[derive(Debug, Clone, Copy)]
@@ -152,6 +156,25 @@ impl<'a> Source<'a> {
         Some(load)
     }
 
+    /// The same for a ring in the field of another ring, all points of `rule` at once.
+    ///
+    /// They lie on a section that contains the axis: its first director is the axis, as is the direction of the dipoles.
+    pub(crate) fn on_axis(
+        &self,
+        body: &RingBody,
+        node: &Pose,
+        rule: &AxialRule,
+        accuracy: FieldAccuracy,
+        order: Order,
+    ) -> Option<Load> {
+        let Magnet::Ring(ring) = self.magnet else { return None };
+        let local = self.locate(node);
+        let (axis, none) = (local.axis(), Vector3::zeros());
+        let section = Pose { rotation: Matrix3::from_columns(&[axis, none, axis]), ..local };
+        let dipoles = on_sheet(ring, rule.upright(), &section, accuracy, order)?;
+        Some(dipoles.times(body.magnetisation).load(&section.rotation))
+    }
+
     /// The same for a ring in the field of another ring, from the magnetic charges on its proximal and distal face.
     pub(crate) fn on_faces(
         &self,
@@ -212,32 +235,60 @@ impl<'a> Source<'a> {
         Some(sheet.load(&section.rotation))
     }
 
-    /// The same for a ring and samples of the material of the element that was placed last; sections and loads are written
-    /// to `batch` in the order of the samples. `None` for another source.
+    /// The same for a ring and samples of the material of the element that was placed last; sections and loads, with second
+    /// derivatives, are written to `batch` in the order of the samples. `None` for another source.
     pub(crate) fn on_samples(
         &self,
         samples: &[SectionSample],
-        exact: bool,
-        order: Order,
+        near: bool,
         batch: &mut SectionBatch,
     ) -> Option<()> {
         let Magnet::Ring(ring) = self.magnet else { return None };
         batch.loads.clear();
         batch.sections.clear();
-        let second = order == Order::Hessian;
         for sample in samples {
             let section = self.locate(&batch.stations[sample.station]);
-            let SheetSums { field, force, second: SecondSums { gradient, along } } =
-                ring.on_sheet(&sample.sheet, &section, sample.accuracy(exact), second)?;
-            let dipoles = SectionDipoles {
-                field,
-                force,
-                second: second.then_some(SectionStiffness { gradient, along }),
-            };
+            let dipoles = on_sheet(ring, &sample.sheet, &section, sample.accuracy(near), Order::Hessian)?;
             batch.loads.push(dipoles.load(&section.rotation));
             batch.sections.push(section);
         }
         Some(())
+    }
+
+    /// Adds the loads of a ring on samples of the material of an element, whose start node is at `start`, to the
+    /// loads on its `stations`, in the axes of that node and without second derivatives. Returns the energy, and force and
+    /// moment of the energy's derivative by the ring's node; `None` for another source.
+    pub(crate) fn add_on_samples(
+        &self,
+        body: &RingBody,
+        samples: &[SectionSample],
+        near: bool,
+        (start, states): (&Pose, &[StationState]),
+        stations: &mut [Load],
+    ) -> Option<(f64, Vector3<f64>, Vector3<f64>)> {
+        let Magnet::Ring(ring) = self.magnet else { return None };
+        let start = self.locate(start);
+        let (mut energy, mut force, mut moment) = (0.0, Vector3::zeros(), Vector3::zeros());
+        for sample in samples {
+            let state = &states[sample.station];
+            let section = start.compose(&Pose { position: state.position, rotation: state.directors });
+            let SheetSums { field, force: [pull, by_x, by_y] } =
+                ring.on_sheet(&sample.sheet, &section, sample.accuracy(near))?;
+            let director = |i: usize| section.rotation.column(i).into_owned();
+            energy -= director(2).dot(&field);
+            force += pull;
+            let arm = section.position + Vector3::z() * body.half_length();
+            moment += arm.cross(&pull)
+                + director(0).cross(&by_x)
+                + director(1).cross(&by_y)
+                + director(2).cross(&field);
+            let back = |own: &Vector3<f64>| start.rotation.tr_mul(own);
+            let load = &mut stations[sample.station];
+            load.force -= back(&pull);
+            let own = |i: usize| state.directors.column(i).transpose();
+            load.couple -= back(&by_x) * own(0) + back(&by_y) * own(1) + back(&field) * own(2);
+        }
+        Some((energy, self.frame.rotation * force, self.frame.rotation * moment))
     }
 
     fn locate(&self, pose: &Pose) -> Pose {
@@ -246,4 +297,21 @@ impl<'a> Source<'a> {
             rotation: self.frame.rotation.tr_mul(&pose.rotation),
         }
     }
+}
+
+/// Dipoles of a sheet at `section` in the field of a ring, in its frame; `None` where one is inside the ring.
+fn on_sheet(
+    ring: &AxialSource,
+    sheet: &DipoleSheet,
+    section: &Pose,
+    accuracy: FieldAccuracy,
+    order: Order,
+) -> Option<SectionDipoles> {
+    if order == Order::Gradient {
+        let SheetSums { field, force } = ring.on_sheet(sheet, section, accuracy)?;
+        return Some(SectionDipoles { field, force, second: None });
+    }
+    let SecondSums { field, gradient, along } = ring.second_on_sheet(sheet, section, accuracy)?;
+    let force = gradient.each_ref().map(|gradient| gradient * section.axis());
+    Some(SectionDipoles { field, force, second: Some(SectionStiffness { gradient, along }) })
 }

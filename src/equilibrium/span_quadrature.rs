@@ -18,21 +18,20 @@ pub(super) const SPAN_SHARE: f64 = 0.3;
 /// Largest bend for which the distances of the last samples hold, rad.
 const MOST_BENT: f64 = 2.4;
 
-/// Ratio of the least distance of a section from a ring to the chord of an arc.
-const SLACK: f64 = 0.98;
+/// Ratio of the least distance of a section from a ring to the chord of an arc: attracted axially, soft helices contract by
+/// several percent.
+const SLACK: f64 = 0.85;
 
-/// Accuracy of multipoles relative to that between a ring and a span.
-const MULTIPOLE_SHARE: f64 = 0.03;
-
-/// Error of the gradient by multipoles up to the degree `2 n - 1`, times `(r / s)^(2 n)` at the distance `r` from a magnet of
-/// the extent `s` (measured: 6 to 8).
-const MULTIPOLE_ERROR: f64 = 8.0;
-
-/// Largest number of multipoles.
-const MOST_TERMS: i32 = 9;
+/// Accuracy of multipoles relative to that between two rings, or a ring and a span.
+pub(super) const MULTIPOLE_SHARE: f64 = 0.03;
 
 /// Accuracy of the pairs from which on the fields need not be exact.
 const ROUGH: f64 = 1e-6;
+
+/// How the field of a near ring is evaluated.
+pub(super) fn field_accuracy(pair_accuracy: f64) -> FieldAccuracy {
+    if pair_accuracy >= ROUGH { FieldAccuracy::Rough } else { FieldAccuracy::Exact }
+}
 
 /// A section of an element with the dipoles that represent its material for a ring.
 #[derive(Debug, Clone)]
@@ -54,15 +53,14 @@ impl SectionSample {
     fn new(quadrature: &StationQuadrature, level: usize, body: &RingBody, settings: &Settings) -> Self {
         let dipole = |point: &SectionPoint| (point.position, point.volume * quadrature.magnetisation);
         let dipoles: Vec<_> = quadrature.points.iter().map(dipole).collect();
-        let near = if settings.pair_accuracy >= ROUGH { FieldAccuracy::Rough } else { FieldAccuracy::Exact };
+        let near = field_accuracy(settings.pair_accuracy);
         let (chord, tilt) = (chord(level), (0.5 * bend(level)).sin());
         let distance = chord * (quadrature.distance + body.half_length());
         let radius = quadrature.points.iter().map(|point| point.position.norm()).fold(0.0, f64::max);
         let least2 = distance * (distance - 2.0 * radius * tilt) + radius * radius;
-        let ratio2 = body.ring.outer_radius.hypot(body.half_length()).powi(2) / least2;
+        let ratio2 = body.extent().powi(2) / least2;
         let allowed = MULTIPOLE_SHARE * SPAN_SHARE * settings.pair_accuracy;
-        let terms = (1..=MOST_TERMS).find(|terms| MULTIPOLE_ERROR * ratio2.powi(*terms) <= allowed);
-        let far = terms.map_or(near, |terms| FieldAccuracy::Multipoles(terms.unsigned_abs() as usize));
+        let far = FieldAccuracy::far(ratio2, allowed).unwrap_or(near);
         Self { station: quadrature.station, sheet: DipoleSheet::new(&dipoles), accuracy: [far, near] }
     }
 }

@@ -8,7 +8,10 @@
 
 use core::f64::consts::PI;
 
+use nalgebra::Vector2;
+
 use super::multipole::axial_moment;
+use super::sheet::DipoleSheet;
 use crate::error::{Error, check};
 use crate::numerics::bisection::bisect;
 
@@ -47,6 +50,9 @@ const ESTIMATED_DEGREES: usize = 16;
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxialRule {
     points: Vec<(f64, f64)>,
+    /// The same as dipoles of these volumes in a plane that contains the axis; their first coordinate is the height above
+    /// the lower face.
+    upright: DipoleSheet,
     /// `sqrt(a^2 + h^2)`, m.
     extent: f64,
     /// Errors of the even degrees from 2 at a distance of one extent, see [`AxialRule::error`].
@@ -82,7 +88,9 @@ impl AxialRule {
             points.push((z * extent, volume * if z > 0.0 { 0.5 * share } else { share }));
         }
         let errors = errors(&half, &shares, &moments).map(f64::abs).collect();
-        Self { points, extent, errors }
+        let above = |(z, weight): &(f64, f64)| (Vector2::new(z + 0.5 * length, 0.0), *weight);
+        let upright = DipoleSheet::new(&points.iter().map(above).collect::<Vec<_>>());
+        Self { points, upright, extent, errors }
     }
 
     /// The rule with the fewest nodes whose [`AxialRule::error`] at `distance` (m) is at most `tolerance`.
@@ -119,6 +127,12 @@ impl AxialRule {
     #[must_use]
     pub fn points(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
         self.points.iter().copied()
+    }
+
+    /// The points as dipoles, by their weights, in a plane that contains the axis; their first coordinate is the height above
+    /// the body's lower face.
+    pub(crate) fn upright(&self) -> &DipoleSheet {
+        &self.upright
     }
 
     /// Largest relative error for the field of a dipole at the given distance (m) from the centre.

@@ -15,7 +15,9 @@ mod multipole;
 mod overlap;
 mod pair_table;
 mod points;
+mod processor;
 mod sheet;
+mod sheet_lanes;
 mod uniform;
 mod wrench;
 
@@ -27,6 +29,7 @@ pub use face_rule::FaceRule;
 pub use jet::{FieldHessian, Jet};
 pub use overlap::{Outline, depth};
 pub use pair_table::{PairRule, PairTable};
+pub use processor::Instructions;
 pub use sheet::{DipoleSheet, FieldAccuracy, SecondSums, SheetSums};
 pub use uniform::LinearField;
 pub use wrench::Wrench;

@@ -47,8 +47,8 @@ const LEVELS: i32 = 30;
 /// Quadrature of the energy of a magnet in the field of another one.
 #[derive(Debug, Clone, Copy)]
 pub enum PairRule<'a> {
-    /// Dipoles at nodes on its axis.
-    Axis(&'a AxialRule),
+    /// Dipoles at nodes on its axis, and the distance (m) of the nearest source from which on it is used.
+    Axis(&'a AxialRule, f64),
     /// Charges at nodes on its two faces: where its magnetisation enters, then where it leaves.
     Faces([&'a FaceRule; 2]),
 }
@@ -82,7 +82,7 @@ impl PairTable {
     /// let ring = AxialSource::new(0.75e-3, 2.0e-3, 1.0e-3, 1.35)?;
     /// let table = PairTable::new(0.75e-3, 2.0e-3, 1.0e-3, 1e-5);
     /// let rule = |z| Pose::new([0.0, 0.0, z], [1.0, 0.0, 0.0, 0.0]).map(|pose| table.choose(&ring, &pose));
-    /// assert!(matches!(table.rule(rule(5.0e-3)?), PairRule::Axis(_)));
+    /// assert!(matches!(table.rule(rule(5.0e-3)?), PairRule::Axis(..)));
     /// assert!(matches!(table.rule(rule(1.1e-3)?), PairRule::Faces(_)));
     /// # Ok::<(), mcm::error::Error>(())
     /// ```
@@ -136,7 +136,7 @@ impl PairTable {
     #[must_use]
     pub fn rule(&self, number: usize) -> PairRule<'_> {
         match number.min(self.len() - 1).checked_sub(self.axis.len()) {
-            None => PairRule::Axis(&self.axis[number].2),
+            None => PairRule::Axis(&self.axis[number].2, self.axis[number].1),
             Some(levels) => {
                 let count = self.faces.len();
                 PairRule::Faces([&self.faces[levels / count].1, &self.faces[levels % count].1])

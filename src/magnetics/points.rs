@@ -6,12 +6,11 @@
 
 #![expect(clippy::inline_always, reason = "these functions are compiled for several processors")]
 
-use multiversion::multiversion;
-
 use super::edge::{GRADIENT, HESSIAN, Parts, Place};
 use super::integrals::Integrals;
 use super::lanes::Lanes;
 use super::multipole::Multipole;
+use super::processor::for_each_processor;
 
 /// Number of points side by side.
 pub(super) const WIDTH: usize = 8;
@@ -39,21 +38,23 @@ pub(super) enum Origin<'a> {
     Multipole(&'a Multipole, usize),
 }
 
-/// Field and gradient: `B_rho / rho`, `B_z`, `dB_rho/dz / rho` and `dB_z/dz` at the distances `rho` from the axis and the
-/// heights `z` (m), the others zero. `false` where a point is so near to an edge that it must be evaluated alone.
-#[multiversion(targets("x86_64+avx+avx2+avx512f+avx512dq+avx512vl", "x86_64+avx+avx2"))]
-pub(super) fn gradients(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
-    let mut apart = [f64::MAX; WIDTH];
-    components::<GRADIENT>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
-    apart.iter().all(|excess| *excess >= 0.0)
+for_each_processor! {
+    /// Field and gradient: `B_rho / rho`, `B_z`, `dB_rho/dz / rho` and `dB_z/dz` at the distances `rho` from the axis and the
+    /// heights `z` (m), the others zero. `false` where a point is so near to an edge that it must be evaluated alone.
+    pub(super) fn gradients(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
+        let mut apart = [f64::MAX; WIDTH];
+        components::<GRADIENT>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
+        apart.iter().all(|excess| *excess >= 0.0)
+    }
 }
 
-/// As [`gradients`], with the second derivatives.
-#[multiversion(targets("x86_64+avx+avx2+avx512f+avx512dq+avx512vl", "x86_64+avx+avx2"))]
-pub(super) fn jets(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
-    let mut apart = [f64::MAX; WIDTH];
-    components::<HESSIAN>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
-    apart.iter().all(|excess| *excess >= 0.0)
+for_each_processor! {
+    /// As [`gradients`], with the second derivatives.
+    pub(super) fn jets(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
+        let mut apart = [f64::MAX; WIDTH];
+        components::<HESSIAN>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
+        apart.iter().all(|excess| *excess >= 0.0)
+    }
 }
 
 /// The components up to the order `ORDER`, to be called by functions that are compiled for several processors; `apart` is

@@ -126,6 +126,33 @@ impl Manipulator {
         Ok(&self.outputs)
     }
 
+    /// Solves for each of `inputs` on all cores (rayon's), every time from this manipulator's present state: from the unloaded
+    /// shape if nothing is solved yet, otherwise along the branch from the last shape.
+    ///
+    /// The answers are those of one clone after the other, bit for bit, in the order of `inputs`; this manipulator stays as it
+    /// is.
+    ///
+    /// ```
+    /// use mcm::manipulator::Scene;
+    /// let scene = Scene::parse("[design]\nsegments = 1\n[field]", "example")?;
+    /// let mut fields = vec![scene.inputs.clone(); 8];
+    /// (0..8).for_each(|number| fields[number].uniform_field.y = 1e-3 * number as f64);
+    /// let answers = scene.manipulator(2)?.solve_many(&fields)?;
+    /// assert!(answers.windows(2).all(|pair| pair[0].tip_angle < pair[1].tip_angle));
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Manipulator::solve`], for the first of `inputs` that is refused; none is then solved.
+    #[cfg(feature = "parallel")]
+    pub fn solve_many(&self, inputs: &[Inputs]) -> Result<Vec<Outputs>, Error> {
+        use rayon::prelude::*;
+        for each in inputs {
+            each.check(self.outputs.rings.len())?;
+        }
+        inputs.par_iter().map(|inputs| self.clone().solve(inputs).cloned()).collect()
+    }
+
     /// The state, from which another manipulator of the same design continues with bit-identical results.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {

@@ -10,8 +10,11 @@ use crate::magnetics::Assembly;
 /// Largest number of iterations of a cheaper model per solve; with more it would not be cheap.
 const CHEAP: u32 = 100;
 
-/// Pair accuracy of the coarse models.
-const COARSE: f64 = 1e-3;
+/// Degree and pair accuracy of the coarse models without rings on spans.
+const COARSE: (usize, f64) = (0, 1e-3);
+
+/// The same with rings on spans: for the default tolerances.
+const COARSE_FULL: (usize, f64) = (1, 3e-4);
 
 /// Number of finer discretisations that may give the answer; the next finer one only estimates the error.
 const FINER: usize = 2;
@@ -153,15 +156,19 @@ impl Models {
 /// Settings of the models that level `auto` chooses from, cheapest first, for a design with or without free rings.
 #[must_use]
 pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
-    let coarse = settings.pair_accuracy.max(COARSE);
+    let coarse = |(degree, pair_accuracy): (usize, f64), model: Settings| Settings {
+        degree: degree.min(settings.degree),
+        pair_accuracy: settings.pair_accuracy.max(pair_accuracy),
+        ..model
+    };
     let iterations = settings.iterations.min(CHEAP);
     let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };
     let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
-    let mut out = vec![Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::None) }];
+    let mut out = vec![coarse(COARSE, cheap(Interaction::None))];
     if has_rings {
-        out.push(Settings { degree: 0, pair_accuracy: coarse, ..cheap(Interaction::Rings) });
+        out.push(coarse(COARSE, cheap(Interaction::Rings)));
         out.push(cheap(Interaction::Rings));
-        out.push(Settings { degree: 0, pair_accuracy: coarse, iterations, ..richest });
+        out.push(coarse(COARSE_FULL, Settings { iterations, ..richest }));
     }
     out.push(richest);
     out

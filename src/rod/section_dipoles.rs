@@ -63,6 +63,17 @@ impl SectionDipoles {
         }
     }
 
+    /// The same for dipoles `factor` times as strong.
+    #[must_use]
+    pub fn times(mut self, factor: f64) -> Self {
+        self.field *= factor;
+        self.force.iter_mut().for_each(|sum| *sum *= factor);
+        if let Some(second) = &mut self.second {
+            second.gradient.iter_mut().chain(&mut second.along).for_each(|sum| *sum *= factor);
+        }
+        self
+    }
+
     /// The energy as a load on the section's frame, whose directors are the columns of `directors`.
     ///
     /// Equal to the sum of [`Load::add_dipole`] over the dipoles with arms `x d1 + y d2`.

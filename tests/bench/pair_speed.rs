@@ -31,7 +31,7 @@ fn by_rule(source: &AxialSource, pose: &Pose, rule: PairRule<'_>, stiff: bool) -
     let axis = pose.axis();
     let mut load = Load::zero();
     match rule {
-        PairRule::Axis(rule) => {
+        PairRule::Axis(rule, _) => {
             for (height, volume) in rule.points() {
                 let (arm, moment) = (axis * height, magnetisation * volume);
                 let point = pose.position + arm;
@@ -101,12 +101,12 @@ fn main() {
         let choice = time(|| table.choose(&source, black_box(&pose)));
         let rule = table.rule(table.choose(&source, &pose));
         let (name, nodes) = match rule {
-            PairRule::Axis(rule) => ("axis", rule.points().len()),
+            PairRule::Axis(rule, _) => ("axis", rule.points().len()),
             PairRule::Faces(rules) => ("faces", rules.iter().map(|rule| rule.len()).sum()),
         };
         let [gradient, hessian] = [false, true].map(|stiff| time(|| by_rule(&source, &pose, rule, stiff)));
         let beside =
-            [false, true].map(|stiff| time(|| by_rule(&source, &pose, PairRule::Axis(&axis), stiff)));
+            [false, true].map(|stiff| time(|| by_rule(&source, &pose, PairRule::Axis(&axis, 0.0), stiff)));
         println!(
             "| {gap} | {name} | {nodes} | {choice:.2} | {gradient:.2} | {hessian:.2} | {:.2} | {:.2} |",
             beside[0], beside[1]

@@ -65,6 +65,25 @@ fn wrong_usage_is_bad_input_and_help_is_not() {
 }
 
 #[test]
+fn the_version_tells_the_instructions_in_use() {
+    let here = folder("version");
+    let version = format!("mcm {}", env!("CARGO_PKG_VERSION"));
+    assert_eq!(stdout(&mcm(&here, &["--version"])).trim(), version);
+    let told = stdout(&mcm(&here, &["--version", "--verbose"]));
+    assert!(
+        told.starts_with(&version) && told.contains("instructions for fields at many points: "),
+        "{told}"
+    );
+    let forced = std::process::Command::new(env!("CARGO_BIN_EXE_mcm"))
+        .args(["--version", "--verbose"])
+        .env("MCM_PORTABLE", "1")
+        .output()
+        .unwrap();
+    assert!(stdout(&forced).contains("points: portable\n"), "{}", stdout(&forced));
+    assert_status(&mcm(&here, &["--verbose"]), 1);
+}
+
+#[test]
 fn missing_file_names_the_nearest() {
     let (_, output) = with_scene("missing", "", &["solve", "scnee.toml"]);
     assert_status(&output, 1);

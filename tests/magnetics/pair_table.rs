@@ -36,7 +36,7 @@ fn by_rule(source: &AxialSource, pose: &Pose, rule: PairRule<'_>) -> (f64, Wrenc
     let mut wrench = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
     let mut energy = 0.0;
     match rule {
-        PairRule::Axis(rule) => {
+        PairRule::Axis(rule, _) => {
             for (height, volume) in rule.points() {
                 let arm = pose.axis() * height;
                 let (field, gradient) = source.field_gradient(&(pose.position + arm)).expect("outside");
@@ -160,7 +160,7 @@ fn rings_of_other_shapes_do_nearly_as_well() {
             let expected = source.wrench_on(&source, &pose, WRENCH_ACCURACY).expect("apart");
             let rule = rules.rule(rules.choose(&source, &pose));
             worst = worst.max(error(&source, &by_rule(&source, &pose, rule).1, &expected));
-            on_axis += usize::from(matches!(rule, PairRule::Axis(_)));
+            on_axis += usize::from(matches!(rule, PairRule::Axis(..)));
         }
         println!("{shape:?} mm: {worst:.1e}, {on_axis} on the axis");
         assert!(worst <= OTHER_PAIR && (10..150).contains(&on_axis), "{shape:?}: {worst:e}, {on_axis}");

@@ -17,9 +17,11 @@ mod study_files;
 mod sweep;
 mod verdict;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use mcm::magnetics::Instructions;
 
 use failure::Failure;
 
@@ -27,14 +29,22 @@ use failure::Failure;
 #[derive(Parser)]
 #[command(
     version,
+    disable_version_flag = true,
+    arg_required_else_help = true,
     after_help = "A scene is a TOML file; values that it omits are those of Table 1 of the paper with nine \
 segments, without field or load. Example:\n\n    [design]\n    segments = 3\n    [field]\n    \
 uniform_mt = [0.0, 20.0, 0.0]\n\nExit status: 0 done (solve: solved and not known to be unstable), 1 bad input, 2 not converged, \
 3 solved but known to be unstable, 4 solved but neutral."
 )]
 struct Arguments {
+    /// Print version
+    #[arg(short = 'V', long)]
+    version: bool,
+    /// With --version: also which instructions evaluate fields at many points, and the number of threads
+    #[arg(long, requires = "version")]
+    verbose: bool,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
@@ -62,11 +72,25 @@ fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Solve(command) => command.run(),
-        Command::Field(command) => command.run(),
-        Command::Sweep(command) => command.run(),
-        Command::Pack(command) => command.run(),
-        Command::Study(command) => command.run(),
+        _ if arguments.version => version(arguments.verbose),
+        Some(Command::Solve(command)) => command.run(),
+        Some(Command::Field(command)) => command.run(),
+        Some(Command::Sweep(command)) => command.run(),
+        Some(Command::Pack(command)) => command.run(),
+        Some(Command::Study(command)) => command.run(),
+        // Clap prints the help where nothing is given.
+        None => Ok(failure::BAD_INPUT.into()),
     };
     outcome.unwrap_or_else(Failure::report)
+}
+
+/// Prints the version; `verbose` adds how fields at many points are evaluated, and on how many threads scenes are solved.
+fn version(verbose: bool) -> Result<ExitCode, Failure> {
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "mcm {}", env!("CARGO_PKG_VERSION"))?;
+    if verbose {
+        writeln!(out, "instructions for fields at many points: {}", Instructions::in_use())?;
+        writeln!(out, "threads: {}", rayon::current_num_threads())?;
+    }
+    Ok(ExitCode::SUCCESS)
 }

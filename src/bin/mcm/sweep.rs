@@ -190,7 +190,7 @@ fn devices(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -
         bar.inc(1);
         Ok(Row::new([&[value], others].concat(), Way::Forth, manipulator.measure_margin(), None))
     };
-    let rows = along.values.iter().map(solve).collect::<Result<_, Failure>>()?;
+    let rows = along.values.par_iter().map(solve).collect::<Result<_, Failure>>()?;
     Ok(Walk { others: others.to_vec(), rows, folds: Vec::new() })
 }
 

@@ -6,8 +6,9 @@ use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::ring_body::RingBody;
 use crate::equilibrium::settings::Interaction;
 use crate::equilibrium::source::Source;
+use crate::equilibrium::span_quadrature::MULTIPOLE_SHARE;
 use crate::geometry::Pose;
-use crate::magnetics::{PairRule, depth};
+use crate::magnetics::{FieldAccuracy, PairRule, depth};
 use crate::rod::Order;
 
 /// All pairs of interacting rings.
@@ -49,7 +50,12 @@ impl<'a> RingPairs<'a> {
         }
         let source = Source::ring(first, nodes[0]);
         let load = match self.rules.between(pair[0], pair[1]) {
-            PairRule::Axis(rule) => source.on_ring(second, nodes[1], rule, order)?,
+            PairRule::Axis(rule, distance) => {
+                let ratio = first.extent() / (distance + first.half_length());
+                let allowed = MULTIPOLE_SHARE * self.rules.accuracy();
+                let accuracy = FieldAccuracy::far(ratio * ratio, allowed).unwrap_or(FieldAccuracy::Exact);
+                source.on_axis(second, nodes[1], rule, accuracy, order)?
+            }
             PairRule::Faces(rules) => source.on_faces(second, nodes[1], rules, order)?,
         };
         // The energy depends on the relative pose alone, so that forces and torques of the pair balance up to rounding.
@@ -61,8 +67,7 @@ impl<'a> RingPairs<'a> {
 /// Penetration depth of two rings, m; 0 where they do not overlap. Bores count as filled.
 pub(crate) fn overlap(first: &RingBody, first_node: &Pose, second: &RingBody, second_node: &Pose) -> f64 {
     let (from, to) = (first.centre(first_node), second.centre(second_node));
-    let extent = |body: &RingBody| body.ring.outer_radius.hypot(body.half_length());
-    if (to.position - from.position).norm() > extent(first) + extent(second) {
+    if (to.position - from.position).norm() > first.extent() + second.extent() {
         return 0.0;
     }
     depth(&first.outline(), &second.outline(), &to.seen_from(&from))

@@ -52,16 +52,11 @@ impl<'a> RingsOnSpans<'a> {
         self.chain.span_quadratures.samples(element, ring, self.rules.span(element, ring))
     }
 
-    /// The energies of a ring with its node at `node` and of the sections of `batch` as loads on both, after
+    /// The energy of a ring with its node at `node` and of a section of `batch` as loads on both, after
     /// [`Source::on_samples`].
-    pub(crate) fn loads(
-        source: &Source<'_>,
-        node: &Pose,
-        batch: &SectionBatch,
-    ) -> impl Iterator<Item = PairLoad> {
-        let (axes, centre) = (*source.axes(), source.centre() - node.position);
-        batch.loads.iter().zip(&batch.sections).map(move |(load, section)| {
-            PairLoad::reciprocal(&load.in_axes(&axes.transpose()), centre + axes * section.position)
-        })
+    pub(crate) fn load(source: &Source<'_>, node: &Pose, batch: &SectionBatch, number: usize) -> PairLoad {
+        let (axes, centre) = (source.axes(), source.centre() - node.position);
+        let (load, section) = (&batch.loads[number], &batch.sections[number]);
+        PairLoad::reciprocal(&load.in_axes(&axes.transpose()), centre + axes * section.position)
     }
 }
