@@ -32,6 +32,8 @@ pub(super) struct Models {
     whole: Vec<Equilibrium>,
     /// Finer discretisations of the richest model, as far as they have been needed.
     finer: Vec<Refinement>,
+    /// The finer discretisation of the coarse model of the richest interaction, once it has been needed.
+    judge: Option<Refinement>,
 }
 
 impl Models {
@@ -54,6 +56,7 @@ impl Models {
             shape_points,
             whole: whole.into_iter().map(model).collect::<Result<_, _>>()?,
             finer: Vec::new(),
+            judge: None,
         })
     }
 
@@ -113,7 +116,7 @@ impl Models {
     /// Resets all shapes.
     pub(super) fn reset(&mut self) {
         self.whole.iter_mut().for_each(Equilibrium::reset);
-        self.finer.iter_mut().for_each(|finer| finer.model.reset());
+        self.finer.iter_mut().chain(&mut self.judge).for_each(|finer| finer.model.reset());
     }
 
     /// Transfers a shape of model `from` to model `to`, as [`Equilibrium::adopt`] does.
@@ -139,17 +142,36 @@ impl Models {
     /// As [`Models::make`].
     pub(super) fn error(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
         let richest = self.richest();
-        self.make(number.max(richest) + 1)?;
+        if number < richest && self.is_refinement(richest, number) {
+            return self.error_of_coarse(number);
+        }
         let mut apart = TipDeviation::NONE;
         if number < richest {
             let (cheaper, richest) = self.whole.split_at_mut(richest);
             let Some(deviation) = richest[0].deviation_of(&cheaper[number]) else { return Ok(None) };
             apart = deviation;
         }
+        self.make(number.max(richest) + 1)?;
         let number = number.max(richest);
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
         Ok(above[0].error_of(model).map(|error| error.times(DOUBT).plus(apart)))
+    }
+}
+
+impl Models {
+    /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
+    /// which a finer one of its own tells for a tenth of the time that the richest would take.
+    fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
+        let coarse = &mut self.whole[number];
+        let judge = match &mut self.judge {
+            Some(judge) => judge,
+            none => {
+                let (design, magnet) = &*self.design;
+                none.insert(Refinement::new(coarse, design, magnet.as_ref(), self.shape_points)?)
+            }
+        };
+        Ok(judge.error_of(coarse).map(|error| error.times(DOUBT)))
     }
 }
 

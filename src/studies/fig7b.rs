@@ -91,7 +91,10 @@ fn devices() -> Result<Vec<Device>, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
     let cylinder = solid_cylinder(design.length())?;
     let device = |interaction, bending_stop| {
-        Device::new(design.clone(), Settings { interaction, bending_stop, ..Settings::default() })
+        // Where a shape ends is told to a hundredth of a degree.
+        let (tolerance_position, tolerance_angle) = (1e-5, 1e-3);
+        let exact = Settings { tolerance_position, tolerance_angle, ..Settings::default() };
+        Device::new(design.clone(), Settings { interaction, bending_stop, ..exact })
     };
     Ok(vec![
         device(Interaction::Rings, false),

@@ -35,6 +35,10 @@ fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
 }
 
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
 fn assert_status(output: &Output, expected: i32) {
     assert_eq!(output.status.code(), Some(expected), "stderr: {}", stderr(output));
 }
@@ -74,7 +78,7 @@ fn the_version_tells_the_instructions_in_use() {
         told.starts_with(&version) && told.contains("instructions for fields at many points: "),
         "{told}"
     );
-    let forced = std::process::Command::new(env!("CARGO_BIN_EXE_mcm"))
+    let forced = Command::new(env!("CARGO_BIN_EXE_mcm"))
         .args(["--version", "--verbose"])
         .env("MCM_PORTABLE", "1")
         .output()

@@ -12,6 +12,7 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 use crate::given::pair;
+use crate::tolerance::{CHATTER, MARGIN_CHATTER};
 
 const SCENES: u64 = 2000;
 
@@ -172,6 +173,16 @@ fn closing_windings_call_for_a_new_estimate() {
     }
 }
 
+/// How much more or less tip angle (rad), force (over its size) and margin change in a step than those of the judge: what a
+/// change of models or of quadrature rules adds.
+fn beside_the_judge(own: [&Outputs; 2], judge: [&Outputs; 2]) -> [f64; 3] {
+    let difference =
+        |of: &dyn Fn(&Outputs) -> f64| ((of(own[1]) - of(own[0])) - (of(judge[1]) - of(judge[0]))).abs();
+    let step = |of: [&Outputs; 2]| of[1].magnetic_force - of[0].magnetic_force;
+    let force = (step(own) - step(judge)).norm() / judge[1].magnetic_force.norm();
+    [difference(&|out| out.tip_angle), force, difference(&|out| out.stability_margin)]
+}
+
 #[test]
 fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump() {
     // Not the helix, which its rings bend by some degrees also without a field.
@@ -183,7 +194,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
     inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
     inputs.magnet_strength = 1.0;
     let mut changed = 0;
-    for tolerance in [1e-2, 1e-3, 5e-4, 2e-4] {
+    for tolerance in [1e-2, 1e-3, 5e-4, 2e-4, 5e-5, 2e-5] {
         let auto = Settings {
             interaction: Interaction::Auto,
             tolerance_position: tolerance * length,
@@ -193,6 +204,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
         let manipulator = |settings| Manipulator::new(&design, Some(&pair()), settings, 2).unwrap();
         let (mut own, mut judge) = (manipulator(auto), manipulator(richest(auto)));
         let (mut before, mut changes, mut worst) = (None::<(Outputs, Outputs)>, 0, 0.0_f64);
+        let mut chatter = [0.0_f64; 3]; // tip angle, force, margin
         // The magnet comes from far and goes again, 2 mm in a step.
         for step in (0..=90).chain((0..90).rev()) {
             inputs.magnet.position = Vector3::new(0.0, -0.3 + 0.002 * f64::from(step), 0.01);
@@ -200,6 +212,10 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             let b = judge.solve(&inputs).unwrap().clone();
             assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");
             worst = worst.max(parts(&auto, &a, &b));
+            if let Some((old_a, old_b)) = &before {
+                let steps = beside_the_judge([old_a, &a], [old_b, &b]);
+                chatter.iter_mut().zip(steps).for_each(|(most, step)| *most = most.max(step));
+            }
             if let Some((old_a, old_b)) = &before
                 && (old_a.interaction, old_a.degree) != (a.interaction, a.degree)
             {
@@ -210,8 +226,13 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             }
             before = Some((a, b));
         }
-        println!("tolerance {tolerance}: {changes} changes, error at most {worst:.2} of it");
+        println!(
+            "tolerance {tolerance}: {changes} changes, error at most {worst:.2} of it, chatter {chatter:?}"
+        );
         assert!(worst <= 1.0, "tolerance {tolerance}: {worst} of it");
+        let [angle, force, margin] = chatter;
+        assert!(angle <= tolerance && force <= CHATTER * tolerance, "{chatter:?}");
+        assert!(margin <= MARGIN_CHATTER, "{chatter:?}");
         changed += changes;
     }
     assert!(changed >= 4, "{changed} changes");

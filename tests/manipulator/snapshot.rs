@@ -1,6 +1,6 @@
 //! Another manipulator that takes up a snapshot answers bit for bit as the first one goes on to.
 
-use mcm::manipulator::{Inputs, Manipulator, Scene, Status};
+use mcm::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
 
 use crate::tolerance::EFFECT;
 
@@ -93,4 +93,23 @@ fn a_path_ends_where_its_points_lead() {
     assert_eq!(by_path.snapshot(), by_path.snapshot());
     let mut again = before;
     assert_eq!(by_path.solve(&path[2]).unwrap(), again.solve(&path[2]).unwrap());
+}
+
+#[test]
+fn many_inputs_at_once_are_answered_as_by_one_clone_after_the_other() {
+    for (text, solved) in [(SCENES[1], false), (SCENES[2], true)] {
+        let (scene, mut manipulator) = started(text);
+        if solved {
+            manipulator.solve(&scene.inputs).unwrap();
+        }
+        let before = manipulator.snapshot();
+        let mut inputs: Vec<Inputs> = (0..12).map(|step| at(&scene, step)).collect();
+        let one_by_one: Vec<Outputs> =
+            inputs.iter().map(|inputs| manipulator.clone().solve(inputs).unwrap().clone()).collect();
+        assert_eq!(manipulator.solve_many(&inputs).unwrap(), one_by_one);
+        assert_eq!(manipulator.snapshot(), before);
+        inputs[7].gravity.x = f64::NAN;
+        let refused = manipulator.solve_many(&inputs).unwrap_err().to_string();
+        assert!(refused.contains("gravity"), "{refused}");
+    }
 }

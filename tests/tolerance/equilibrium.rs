@@ -235,3 +235,10 @@ pub(crate) const FOLD_ON_THE_WAY: f64 = 5e-3;
 
 /// Motion of the tip by a vanishing moment, over that of a straight rod and over the margin, of which the softest shape has part.
 pub(crate) const MOVED_BY_A_MOMENT: f64 = 3.0;
+
+/// What changes of models and quadrature rules add to a step's relative change of force, over the tolerance of the tip
+/// relative to the length: forces follow the shape.
+pub(crate) const CHATTER: f64 = 10.0;
+
+/// The same for the stability margin, absolute: it is told anew when loads or shape have changed by a tenth of it.
+pub(crate) const MARGIN_CHATTER: f64 = 0.1;

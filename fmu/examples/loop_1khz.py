@@ -1,0 +1,103 @@
+"""How long the steps of a 1 kHz loop take: the magnet of `fmu/demo` passes, one step of the FMU every millisecond.
+
+    .venv/bin/python fmu/examples/loop_1khz.py mcm.fmu --out loop.csv --picture loop.png
+
+A step is what a control loop does: it sets the magnet's pose, calls `fmi2DoStep` and reads tip position, tip angle,
+force, margin and status, all through fmpy. The loop does not wait for the next millisecond, so that it measures work.
+"""
+
+import argparse
+import csv
+import gc
+import sys
+import time
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from tqdm import tqdm
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+import demo
+
+STEP = 1e-3  # communication step, s
+FIRST = 2000  # steps from the start of the demo's path that come before the measured ones
+READ = (
+    "tip.angle",
+    "force.magnetic[2]",
+    "force.magnetic[3]",
+    "stability.margin",
+    "tip.position[2]",
+    "tip.position[3]",
+)
+
+
+def measure(device: demo.Device, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """Time (s) and tip angle (rad) of each step."""
+    slave = device.slave
+    references = [device.reference[name] for name in READ]
+    times, angles = np.empty(steps), np.empty(steps)
+    device.start(demo.DISTANCE)
+    gc.disable()
+    for index in tqdm(range(FIRST + steps), unit="step"):
+        begin = time.perf_counter()
+        device.place((index + 1) * STEP, demo.DISTANCE)
+        slave.doStep(currentCommunicationPoint=index * STEP, communicationStepSize=STEP)
+        values = slave.getReal(references)
+        status = device.status()
+        if index >= FIRST:
+            times[index - FIRST], angles[index - FIRST] = time.perf_counter() - begin, values[0]
+        if status == demo.NOT_SOLVED:
+            raise SystemExit(f"step {index} is not solved")
+    gc.enable()
+    return times, angles
+
+
+def draw(picture: Path, times: np.ndarray) -> None:
+    """Draws how often a step takes how long."""
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt  # noqa: PLC0415 - after the choice of how to draw
+
+    figure, axes = plt.subplots(figsize=(7, 3.6), layout="constrained")
+    axes.hist(1e3 * times, bins=np.geomspace(0.05, 50, 121), color="tab:blue")
+    axes.axvline(1.0, color="black", linestyle="--")
+    axes.text(1.05, 0.92, "1 ms", transform=axes.get_xaxis_transform())
+    axes.set(xscale="log", yscale="log", xlabel="time of a step through fmpy (ms)", ylabel="number of steps")
+    within = np.mean(times <= STEP)
+    axes.set_title(
+        f"nine segments, level auto: median {1e3 * np.median(times):.2f} ms, {within:.1%} within 1 ms"
+    )
+    figure.savefig(picture, dpi=120)
+    print(f"wrote {picture}")
+
+
+def main() -> None:
+    """Reads the command line."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("fmu", type=Path, help="the FMU, as `mcm pack` writes it")
+    parser.add_argument("--steps", type=int, default=10_000, help="number of measured steps (default 10000)")
+    parser.add_argument("--out", type=Path, help="a table of the times and tip angles to write (CSV)")
+    parser.add_argument("--picture", type=Path, help="the histogram to write (PNG)")
+    arguments = parser.parse_args()
+    device = demo.Device(arguments.fmu)
+    times, angles = measure(device, arguments.steps)
+    device.close()
+    quantiles = {"median": 0.5, "99 %": 0.99, "99.9 %": 0.999, "longest": 1.0}
+    told = ", ".join(f"{name} {1e3 * np.quantile(times, at):.2f} ms" for name, at in quantiles.items())
+    print(f"{len(times)} steps: {told}; within 1 ms: {np.mean(times <= STEP):.2%}")
+    if arguments.out:
+        with arguments.out.open("w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["time_s", "step_time_us", "tip_angle_deg"])
+            for index, (taken, angle) in enumerate(zip(times, angles, strict=True)):
+                moment = round((FIRST + index + 1) * STEP, 9)
+                writer.writerow([moment, round(1e6 * taken, 1), np.degrees(angle)])
+        print(f"wrote {arguments.out}")
+    if arguments.picture:
+        draw(arguments.picture, times)
+
+
+if __name__ == "__main__":
+    main()
