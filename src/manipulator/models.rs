@@ -14,7 +14,7 @@ const CHEAP: u32 = 100;
 const COARSE: (usize, f64) = (0, 1e-3);
 
 /// The same with rings on spans: for the default tolerances.
-const COARSE_FULL: (usize, f64) = (1, 3e-4);
+const COARSE_FULL: (usize, f64) = (2, 3e-4);
 
 /// Number of finer discretisations that may give the answer; the next finer one only estimates the error.
 const FINER: usize = 2;
