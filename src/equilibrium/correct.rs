@@ -14,10 +14,6 @@ const CHORD_CONTRACTION: f64 = 0.1;
 /// Length of a Newton step (radian norm) from which on steps with the same factorisation are tried next: they cost a tenth.
 const SOON: f64 = 0.05;
 
-/// Smallest ratio of a first Newton step to the same step with the Hessian at the inputs before: where the change of the
-/// inputs stiffens the shape more, the step back will miss its start.
-const STIFFENED: f64 = 0.8 * MISSED;
-
 /// Residual at which a shape on the way to the target counts as solved.
 const PASSING: f64 = 1e-5;
 
@@ -38,7 +34,6 @@ impl Search<'_> {
         let Model { chain, settings, .. } = self.model;
         let unit = chain.radian_norm();
         self.kept = false;
-        let expected = std::mem::take(&mut self.trial).expected;
         self.choose_rules(inputs, unknowns);
         let mut longest = reach.min(settings.follow_step);
         for left in (0..=RULE_CHOICES).rev() {
@@ -51,7 +46,6 @@ impl Search<'_> {
             }
             longest = self.model.nearly();
         }
-        let mut expected = expected.or(self.trial.first).filter(|length| *length > self.reach);
         let tolerance = self.tolerance();
         let first = reach / CONTRACTION;
         let (mut previous, mut choices) = (first, RULE_CHOICES);
@@ -67,11 +61,6 @@ impl Search<'_> {
             if !settled {
                 let length = self.step(inputs, 0);
                 self.report.iterations += 1;
-                let stiffened = expected.take().map(|expected| length / expected);
-                if stiffened.is_some_and(|ratio| ratio < STIFFENED) {
-                    self.trial.stiffened = stiffened;
-                    return false;
-                }
                 if length <= CONTRACTION * previous {
                     apply(unknowns, &self.scratch.steps[0]);
                     settled = length <= SOON && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
@@ -154,7 +143,6 @@ impl Search<'_> {
                 return holds;
             }
             let length = self.step(inputs, done);
-            self.trial.first.get_or_insert(length);
             if length.is_nan() || length > longest {
                 return holds && length < ROUNDING;
             }

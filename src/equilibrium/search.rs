@@ -75,17 +75,6 @@ impl Scratch {
     }
 }
 
-/// First steps (radian norm) of corrections from the same shape: how much the change of the inputs stiffens it.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Trial {
-    /// Expected length of the first step with the Hessian at the inputs before.
-    pub(super) expected: Option<f64>,
-    /// The same of the last correction, if it had such a Hessian.
-    pub(super) first: Option<f64>,
-    /// Length of its first Newton step over that, if it was given up for it.
-    pub(super) stiffened: Option<f64>,
-}
-
 /// A search for the equilibrium at given inputs, in progress.
 pub(super) struct Search<'a> {
     pub(super) model: Model<'a>,
@@ -100,8 +89,6 @@ pub(super) struct Search<'a> {
     pub(super) reach: f64,
     /// Whether the shape in search is one on the way to the target: it need not be exact.
     pub(super) passing: bool,
-    /// What the next correction is expected to do, and what it did.
-    pub(super) trial: Trial,
     /// Whether the last correction ended so close to the last factorisation that its stability result is still valid.
     pub(super) kept: bool,
 }

@@ -87,7 +87,7 @@ pub struct Settings {
     /// the faces where they are closer. The smallest error that can be reached is 1e-10.
     pub pair_accuracy: f64,
     /// Residual at which a shape counts as solved, in the radian norm (1: one element turned by a radian); default 1e-11.
-    /// The cheaper models of the level `auto` stop at up to 1e5 times as much, as their errors allow.
+    /// The cheaper models of the level `auto` stop at up to 1e4 times as much, as their errors allow.
     pub tolerance: f64,
     /// Largest first Newton step when a branch is followed, in the radian norm; default 0.5.
     pub follow_step: f64,

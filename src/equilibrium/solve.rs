@@ -6,7 +6,7 @@ use super::history::History;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
 use super::report::Report;
-use super::search::{ROUNDING, Search, Trial};
+use super::search::{ROUNDING, Search};
 
 /// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
 /// margin.
@@ -18,9 +18,6 @@ const SETTLING: f64 = 4.0;
 
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
-
-/// Relative stiffening within a step that may be tried.
-const STIFFENS: f64 = 0.67;
 
 /// Growth factor of the step length after a step that needed a descent.
 const FURTHER: f64 = 4.0;
@@ -98,8 +95,6 @@ impl Search<'_> {
         let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
         let mut here = start.clone();
         let (mut neutral, mut shortened) = (false, false);
-        // First step per part of the path.
-        let mut pull = None;
         // Number of snaps when the last descent began: a descent over several steps counts as one snap.
         let mut before_descent = None;
         while self.left() > self.model.settings.iterations / RESERVE && self.may_go_on() {
@@ -107,15 +102,12 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            self.trial = Trial { expected: pull.map(|pull: f64| pull * part), ..Trial::default() };
             let corrected = !neutral && self.try_to_correct(Some(&here), &inputs, unknowns);
             self.passing = false;
             if !corrected && !neutral && part > floor {
-                pull = pull.or(self.trial.first.map(|length| length / part));
-                (part, shortened) = (self.shorter(part, floor), true);
+                (part, shortened) = (0.5 * part, true);
                 continue;
             }
-            pull = None;
             let end = if corrected {
                 before_descent = None;
                 Outcome::Solved
@@ -145,17 +137,6 @@ impl Search<'_> {
         // Too many small steps along the branch: descend to the target at once.
         let end = self.descend_from([&here, target], unknowns, resting);
         self.rests(end)
-    }
-
-    /// The next length of a step, at least `floor`, after one of the length `part` has failed: half, or halved until the shape
-    /// stiffens little.
-    fn shorter(&self, part: f64, floor: f64) -> f64 {
-        let enough = self.trial.stiffened.map_or(f64::MAX, |ratio| STIFFENS * part / (1.0 / ratio - 1.0));
-        let mut part = 0.5 * part;
-        while part > enough.max(floor) {
-            part *= 0.5;
-        }
-        part
     }
 
     /// Accepts a neutral shape at the target only if it is in equilibrium.

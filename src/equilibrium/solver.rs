@@ -12,7 +12,7 @@ use super::judge::measure;
 use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
 use super::report::Report;
-use super::search::{Model, Scratch, Search, Trial};
+use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::terms::Terms;
@@ -149,7 +149,6 @@ impl Equilibrium {
             reached: None,
             reach: 0.0,
             passing: false,
-            trial: Trial::default(),
             kept: false,
         };
         Ok(search.solve(&mut self.branch, inputs))

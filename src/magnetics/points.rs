@@ -41,18 +41,18 @@ pub(super) enum Origin<'a> {
 for_each_processor! {
     /// Field and gradient: `B_rho / rho`, `B_z`, `dB_rho/dz / rho` and `dB_z/dz` at the distances `rho` from the axis and the
     /// heights `z` (m), the others zero. `false` where a point is so near to an edge that it must be evaluated alone.
-    pub(super) fn gradients(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
+    pub(super) fn gradients(origin: &Origin<'_>, rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
         let mut apart = [f64::MAX; WIDTH];
-        components::<GRADIENT>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
+        components::<GRADIENT>(origin, rho, z, out, &mut apart);
         apart.iter().all(|excess| *excess >= 0.0)
     }
 }
 
 for_each_processor! {
     /// As [`gradients`], with the second derivatives.
-    pub(super) fn jets(edges: &[Edge], rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
+    pub(super) fn jets(origin: &Origin<'_>, rho: &Row, z: &Row, out: &mut [Row; COMPONENTS]) -> bool {
         let mut apart = [f64::MAX; WIDTH];
-        components::<HESSIAN>(&Origin::Edges { edges, rough: false }, rho, z, out, &mut apart);
+        components::<HESSIAN>(origin, rho, z, out, &mut apart);
         apart.iter().all(|excess| *excess >= 0.0)
     }
 }

@@ -29,8 +29,8 @@ const DESCEND: f64 = 0.25;
 
 /// Residual tolerance of a cheaper model relative to the tip tolerances (lengths relative to the manipulator's), and its
 /// largest ratio to the residual tolerance of the settings.
-const RESIDUAL: f64 = 1e-3;
-const RELAXED: f64 = 1e5;
+const RESIDUAL: f64 = 1e-2;
+const RELAXED: f64 = 1e4;
 
 /// Largest number of changes between two trials of a cheaper model; each failed trial doubles the number.
 const PATIENCE: u32 = 16;

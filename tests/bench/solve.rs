@@ -98,6 +98,8 @@ fn solve(criterion: &mut Criterion<CpuTime>) {
             let beside = scene(segments, interaction, PAIR);
             measure(criterion, &format!("S={segments} {interaction} pair"), &beside, &passing(&beside));
         }
+        let beside = scene(segments, "auto", PAIR);
+        measure(criterion, &format!("S={segments} auto pair"), &beside, &passing(&beside));
     }
 }
 
@@ -109,6 +111,7 @@ fn targets(criterion: &mut Criterion<CpuTime>) {
     target(criterion, "S=9 rings pair, 0.1 mm", &passed, &passing(&passed), COARSE);
     let passed = scene(9, "full", PAIR);
     target(criterion, "S=9 full pair, 1 um", &passed, &passing(&passed), MICROMETRE);
+    target(criterion, "S=9 full pair, 1e-3 of the length", &passed, &passing(&passed), THOUSANDTH);
 }
 
 /// For 0.1 mm and 0.1 deg at the tip of nine segments.
@@ -120,6 +123,12 @@ const COARSE: fn(&mut Settings) = |settings| {
 /// For 1 um.
 const MICROMETRE: fn(&mut Settings) = |settings| {
     (settings.pair_accuracy, settings.tolerance) = (1e-4, 1e-6);
+    *settings = settings.as_discretised();
+};
+
+/// For a thousandth of the length and 0.1 deg.
+const THOUSANDTH: fn(&mut Settings) = |settings| {
+    (settings.pair_accuracy, settings.tolerance) = (3e-4, 1e-6);
     *settings = settings.as_discretised();
 };
 

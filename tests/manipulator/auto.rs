@@ -185,16 +185,20 @@ fn beside_the_judge(own: [&Outputs; 2], judge: [&Outputs; 2]) -> [f64; 3] {
 
 #[test]
 fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump() {
-    // Not the helix, which its rings bend by some degrees also without a field.
+    // Not the helix, which its rings bend by some degrees also without a field: the magnet comes from far and goes again.
     let mut round = Segmented::paper(3);
     round.spiral = SpiralKind::Axisymmetric;
-    let design = Design::new(Specification::Segmented(round)).unwrap();
-    let length = design.length();
-    let mut inputs = Inputs::unloaded(design.rings().count());
-    inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
-    inputs.magnet_strength = 1.0;
+    let near = [1e-2, 1e-3, 2e-4, 5e-5].map(|tolerance| (round, tolerance, [-0.3, 0.01], [0.002, 0.0]));
+    // Or it passes nine segments, which it bends by 120 deg.
+    let passing = [2e-3, 1.5e-3, 1e-3, 7e-4];
+    let passing = passing.map(|tolerance| (Segmented::paper(9), tolerance, [-0.14, -0.157], [0.0, 0.003]));
     let mut changed = 0;
-    for tolerance in [1e-2, 1e-3, 5e-4, 2e-4, 5e-5, 2e-5] {
+    for (device, tolerance, start, pace) in near.into_iter().chain(passing) {
+        let design = Design::new(Specification::Segmented(device)).unwrap();
+        let length = design.length();
+        let mut inputs = Inputs::unloaded(design.rings().count());
+        inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
+        inputs.magnet_strength = 1.0;
         let auto = Settings {
             interaction: Interaction::Auto,
             tolerance_position: tolerance * length,
@@ -205,9 +209,9 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
         let (mut own, mut judge) = (manipulator(auto), manipulator(richest(auto)));
         let (mut before, mut changes, mut worst) = (None::<(Outputs, Outputs)>, 0, 0.0_f64);
         let mut chatter = [0.0_f64; 3]; // tip angle, force, margin
-        // The magnet comes from far and goes again, 2 mm in a step.
         for step in (0..=90).chain((0..90).rev()) {
-            inputs.magnet.position = Vector3::new(0.0, -0.3 + 0.002 * f64::from(step), 0.01);
+            let [y, z]: [f64; 2] = core::array::from_fn(|i| start[i] + pace[i] * f64::from(step));
+            inputs.magnet.position = Vector3::new(0.0, y, z);
             let a = own.solve(&inputs).unwrap().clone();
             let b = judge.solve(&inputs).unwrap().clone();
             assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");
@@ -227,7 +231,8 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             before = Some((a, b));
         }
         println!(
-            "tolerance {tolerance}: {changes} changes, error at most {worst:.2} of it, chatter {chatter:?}"
+            "{} segments, tolerance {tolerance}: {changes} changes, error at most {worst:.2} of it, chatter {chatter:?}",
+            device.segments
         );
         assert!(worst <= 1.0, "tolerance {tolerance}: {worst} of it");
         let [angle, force, margin] = chatter;
