@@ -188,13 +188,14 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
     // Not the helix, which its rings bend by some degrees also without a field: the magnet comes from far and goes again.
     let mut round = Segmented::paper(3);
     round.spiral = SpiralKind::Axisymmetric;
-    let near = [1e-2, 1e-3, 2e-4, 5e-5].map(|tolerance| (round, tolerance, [-0.3, 0.01], [0.002, 0.0]));
+    let near =
+        [1e-2, 1e-3, 2e-4, 5e-5].map(|tolerance| (round.clone(), tolerance, [-0.3, 0.01], [0.002, 0.0]));
     // Or it passes nine segments, which it bends by 120 deg.
-    let passing = [2e-3, 1.5e-3, 1e-3, 7e-4];
+    let passing = [2e-3, 1e-3];
     let passing = passing.map(|tolerance| (Segmented::paper(9), tolerance, [-0.14, -0.157], [0.0, 0.003]));
     let mut changed = 0;
     for (device, tolerance, start, pace) in near.into_iter().chain(passing) {
-        let design = Design::new(Specification::Segmented(device)).unwrap();
+        let design = Design::new(Specification::Segmented(device.clone())).unwrap();
         let length = design.length();
         let mut inputs = Inputs::unloaded(design.rings().count());
         inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
@@ -210,6 +211,9 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
         let (mut before, mut changes, mut worst) = (None::<(Outputs, Outputs)>, 0, 0.0_f64);
         let mut chatter = [0.0_f64; 3]; // tip angle, force, margin
         for step in (0..=90).chain((0..90).rev()) {
+            // The host asks for ten times as much for a while, which the coarse models cannot give.
+            let asked = if step % 60 < 30 { 1.0 } else { 0.1 };
+            own.set_tolerances(asked * auto.tolerance_position, asked * auto.tolerance_angle).unwrap();
             let [y, z]: [f64; 2] = core::array::from_fn(|i| start[i] + pace[i] * f64::from(step));
             inputs.magnet.position = Vector3::new(0.0, y, z);
             let a = own.solve(&inputs).unwrap().clone();
