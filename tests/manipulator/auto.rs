@@ -225,7 +225,8 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
                 chatter.iter_mut().zip(steps).for_each(|(most, step)| *most = most.max(step));
             }
             if let Some((old_a, old_b)) = &before
-                && (old_a.interaction, old_a.degree) != (a.interaction, a.degree)
+                // Models of one interaction and degree differ in what they tell of their error.
+                && !(0.5..=2.0).contains(&(a.error_estimate / old_a.error_estimate))
             {
                 changes += 1;
                 let moved = |new: &Outputs, old: &Outputs| new.tip.position - old.tip.position;
