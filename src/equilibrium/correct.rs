@@ -1,7 +1,7 @@
 //! Corrector: Newton's method for one shape, and the test whether it has stayed on its branch.
 
 use super::inputs::Inputs;
-use super::search::{CORRECTIONS, Model, NEARLY, ROUNDING, Search};
+use super::search::{CORRECTIONS, Model, NEARLY, PASSING, ROUNDING, Search};
 use crate::numerics::eigenvalue::inner;
 use crate::numerics::trust_region::{Objective, dual_norm, norm};
 
@@ -13,9 +13,6 @@ const CHORD_CONTRACTION: f64 = 0.1;
 
 /// Length of a Newton step (radian norm) from which on steps with the same factorisation are tried next: they cost a tenth.
 const SOON: f64 = 0.05;
-
-/// Residual at which a shape on the way to the target counts as solved.
-const PASSING: f64 = 1e-5;
 
 /// Largest distance, relative to a step, by which the step back may miss its start. A branch that turns more within a
 /// step is followed in shorter steps.
@@ -92,8 +89,8 @@ impl Search<'_> {
 
     /// Residual at which a shape counts as solved.
     fn tolerance(&self) -> f64 {
-        let least = if self.passing { PASSING } else { 0.0 };
-        self.model.settings.tolerance.max(least)
+        let tolerance = self.model.settings.tolerance;
+        if self.passing { tolerance.max(PASSING) } else { tolerance }
     }
 
     /// Computes the step from the last gradient with the last factorisation, corrected by the last `done` steps of this

@@ -2,7 +2,7 @@
 
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::search::{NEARLY, ROUNDING, Search};
+use super::search::{NEARLY, PASSING, ROUNDING, Search};
 use crate::numerics::pseudo_transient::settle;
 use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
 
@@ -24,10 +24,6 @@ const SOFT: f64 = 1e-6;
 /// Largest difference of two energies that count as equal, in the squared radian norm: what the residuals leave
 /// undetermined.
 const SAME_ENERGY: f64 = 1e-7;
-
-/// Residual (radian norm) at which a descent on the way to the target ends: the bottom of a nearly neutral valley is only
-/// sought at the final inputs.
-pub(super) const PASSING: f64 = 1e-5;
 
 /// Length of the perturbation (radian norm) of an unstable equilibrium.
 const PUSH: f64 = 1e-3;

@@ -155,7 +155,6 @@ impl Potential<'_> {
         let mut energy = 0.0;
         for k in 0..self.chain.elements.len() {
             self.work.mixed[k].clear();
-            self.work.place_stations(k);
             for ring in 0..self.chain.rings.len() {
                 energy += each(self, k, ring)?;
             }
@@ -180,7 +179,7 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    /// Adds ring number `ring` with element `k`, whose stations are placed, with second derivatives; returns the energy.
+    /// The same with second derivatives.
     fn load_ring_on_span(&mut self, k: usize, ring: usize) -> Option<f64> {
         let (spans, body, mut energy) = (self.terms.spans, &self.chain.rings[ring], 0.0);
         let mutual = spans.are_mutual();
@@ -188,7 +187,9 @@ impl Potential<'_> {
         let axes = self.work.nodes[k].rotation;
         let source = spans.source(ring, &node);
         let (samples, near) = spans.samples(k, ring);
-        source.on_samples(samples, near, &mut self.work.batch)?;
+        let work = &mut *self.work;
+        let element = (&work.nodes[k], &work.configurations[k].stations[..]);
+        source.on_samples(samples, near, element, &mut work.batch)?;
         for (number, sample) in samples.iter().enumerate() {
             let (station, work) = (sample.station, &mut *self.work);
             let load = RingsOnSpans::load(&source, &node, &work.batch, number);

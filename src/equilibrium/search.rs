@@ -18,6 +18,10 @@ pub(super) const NEARLY: f64 = 1e-4;
 /// Step length (radian norm) below which rounding, not Newton's method, determines the step.
 pub(super) const ROUNDING: f64 = 1e-9;
 
+/// Residual (radian norm) at which a shape on the way to the target counts as solved, and a descent there ends: the bottom
+/// of a nearly neutral valley is only sought at the final inputs.
+pub(super) const PASSING: f64 = 1e-5;
+
 /// Maximum number of Newton corrections for one part of an input change.
 pub(super) const CORRECTIONS: usize = 12;
 

@@ -1,12 +1,11 @@
 //! One solve: predict the next shape and correct it. Where that fails, follow the branch in shorter steps of the inputs;
 //! where the branch ends, descend to the next one. Then judge the stability.
 
-use super::descend::PASSING;
 use super::history::History;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
 use super::report::Report;
-use super::search::{ROUNDING, Search};
+use super::search::{PASSING, ROUNDING, Search};
 
 /// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
 /// margin.

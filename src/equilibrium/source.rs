@@ -25,20 +25,10 @@ enum Magnet<'a> {
 /// Sections of an element in the field of one source, and the loads on them; storage that is used again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SectionBatch {
-    /// Poses of the element's stations in the world.
-    stations: Vec<Pose>,
     /// Poses of the sections in the frame of the source.
     pub(super) sections: Vec<Pose>,
     /// Energy of each section as a load on its frame, in the axes of the source.
     pub(super) loads: Vec<Load>,
-}
-
-impl SectionBatch {
-    /// Places the stations of an element, given by their poses in the world.
-    pub(super) fn place(&mut self, stations: impl Iterator<Item = Pose>) {
-        self.stations.clear();
-        self.stations.extend(stations);
-    }
 }
 
 /// Field (T) and its derivatives at a point.
@@ -235,19 +225,21 @@ impl<'a> Source<'a> {
         Some(sheet.load(&section.rotation))
     }
 
-    /// The same for a ring and samples of the material of the element that was placed last; sections and loads, with second
-    /// derivatives, are written to `batch` in the order of the samples. `None` for another source.
+    /// The same for a ring and samples of the material of an element with its start node at `start`; sections and loads,
+    /// with second derivatives, are written to `batch` in the order of the samples. `None` for another source.
     pub(crate) fn on_samples(
         &self,
         samples: &[SectionSample],
         near: bool,
+        (start, states): (&Pose, &[StationState]),
         batch: &mut SectionBatch,
     ) -> Option<()> {
         let Magnet::Ring(ring) = self.magnet else { return None };
+        let start = self.locate(start);
         batch.loads.clear();
         batch.sections.clear();
         for sample in samples {
-            let section = self.locate(&batch.stations[sample.station]);
+            let section = start.compose(&states[sample.station].pose());
             let dipoles = on_sheet(ring, &sample.sheet, &section, sample.accuracy(near), Order::Hessian)?;
             batch.loads.push(dipoles.load(&section.rotation));
             batch.sections.push(section);
@@ -271,7 +263,7 @@ impl<'a> Source<'a> {
         let (mut energy, mut force, mut moment) = (0.0, Vector3::zeros(), Vector3::zeros());
         for sample in samples {
             let state = &states[sample.station];
-            let section = start.compose(&Pose { position: state.position, rotation: state.directors });
+            let section = start.compose(&state.pose());
             let SheetSums { field, force: [pull, by_x, by_y] } =
                 ring.on_sheet(&sample.sheet, &section, sample.accuracy(near))?;
             let director = |i: usize| section.rotation.column(i).into_owned();

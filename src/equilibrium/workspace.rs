@@ -9,7 +9,7 @@ use super::settings::Settings;
 use super::source::SectionBatch;
 use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
-use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START, StationState};
+use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
 
 /// Everything that an evaluation overwrites; kept between solves so that none of them allocates.
 #[derive(Debug, Clone)]
@@ -86,15 +86,7 @@ impl Workspace {
 
     /// Pose of a station in the world.
     pub(super) fn station(&self, element: usize, index: usize) -> Pose {
-        let state = &self.configurations[element].stations[index];
-        self.nodes[element].compose(&Pose { position: state.position, rotation: state.directors })
-    }
-
-    /// Places the stations of an element in the batch of sections.
-    pub(super) fn place_stations(&mut self, element: usize) {
-        let (node, states) = (&self.nodes[element], &self.configurations[element].stations);
-        let pose = |state: &StationState| Pose { position: state.position, rotation: state.directors };
-        self.batch.place(states.iter().map(|state| node.compose(&pose(state))));
+        self.nodes[element].compose(&self.configurations[element].stations[index].pose())
     }
 
     /// Places all stations and nodes for the given base and unknowns, unless they are there already.

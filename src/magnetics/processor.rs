@@ -6,14 +6,13 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Instructions that evaluate fields at many points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
 pub enum Instructions {
     /// Those that every processor of this kind has.
-    Portable = 1,
+    Portable,
     /// AVX2: vectors of four numbers.
-    Avx2 = 2,
+    Avx2,
     /// AVX-512: vectors of eight numbers.
-    Avx512 = 3,
+    Avx512,
 }
 
 /// Environment variable that, if set to anything but nothing, forces portable instructions.

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::axial_source::AxialSource;
+use super::multipole;
 use super::points::{Origin, Row, WIDTH};
 use super::sheet_lanes::{Body, Curvatures, Least, Octet, Place, Slopes, curvatures, slopes};
 use crate::geometry::Pose;
@@ -28,15 +29,16 @@ pub enum FieldAccuracy {
 /// the extent `s` (measured: 6 to 8).
 const MULTIPOLE_ERROR: f64 = 8.0;
 
-/// Largest number of multipoles.
-const MOST_TERMS: i32 = 9;
-
 impl FieldAccuracy {
     /// The fewest multipoles whose gradient has at most the relative error `allowed` where the square of a magnet's extent
     /// over the distance from its centre is at most `ratio2`; `None` where more than nine would be needed.
     pub(crate) fn far(ratio2: f64, allowed: f64) -> Option<Self> {
-        let enough = |terms: &i32| MULTIPOLE_ERROR * ratio2.powi(*terms) <= allowed;
-        (1..=MOST_TERMS).find(enough).map(|terms| Self::Multipoles(terms.unsigned_abs() as usize))
+        let mut error = MULTIPOLE_ERROR;
+        let enough = |_: &usize| {
+            error *= ratio2;
+            error <= allowed
+        };
+        (1..=multipole::TERMS).find(enough).map(Self::Multipoles)
     }
 }
 
@@ -149,37 +151,33 @@ impl AxialSource {
         let bore = if self.inner_radius() > 0.0 { self.inner_radius() } else { -1.0 };
         let body = [bore, self.outer_radius(), 0.5 * self.length()];
         let mut least = [[f64::MAX; WIDTH]; 2];
-        let sums = S::eight_by_eight(origin, &body, &place, &sheet.octets, &mut least);
+        let sums = S::eight_by_eight(&PlacedSheet { origin, body, place, octets: &sheet.octets }, &mut least);
         (least.map(|row| row.into_iter().fold(f64::INFINITY, smaller)), sums)
     }
+}
+
+/// A sheet in the frame of a magnet, and where the field comes from.
+struct PlacedSheet<'a> {
+    origin: &'a Origin<'a>,
+    body: Body,
+    place: Place,
+    octets: &'a [Octet],
 }
 
 /// Sums over the dipoles of a sheet.
 trait Sums: Sized {
     /// The sums by lanes.
-    fn eight_by_eight(
-        origin: &Origin<'_>,
-        body: &Body,
-        place: &Place,
-        octets: &[Octet],
-        least: &mut Least,
-    ) -> Self;
+    fn eight_by_eight(sheet: &PlacedSheet<'_>, least: &mut Least) -> Self;
 
     /// The sums point by point, where one is close to an edge; `None` on an edge.
     fn one_by_one(source: &AxialSource, sheet: &DipoleSheet, pose: &Pose) -> Option<Self>;
 }
 
 impl Sums for SheetSums {
-    fn eight_by_eight(
-        origin: &Origin<'_>,
-        body: &Body,
-        place: &Place,
-        octets: &[Octet],
-        least: &mut Least,
-    ) -> Self {
+    fn eight_by_eight(sheet: &PlacedSheet<'_>, least: &mut Least) -> Self {
         let zero = [0.0; WIDTH];
         let mut lanes = Slopes { field: [zero; 3], force: [[zero; 3]; 3] };
-        slopes(origin, body, place, octets, &mut lanes, least);
+        slopes(sheet.origin, &sheet.body, &sheet.place, sheet.octets, &mut lanes, least);
         Self { field: vector(&lanes.field), force: lanes.force.each_ref().map(vector) }
     }
 
@@ -198,16 +196,10 @@ impl Sums for SheetSums {
 }
 
 impl Sums for SecondSums {
-    fn eight_by_eight(
-        origin: &Origin<'_>,
-        body: &Body,
-        place: &Place,
-        octets: &[Octet],
-        least: &mut Least,
-    ) -> Self {
+    fn eight_by_eight(sheet: &PlacedSheet<'_>, least: &mut Least) -> Self {
         let zero = [0.0; WIDTH];
         let mut lanes = Curvatures { field: [zero; 3], gradient: [[zero; 6]; 3], along: [[zero; 6]; 6] };
-        curvatures(origin, body, place, octets, &mut lanes, least);
+        curvatures(sheet.origin, &sheet.body, &sheet.place, sheet.octets, &mut lanes, least);
         Self {
             field: vector(&lanes.field),
             gradient: lanes.gradient.each_ref().map(symmetric),

@@ -6,9 +6,6 @@ use std::sync::OnceLock;
 /// Number of points up to which rules are kept once they have been computed.
 const KEPT: usize = 64;
 
-/// Nodes and weights.
-type Rule = (Vec<f64>, Vec<f64>);
-
 /// Nodes and weights of the Gauss-Legendre rule with `points` points on `[-1, 1]`, nodes ascending.
 ///
 /// ```text
@@ -29,13 +26,24 @@ type Rule = (Vec<f64>, Vec<f64>);
 /// Source: Abramowitz and Stegun, Handbook of Mathematical Functions, 25.4.29 and 22.16.6.
 #[must_use]
 pub fn gauss_legendre(points: usize) -> (Vec<f64>, Vec<f64>) {
-    static RULES: [OnceLock<Rule>; KEPT + 1] = [const { OnceLock::new() }; KEPT + 1];
-    RULES.get(points).map_or_else(|| computed(points), |kept| kept.get_or_init(|| computed(points)).clone())
+    // Without heap, which would be lost where a host unloads the library.
+    static RULES: [OnceLock<[[f64; KEPT]; 2]>; KEPT + 1] = [const { OnceLock::new() }; KEPT + 1];
+    if let Some(kept) = RULES.get(points) {
+        let [nodes, weights] = kept.get_or_init(|| {
+            let [mut nodes, mut weights] = [[0.0; KEPT]; 2];
+            compute(&mut nodes[..points], &mut weights[..points]);
+            [nodes, weights]
+        });
+        return (nodes[..points].to_vec(), weights[..points].to_vec());
+    }
+    let [mut nodes, mut weights] = [vec![0.0; points], vec![0.0; points]];
+    compute(&mut nodes, &mut weights);
+    (nodes, weights)
 }
 
-fn computed(points: usize) -> Rule {
-    let mut nodes = vec![0.0; points];
-    let mut weights = vec![0.0; points];
+/// Computes the rule with as many points as there are nodes and weights.
+fn compute(nodes: &mut [f64], weights: &mut [f64]) {
+    let points = nodes.len();
     for i in 0..points.div_ceil(2) {
         let centre = 2 * i + 1 == points;
         let guess = (PI * (i as f64 + 0.75) / (points as f64 + 0.5)).cos();
@@ -46,7 +54,6 @@ fn computed(points: usize) -> Rule {
         nodes[points - 1 - i] = x;
         weights[points - 1 - i] = weight;
     }
-    (nodes, weights)
 }
 
 /// The zero of `P_n` closest to `guess`, and the slope of `P_n` there.

@@ -25,6 +25,14 @@ pub struct StationState {
     pub position: Vector3<f64>,
 }
 
+impl StationState {
+    /// Position and directors.
+    #[must_use]
+    pub fn pose(&self) -> Pose {
+        Pose { position: self.position, rotation: self.directors }
+    }
+}
+
 /// The frame at any arc length of a deformed element, in the frame of the preceding node.
 #[derive(Debug, Clone)]
 pub struct FrameState {

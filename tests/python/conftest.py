@@ -17,8 +17,8 @@ PACKAGE = Path(__file__).resolve().parents[2]
 
 
 def program() -> Path:
-    """The command line program: `MCM_BIN`, or the release build."""
-    return Path(os.environ.get("MCM_BIN", PACKAGE / "target" / "release" / "mcm"))
+    """The command line program, absolute: `MCM_BIN`, or the release build."""
+    return Path(os.environ.get("MCM_BIN", PACKAGE / "target" / "release" / "mcm")).absolute()
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:

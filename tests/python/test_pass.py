@@ -8,13 +8,18 @@ import pytest
 from conftest import Archive, Device
 from fmpy import simulate_fmu
 
-SLACK = 1e-9  # both converge to 1e-11; relative to a quantity's usual size
+# Relative to a quantity's usual size: the levels are solved to 1e-11.
+SLACK = 1e-9
+# `auto` ends a solve where its tolerances of the tip (50 um, 0.1 deg) allow, a little elsewhere on each way.
+SLACKS = {"full": SLACK, "auto": 1e-7}
 STOP = 2.0
 
 SCENE = """
 [magnet]
 position_mm = [{x!r}, {y!r}, {z!r}]
 orientation_wxyz = [{w!r}, {i!r}, 0.0, 0.0]
+[model]
+interaction = "{level}"
 """
 
 # JSON name, FMU name, components, usual size.
@@ -30,10 +35,6 @@ QUANTITIES = [
     ("magnet_reaction_torque_nm", "magnet.reaction_torque", 3, 0.001),
 ]
 
-# The margin is an eigenvalue, found by iteration from the last one's vector and only as well as a verdict on stability
-# needs it; where the two softest modes are nearly equal it may be either's.
-MARGIN_SLACK = 1e-9
-
 
 def pose(time: float) -> dict[str, float]:
     """Where the magnet is: it passes along the manipulator, sideways and turning a little."""
@@ -47,13 +48,13 @@ def pose(time: float) -> dict[str, float]:
     }
 
 
-def scene(values: dict[str, float]) -> str:
+def scene(values: dict[str, float], level: str = "auto") -> str:
     """The same as a scene."""
     x, y, z, w, i = values.values()
-    return SCENE.format(x=1e3 * x, y=1e3 * y, z=1e3 * z, w=w, i=i)
+    return SCENE.format(x=1e3 * x, y=1e3 * y, z=1e3 * z, w=w, i=i, level=level)
 
 
-def compare(device: Device, expected: dict) -> None:
+def compare(device: Device, expected: dict, slack: float = SLACK) -> None:
     """Asserts that the outputs of a device are those of the command line."""
     rows = [(expected[key], name, n, size) for key, name, n, size in QUANTITIES]
     rows += [(p, f"ring[{k}].position", 3, 0.01) for k, p in enumerate(expected["ring_positions_m"], 1)]
@@ -61,15 +62,13 @@ def compare(device: Device, expected: dict) -> None:
     for value, name, count, size in rows:
         names = [f"{name}[{k}]" for k in range(1, count + 1)] if count else [name]
         np.testing.assert_allclose(
-            device.get(names), np.atleast_1d(value), rtol=SLACK, atol=SLACK * size, err_msg=name
+            device.get(names), np.atleast_1d(value), rtol=slack, atol=slack * size, err_msg=name
         )
-    assert device.get(["stability.margin"])[0] == pytest.approx(
-        expected["stability_margin"], rel=MARGIN_SLACK
-    )
+    assert device.get(["stability.margin"])[0] == pytest.approx(expected["stability_margin"], rel=slack)
     for point, position in enumerate(expected["shape_m"], 1):
         names = [f"shape.position[{point},{axis}]" for axis in (1, 2, 3)]
         np.testing.assert_allclose(
-            device.get(names), position, rtol=SLACK, atol=SLACK * 0.01, err_msg=names[0]
+            device.get(names), position, rtol=slack, atol=slack * 0.01, err_msg=names[0]
         )
 
 
@@ -78,13 +77,17 @@ def times(step: float) -> Iterator[float]:
     return (step * (index + 1) for index in range(round(STOP / step)))
 
 
+@pytest.mark.parametrize("level", SLACKS)
 @pytest.mark.parametrize("step", [0.25, 0.1])
-def test_pass_equals_the_command_line(device: Device, solve: Callable[..., dict], step: float) -> None:
+def test_pass_equals_the_command_line(
+    pack: Callable[..., Archive], solve: Callable[..., dict], step: float, level: str
+) -> None:
+    device = Device(pack(scene(pose(0.0), level)))
     device.start(pose(0.0))
-    compare(device, solve(scene(pose(0.0))))
+    compare(device, solve(scene(pose(0.0), level)), SLACKS[level])
     for end in times(step):
         device.step(step, pose(end))
-        compare(device, solve(scene(pose(end))))
+        compare(device, solve(scene(pose(end), level)), SLACKS[level])
     assert device.status() == 0
     assert device.log == []
 
