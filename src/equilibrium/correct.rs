@@ -98,7 +98,7 @@ impl Search<'_> {
     ///
     /// Broyden's method in its matrix-free form, in the metric of the elastic energy (C. T. Kelley, Iterative Methods for
     /// Linear and Nonlinear Equations, SIAM 1995, section 7.3, doi:10.1137/1.9781611970944).
-    fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
+    pub(super) fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
         let metric = &self.model.chain.metric;
         let mut steps = std::mem::take(&mut self.scratch.steps);
         let (earlier, rest) = steps.split_at_mut(done);
@@ -209,11 +209,23 @@ impl Search<'_> {
             return true;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
+        let mut returned = false;
         let mut potential = self.potential(before);
-        let returned = potential.slope(now).is_some() && {
+        if potential.slope(now).is_some() {
             potential.add_newton_step(&mut between);
-            norm(metric, &between) <= MISSED * distance
-        };
+            returned = norm(metric, &between) <= MISSED * distance;
+        }
+        if !returned {
+            // A load that stiffens hides the way back: the Hessian under the first inputs knows it.
+            let kept = self.work.factorisation.take();
+            between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
+            let mut potential = self.potential(before);
+            if potential.linearise(now).is_some() && potential.factorise(0.0) {
+                potential.add_newton_step(&mut between);
+                returned = norm(metric, &between) <= MISSED * distance;
+            }
+            self.work.factorisation = kept;
+        }
         self.scratch.between = between;
         // The workspace must hold the solved shape at its own inputs, from which results are read.
         let again = self.potential(inputs).slope(now).is_some();

@@ -6,6 +6,7 @@ use super::inputs::Inputs;
 use super::outcome::Outcome;
 use super::report::Report;
 use super::search::{PASSING, ROUNDING, Search};
+use crate::numerics::trust_region::Objective;
 
 /// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
 /// margin.
@@ -14,6 +15,8 @@ const KEPT: f64 = 0.1;
 /// Largest first Newton step, in the radian norm, from the straight shape to the one under internal forces alone. It may
 /// be large because there is no branch to lose yet.
 const SETTLING: f64 = 4.0;
+
+const STRAIGHT: f64 = 1.0;
 
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
@@ -66,32 +69,40 @@ impl Search<'_> {
     /// Follows the branch from the inputs of `unknowns` (`None`: straight, nothing is solved yet) to `target`.
     fn follow(&mut self, from: Option<&Inputs>, target: &Inputs, unknowns: &mut [f64]) -> Outcome {
         if let Some(start) = from {
-            return self.advance([start, target], [0.0, 1.0], unknowns);
+            return self.advance([start, target], [0.0, 1.0], 1.0, unknowns);
         }
         // The unloaded shape, under internal forces alone, is found from the straight one.
         let unloaded = target.without_loads();
-        if !self.correct(&unloaded, unknowns, SETTLING)
-            && self.descend(&unloaded, unknowns, self.resting()) != Outcome::Solved
-        {
+        self.passing = unloaded != *target;
+        let found = self.correct(&unloaded, unknowns, SETTLING);
+        self.passing = false;
+        if !found && self.descend(&unloaded, unknowns, self.resting()) != Outcome::Solved {
             return Outcome::BranchEnds;
         }
         let held = target.without_moment();
+        let first = self.first_part(&held, unknowns);
         if held == *target {
-            return self.advance([&unloaded, target], [0.0, 1.0], unknowns);
+            return self.advance([&unloaded, target], [0.0, 1.0], first, unknowns);
         }
         // A non-conservative load does not select the branch: it is applied last, to the shape under all other loads.
-        match self.advance([&unloaded, &held], [0.0, 0.5], unknowns) {
-            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [0.5, 1.0], unknowns),
+        match self.advance([&unloaded, &held], [0.0, 0.5], first, unknowns) {
+            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [0.5, 1.0], 1.0, unknowns),
             lost => lost,
         }
     }
 
     /// Follows the branch along the straight path between two inputs; `stage` is the range of progress that this path
     /// covers in the whole solve.
-    fn advance(&mut self, [start, target]: [&Inputs; 2], stage: [f64; 2], unknowns: &mut [f64]) -> Outcome {
+    fn advance(
+        &mut self,
+        [start, target]: [&Inputs; 2],
+        stage: [f64; 2],
+        first: f64,
+        unknowns: &mut [f64],
+    ) -> Outcome {
         let at = |part: f64| if part >= 1.0 { target.clone() } else { start.between(target, part) };
         let (smallest, resting) = (self.model.settings.smallest_part, self.resting());
-        let (mut done, mut part, mut floor) = (0.0, 1.0, smallest);
+        let (mut done, mut part, mut floor) = (0.0, first, smallest);
         let mut here = start.clone();
         let (mut neutral, mut shortened) = (false, false);
         // Number of snaps when the last descent began: a descent over several steps counts as one snap.
@@ -136,6 +147,20 @@ impl Search<'_> {
         // Too many small steps along the branch: descend to the target at once.
         let end = self.descend_from([&here, target], unknowns, resting);
         self.rests(end)
+    }
+
+    /// The share of the way between two inputs that is tried first from the equilibrium `unknowns` at `start`: halved until
+    /// the step that the last factorisation predicts is short enough to be worth a Hessian.
+    fn first_part(&mut self, target: &Inputs, unknowns: &[f64]) -> f64 {
+        let mut part = 1.0;
+        if self.work.factorisation.is_none() || self.potential(target).slope(unknowns).is_none() {
+            return part;
+        }
+        let length = self.step(target, 0);
+        while part * length > STRAIGHT && part > self.model.settings.smallest_part {
+            part *= 0.5;
+        }
+        part
     }
 
     /// Accepts a neutral shape at the target only if it is in equilibrium.
