@@ -14,6 +14,7 @@
 )]
 
 mod given;
+mod instructions;
 mod tolerance;
 
 mod numerics;

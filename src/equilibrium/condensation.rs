@@ -7,58 +7,55 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-use crate::numerics::cholesky;
+use crate::numerics::{cholesky, dense};
 use crate::rod::{Configuration, ElementDerivatives, START};
 
 use super::terms::blocks;
 
 /// Number of columns of the two end nodes.
-const NODES: usize = 12;
+pub(super) const NODES: usize = 12;
 
 /// Number of amplitudes that the end nodes determine.
 const END: usize = 6;
 
 /// The static condensation (Schur complement) of one element.
+///
+/// All matrices are stored row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Condensation {
     inner: usize,
-    by_start: Matrix6<f64>,
-    by_end: Matrix6<f64>,
-    /// Derivatives of the first amplitudes with respect to the inner ones, six rows of `inner`.
-    by_inner: Vec<f64>,
-    /// Hessian in terms of (start, end, inner), row by row.
+    /// Number of rows and columns of the element: its two nodes and the inner amplitudes.
+    size: usize,
+    /// Number of columns that are coupled to the inner amplitudes: its two nodes and the rings' nodes.
+    columns: usize,
+    /// Derivatives of the first amplitudes with respect to (start, end, inner), six rows.
+    first: Vec<f64>,
+    /// Hessian in terms of (start, end, inner), whose upper triangle counts; below it a row for each displacement of a ring.
     whole: Vec<f64>,
-    /// Columns of the first six amplitudes, and products with them.
-    product: Vec<f64>,
-    /// Cholesky factor of the inner block.
+    /// Columns of the first amplitudes of these rows.
+    ends: Vec<f64>,
+    /// Cholesky factor `L` of the inner block.
     factor: Vec<f64>,
-    /// `L^-1` times the coupling of inner amplitudes to nodes, by node column.
+    /// `L^-1` times the coupling of the inner amplitudes to the columns.
     coupling: Vec<f64>,
-    /// `L^-1` times the coupling of inner amplitudes to the rings' nodes, by column; empty without coupling.
-    outer: Vec<f64>,
-    /// Condensed coupling of the two nodes (axes of the start node) to the rings' nodes, twelve rows.
-    pub(super) condensed_outer: Vec<f64>,
-    /// Condensed Hessian of the two nodes, in the axes of the start node.
-    pub(super) condensed: [[f64; NODES]; NODES],
+    /// What the elimination of the inner amplitudes takes from the Hessian of the columns: the upper triangle.
+    eliminated: Vec<f64>,
 }
 
 impl Condensation {
-    /// Allocates storage for an element with this number of amplitudes, coupled to `columns` displacements of rings.
-    pub(super) fn new(freedoms: usize, columns: usize) -> Self {
-        let inner = freedoms - END;
-        let size = NODES + inner;
+    /// Allocates storage for an element with this number of amplitudes, coupled to `rings` displacements of rings.
+    pub(super) fn new(freedoms: usize, rings: usize) -> Self {
+        let (inner, size, columns) = (freedoms - END, START + freedoms, NODES + rings);
         Self {
             inner,
-            by_start: Matrix6::zeros(),
-            by_end: Matrix6::zeros(),
-            by_inner: vec![0.0; END * inner],
-            whole: vec![0.0; size * size],
-            product: vec![0.0; (START + freedoms) * size],
+            size,
+            columns,
+            first: vec![0.0; END * size],
+            whole: vec![0.0; (size + rings) * size],
+            ends: vec![0.0; (size + rings) * END],
             factor: vec![0.0; inner * inner],
-            coupling: vec![0.0; NODES * inner],
-            outer: vec![0.0; inner * columns],
-            condensed_outer: vec![0.0; NODES * columns],
-            condensed: [[0.0; NODES]; NODES],
+            coupling: vec![0.0; inner * columns],
+            eliminated: vec![0.0; columns * columns],
         }
     }
 
@@ -71,176 +68,132 @@ impl Condensation {
         let swing = Matrix3::from_columns(&[column(0), column(1), column(2)]) * turn;
         let lever = crate::geometry::hat(&configuration.end.position);
         let zero = Matrix3::zeros();
-        self.by_end = blocks(&zero, &turn, &unstretch, &(-unstretch * swing));
-        self.by_start = blocks(&zero, &-turn, &-unstretch, &(unstretch * (lever + swing)));
+        let by_start: Matrix6<f64> = blocks(&zero, &-turn, &-unstretch, &(unstretch * (lever + swing)));
+        let by_end: Matrix6<f64> = blocks(&zero, &turn, &unstretch, &(-unstretch * swing));
+        for (c, row) in self.first.chunks_exact_mut(self.size).enumerate() {
+            for k in 0..START {
+                (row[k], row[START + k]) = (by_start[(c, k)], by_end[(c, k)]);
+            }
+        }
         for i in 0..self.inner {
             let strain = -unstretch * column(END + i);
             for c in 0..3 {
-                self.by_inner[c * self.inner + i] = 0.0;
-                self.by_inner[(3 + c) * self.inner + i] = strain[c];
+                self.first[(3 + c) * self.size + NODES + i] = strain[c];
             }
         }
         true
     }
 
-    /// Condenses `hessian + shift metric`; `false` if the inner block is not positive definite.
-    pub(super) fn condense(&mut self, tangent: &ElementDerivatives, metric: &[f64], shift: f64) -> bool {
-        self.transform(tangent, metric, shift);
-        let (inner, size) = (self.inner, NODES + self.inner);
+    /// Condenses `hessian + shift metric`, and the coupling `cross` of (start, amplitudes) to the rings' nodes, one row for
+    /// each of their displacements; `false` if the inner block is not positive definite.
+    pub(super) fn condense(
+        &mut self,
+        tangent: &ElementDerivatives,
+        metric: &[f64],
+        shift: f64,
+        cross: &[f64],
+    ) -> bool {
+        self.transform(&tangent.hessian, metric, shift, cross);
+        let (inner, size, columns) = (self.inner, self.size, self.columns);
+        let (own, rings) = self.whole.split_at(size * size);
+        let (nodes, rest) = own.split_at(NODES * size);
         for i in 0..inner {
-            let row = &self.whole[(NODES + i) * size..][..size];
-            self.factor[i * inner..=i * inner + i].copy_from_slice(&row[NODES..=NODES + i]);
-            for (column, value) in row[..NODES].iter().enumerate() {
-                self.coupling[column * inner + i] = *value;
+            for j in 0..=i {
+                self.factor[i * inner + j] = rest[j * size + NODES + i];
+            }
+            let coupled = nodes.chunks_exact(size).chain(rings.chunks_exact(size));
+            for (entry, row) in self.coupling[i * columns..][..columns].iter_mut().zip(coupled) {
+                *entry = row[NODES + i];
             }
         }
         if !cholesky::factorise(&mut self.factor, inner) {
             return false;
         }
-        for column in self.coupling.chunks_exact_mut(inner.max(1)) {
-            cholesky::forward(&self.factor, inner, column);
-        }
-        for i in 0..NODES {
-            for j in 0..=i {
-                let (a, b) = (&self.coupling[i * inner..][..inner], &self.coupling[j * inner..][..inner]);
-                let value = self.whole[i * size + j] - cholesky::dot(a, b);
-                self.condensed[i][j] = value;
-                self.condensed[j][i] = value;
-            }
-        }
+        dense::forward_rows(&self.factor, inner, columns, &mut self.coupling);
+        self.eliminated.fill(0.0);
+        dense::add_upper(&self.coupling, &self.coupling, columns, &mut self.eliminated);
         true
     }
 
-    /// Condenses the coupling of (start, amplitudes) to the rings' nodes, one row for each of their displacements; call
-    /// it after [`Self::condense`].
-    pub(super) fn condense_outer(&mut self, cross: &[f64], columns: usize) {
-        let inner = self.inner;
-        for (column, entries) in cross.chunks_exact(START + END + inner).enumerate() {
-            let (nodes, amplitudes) = entries.split_at(START);
-            let (ends, rest) = amplitudes.split_at(END);
-            let own = &mut self.outer[column * inner..][..inner];
-            own.copy_from_slice(rest);
-            for (end, by_inner) in ends.iter().zip(self.by_inner.chunks_exact(inner.max(1))) {
-                own.iter_mut().zip(by_inner).for_each(|(entry, x)| *entry += end * x);
+    /// Expresses the first amplitudes by (start, end, inner).
+    fn transform(&mut self, hessian: &[f64], metric: &[f64], shift: f64, cross: &[f64]) {
+        let size = self.size;
+        let sources = hessian.chunks_exact(size).chain(cross.chunks_exact(size));
+        let rows = self.whole.chunks_exact_mut(size).zip(self.ends.chunks_exact_mut(END));
+        for (number, (source, (row, ends))) in sources.zip(rows).enumerate() {
+            row.copy_from_slice(source);
+            if let Some(amplitude) = number.checked_sub(START).filter(|_| number < size) {
+                row[number] += shift * metric[amplitude];
             }
-            cholesky::forward(&self.factor, inner, own);
-            for (k, node) in nodes.iter().enumerate() {
-                let (mut start, mut end) = (*node, 0.0);
-                for (c, value) in ends.iter().enumerate() {
-                    start += value * self.by_start[(c, k)];
-                    end += value * self.by_end[(c, k)];
-                }
-                let along = |row: usize| cholesky::dot(&self.coupling[row * inner..][..inner], own);
-                self.condensed_outer[k * columns + column] = start - along(k);
-                self.condensed_outer[(START + k) * columns + column] = end - along(START + k);
-            }
+            ends.copy_from_slice(&row[START..NODES]);
+            row[START..NODES].fill(0.0);
         }
+        dense::add_product(&self.ends, &self.first, END, size, &mut self.whole);
+        // The rows of the first amplitudes make room for those of the end node.
+        let (own, _) = self.whole.split_at_mut(size * size);
+        let by_first = &mut self.ends[..END * size];
+        by_first.copy_from_slice(&own[START * size..NODES * size]);
+        own[START * size..NODES * size].fill(0.0);
+        dense::add_upper(&self.first, by_first, size, own);
     }
 
-    /// `L^-1` times the coupling to one displacement of a ring.
-    pub(super) fn outer(&self, column: usize) -> &[f64] {
-        &self.outer[column * self.inner..][..self.inner]
+    /// Condensed Hessian of displacements `i` and `j` of the two nodes, in the axes of the start node.
+    pub(super) fn of_nodes(&self, i: usize, j: usize) -> f64 {
+        let (i, j) = (i.min(j), i.max(j));
+        self.whole[i * self.size + j] - self.eliminated[i * self.columns + j]
     }
 
-    /// Subtracts the contribution of the eliminated amplitudes (see [`Self::eliminate`]) from the right-hand side of the
-    /// rings' nodes.
-    pub(super) fn eliminate_outer(&self, rhs: &[f64], rings: &mut [f64]) {
-        for (column, entry) in rings.iter_mut().enumerate() {
-            *entry -= cholesky::dot(self.outer(column), &rhs[END..]);
-        }
+    /// Condensed coupling of the two nodes, in the axes of the start node, to one displacement of a ring.
+    pub(super) fn to_ring(&self, ring: usize) -> [f64; NODES] {
+        let row = &self.whole[(self.size + ring) * self.size..][..NODES];
+        core::array::from_fn(|i| row[i] - self.eliminated[i * self.columns + NODES + ring])
     }
 
-    /// Subtracts the contribution of the rings' node displacements from the eliminated amplitudes, before these are
-    /// recovered.
-    pub(super) fn recover_outer(&self, rings: &[f64], rhs: &mut [f64]) {
-        for (column, value) in rings.iter().enumerate() {
-            for (entry, x) in rhs[END..].iter_mut().zip(self.outer(column)) {
-                *entry -= value * x;
-            }
-        }
-    }
-
-    /// Transforms the Hessian to (start, end, inner amplitudes) by substituting the first amplitudes.
-    fn transform(&mut self, tangent: &ElementDerivatives, metric: &[f64], shift: f64) {
-        let (inner, size) = (self.inner, NODES + self.inner);
-        let rows = tangent.size;
-        let first = START..START + END;
-        for r in 0..rows {
-            let row = &tangent.hessian[r * rows..][..rows];
-            let mut ends = [0.0; END];
-            ends.copy_from_slice(&row[first.clone()]);
-            let out = &mut self.product[r * size..][..size];
-            out.fill(0.0);
-            out[..START].copy_from_slice(&row[..START]);
-            out[NODES..].copy_from_slice(&row[START + END..]);
-            if r >= START {
-                let shifted = shift * metric[r - START];
-                if r < START + END {
-                    ends[r - START] += shifted;
-                } else {
-                    out[NODES + r - START - END] += shifted;
-                }
-            }
-            for (c, value) in ends.iter().enumerate() {
-                for k in 0..6 {
-                    out[k] += value * self.by_start[(c, k)];
-                    out[START + k] += value * self.by_end[(c, k)];
-                }
-                let by_inner = &self.by_inner[c * inner..][..inner];
-                out[NODES..].iter_mut().zip(by_inner).for_each(|(entry, x)| *entry += value * x);
-            }
-        }
-        let (product, whole) = (&self.product, &mut self.whole);
-        whole[..START * size].copy_from_slice(&product[..START * size]);
-        whole[START * size..NODES * size].fill(0.0);
-        whole[NODES * size..].copy_from_slice(&product[(START + END) * size..rows * size]);
-        for c in 0..END {
-            let source = &product[(START + c) * size..][..size];
-            let mut add = |row: usize, factor: f64| {
-                let target = &mut whole[row * size..][..size];
-                target.iter_mut().zip(source).for_each(|(entry, x)| *entry += factor * x);
-            };
-            for k in 0..6 {
-                add(k, self.by_start[(c, k)]);
-                add(START + k, self.by_end[(c, k)]);
-            }
-            for i in 0..inner {
-                add(NODES + i, self.by_inner[c * inner + i]);
-            }
-        }
+    /// What the elimination takes from the Hessian of displacement `ring` of a ring and those from there on.
+    pub(super) fn of_rings(&self, ring: usize) -> &[f64] {
+        &self.eliminated[(NODES + ring) * self.columns..][..self.columns][NODES + ring..]
     }
 
     /// Eliminates the amplitudes from a right-hand side: returns the part of the two nodes and keeps the rest in `rhs`.
     pub(super) fn eliminate(&self, rhs: &mut [f64]) -> [f64; NODES] {
         let mut nodes = [0.0; NODES];
         let (ends, inner) = rhs.split_at_mut(END);
-        for (c, value) in ends.iter().enumerate() {
-            for k in 0..6 {
-                nodes[k] += value * self.by_start[(c, k)];
-                nodes[START + k] += value * self.by_end[(c, k)];
-            }
-            let by_inner = &self.by_inner[c * self.inner..][..self.inner];
-            inner.iter_mut().zip(by_inner).for_each(|(entry, x)| *entry += value * x);
+        for (value, first) in ends.iter().zip(self.first.chunks_exact(self.size)) {
+            let columns = nodes.iter_mut().chain(&mut *inner).zip(first);
+            columns.for_each(|(entry, x)| *entry += value * x);
         }
         cholesky::forward(&self.factor, self.inner, inner);
-        for (node, column) in nodes.iter_mut().zip(self.coupling.chunks_exact(self.inner.max(1))) {
-            *node -= cholesky::dot(column, inner);
+        for (value, row) in inner.iter().zip(self.coupling.chunks_exact(self.columns)) {
+            nodes.iter_mut().zip(row).for_each(|(node, x)| *node -= value * x);
         }
         nodes
+    }
+
+    /// Subtracts the contribution of the eliminated amplitudes (see [`Self::eliminate`]) from the right-hand side of the
+    /// rings' nodes.
+    pub(super) fn eliminate_rings(&self, rhs: &[f64], rings: &mut [f64]) {
+        for (value, row) in rhs[END..].iter().zip(self.coupling.chunks_exact(self.columns)) {
+            rings.iter_mut().zip(&row[NODES..]).for_each(|(ring, x)| *ring -= value * x);
+        }
+    }
+
+    /// Subtracts the contribution of the rings' node displacements from the eliminated amplitudes, before these are
+    /// recovered.
+    pub(super) fn recover_rings(&self, rings: &[f64], rhs: &mut [f64]) {
+        for (entry, row) in rhs[END..].iter_mut().zip(self.coupling.chunks_exact(self.columns)) {
+            *entry -= cholesky::dot(&row[NODES..], rings);
+        }
     }
 
     /// Recovers the amplitudes in `rhs` from the displacements of the two nodes.
     pub(super) fn recover(&self, nodes: &[f64; NODES], rhs: &mut [f64]) {
         let (ends, inner) = rhs.split_at_mut(END);
-        for (node, column) in nodes.iter().zip(self.coupling.chunks_exact(self.inner.max(1))) {
-            inner.iter_mut().zip(column).for_each(|(entry, x)| *entry -= node * x);
+        for (entry, row) in inner.iter_mut().zip(self.coupling.chunks_exact(self.columns)) {
+            *entry -= cholesky::dot(&row[..NODES], nodes);
         }
         cholesky::backward(&self.factor, self.inner, inner);
-        for (c, end) in ends.iter_mut().enumerate() {
-            *end = cholesky::dot(&self.by_inner[c * self.inner..][..self.inner], inner);
-            for k in 0..6 {
-                *end += self.by_start[(c, k)] * nodes[k] + self.by_end[(c, k)] * nodes[START + k];
-            }
+        for (end, first) in ends.iter_mut().zip(self.first.chunks_exact(self.size)) {
+            *end = cholesky::dot(&first[..NODES], nodes) + cholesky::dot(&first[NODES..], inner);
         }
     }
 }

@@ -179,7 +179,7 @@ impl Linearisation {
     fn condense(&mut self, hessian: &Hessian<'_>, k: usize, shift: f64) -> bool {
         let size = self.rhs.len();
         let own = &mut self.condensations[k];
-        if !own.condense(&hessian.elements[k], &hessian.chain.elements[k].metric, shift) {
+        if !own.condense(&hessian.elements[k], &hessian.chain.elements[k].metric, shift, &hessian.mixed[k]) {
             return false;
         }
         let axes = self.axes[k];
@@ -187,7 +187,7 @@ impl Linearisation {
             for j in 0..4 {
                 // The base is fixed: it has no rows where the element starts there.
                 let (Some(row), Some(column)) = (free(6 * k + 3 * i), free(6 * k + 3 * j)) else { continue };
-                let part = Matrix3::from_fn(|a, b| own.condensed[3 * i + a][3 * j + b]);
+                let part = Matrix3::from_fn(|a, b| own.of_nodes(3 * i + a, 3 * j + b));
                 let turned = axes * part * axes.transpose();
                 for a in 0..3 {
                     for b in 0..3 {
@@ -199,10 +199,9 @@ impl Linearisation {
         if hessian.spans == SpanCoupling::None {
             return true;
         }
-        own.condense_outer(&hessian.mixed[k], size);
         let mutual = hessian.spans == SpanCoupling::Mutual;
         for column in 0..size {
-            let mut nodes = core::array::from_fn(|i| own.condensed_outer[i * size + column]);
+            let mut nodes = own.to_ring(column);
             turn_nodes(&axes, &mut nodes);
             for (i, value) in nodes.iter().enumerate() {
                 let Some(row) = free(6 * k + i) else { continue };
@@ -212,12 +211,11 @@ impl Linearisation {
                 }
             }
             if mutual {
-                for row in 0..=column {
-                    let value = cholesky::dot(own.outer(row), own.outer(column));
-                    self.matrix[row * size + column] -= value;
-                    if row != column {
-                        self.matrix[column * size + row] -= value;
-                    }
+                let taken = own.of_rings(column);
+                let row = &mut self.matrix[column * size + column..(column + 1) * size];
+                row.iter_mut().zip(taken).for_each(|(entry, value)| *entry -= value);
+                for (below, value) in taken.iter().enumerate().skip(1) {
+                    self.matrix[(column + below) * size + column] -= value;
                 }
             }
         }
@@ -240,7 +238,7 @@ impl Factorisation {
                 }
             }
             if self.spans == SpanCoupling::Mutual {
-                condensation.eliminate_outer(part, rhs);
+                condensation.eliminate_rings(part, rhs);
             }
         }
         let size = rhs.len();
@@ -255,7 +253,7 @@ impl Factorisation {
             let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| rhs[row]));
             turn_nodes(&axes[k].transpose(), &mut nodes);
             if self.spans != SpanCoupling::None {
-                condensation.recover_outer(rhs, part);
+                condensation.recover_rings(rhs, part);
             }
             condensation.recover(&nodes, part);
         }

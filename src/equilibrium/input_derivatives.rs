@@ -41,7 +41,7 @@ impl Potential<'_> {
             let mut block = self.end_motion(k) * turned(&into, &clamp);
             let element = &self.chain.elements[k];
             for (index, station) in element.stations.iter().enumerate() {
-                let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
+                let (frame, pose) = (Frame::Station(station, &[]), self.work.station(k, index));
                 let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0);
                 let state = &self.work.configurations[k].stations[index];
                 let tangent = &mut self.work.derivatives[k];

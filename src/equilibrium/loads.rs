@@ -6,6 +6,7 @@ use super::pair_loads::Made;
 use super::potential::Potential;
 use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
 use crate::geometry::hat;
+use crate::numerics::dense;
 use crate::rod::{Configuration, Load, Order, PlacedCoupling, PlacedLoad};
 
 impl Potential<'_> {
@@ -42,16 +43,26 @@ impl Potential<'_> {
 
     fn load_stations(&mut self, order: Order) -> Option<f64> {
         let (mut energy, base) = (0.0, self.inputs.base.position);
+        let mut fields = std::mem::take(&mut self.work.fields);
+        let stations = self.chain.elements.iter().enumerate().flat_map(|(k, element)| {
+            let work = &*self.work;
+            element.stations.iter().enumerate().map(move |(index, station)| (station, work.station(k, index)))
+        });
+        self.terms.magnet.see(stations, order, &mut fields)?;
+        let mut near = &fields.near[..];
         for (k, element) in self.chain.elements.iter().enumerate() {
             let axes = self.work.nodes[k].rotation;
             for (index, station) in element.stations.iter().enumerate() {
-                let (frame, pose) = (Frame::Station(station), self.work.station(k, index));
+                let seen;
+                (seen, near) = near.split_at(self.terms.magnet.points_on(station));
+                let (frame, pose) = (Frame::Station(station, seen), self.work.station(k, index));
                 let about = (&base, &mut self.work.wrenches);
                 let load = self.terms.load(&frame, &pose, &axes, order, about)?;
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;
             }
         }
+        self.work.fields = fields;
         Some(energy)
     }
 
@@ -227,15 +238,10 @@ impl Potential<'_> {
             let motion =
                 tangent.station_motion(element, station, &self.work.configurations[k].stations[station]);
             for mixed in own {
-                let pull = mixed.matrix * turn;
-                for (row, target) in
-                    cross[6 * (mixed.node - 1) * size..].chunks_exact_mut(size).take(6).enumerate()
-                {
-                    for (column, moved) in motion.chunks_exact(size).enumerate() {
-                        let factor = pull[(row, column)];
-                        target.iter_mut().zip(moved).for_each(|(entry, value)| *entry += factor * value);
-                    }
-                }
+                // Matrices are stored by column, those of `dense` by row.
+                let pull = (mixed.matrix * turn).transpose();
+                let target = &mut cross[6 * (mixed.node - 1) * size..][..6 * size];
+                dense::add_product(pull.as_slice(), motion, 6, size, target);
             }
         }
     }

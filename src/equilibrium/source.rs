@@ -9,7 +9,7 @@ use super::ring_body::RingBody;
 use super::span_quadrature::SectionSample;
 use crate::geometry::Pose;
 use crate::magnetics::{
-    Assembly, AxialRule, AxialSource, DipoleSheet, FaceRule, FieldAccuracy, SecondSums, SheetSums,
+    Assembly, AxialRule, AxialSource, DipoleSheet, FaceRule, FieldAccuracy, Jet, SecondSums, SheetSums,
 };
 use crate::rod::{
     Charges, Load, Order, SectionDipoles, SectionMaterial, SectionStiffness, Station, StationState,
@@ -32,11 +32,33 @@ pub(crate) struct SectionBatch {
 }
 
 /// Field (T) and its derivatives at a point.
-struct Near {
+#[derive(Debug, Clone)]
+pub(crate) struct Near {
     field: Vector3<f64>,
     gradient: Matrix3<f64>,
     /// Second derivative of the field component along an axis.
     along: Option<Matrix3<f64>>,
+}
+
+impl Near {
+    /// Scaled by `strength`, with the second derivative of the component along `axis`.
+    fn of(jet: &Jet, axis: &Vector3<f64>, strength: f64) -> Self {
+        let along = Some(jet.hessian_along(axis) * strength);
+        Self { field: jet.field * strength, gradient: jet.gradient * strength, along }
+    }
+}
+
+/// Field of the external magnet at the material points of many stations, evaluated side by side; storage that is used again.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct StationFields {
+    /// The points in the frame of the source, m.
+    points: Vec<Vector3<f64>>,
+    /// The normal of the section of each.
+    axes: Vec<Vector3<f64>>,
+    gradients: Vec<(Vector3<f64>, Matrix3<f64>)>,
+    jets: Vec<Jet>,
+    /// The fields, in the axes of the source.
+    pub(super) near: Vec<Near>,
 }
 
 /// A field source at a pose.
@@ -64,9 +86,15 @@ impl<'a> Source<'a> {
         Self { compact: accuracy / 3.0 * reach * reach.max(0.0), ..self }
     }
 
-    /// The points of a station's section, each of which carries an equal share of its material.
+    /// The points of a station's section, each of which carries an equal share of its magnetic material.
     pub(crate) fn points<'s>(&self, station: &'s Station) -> &'s [Vector2<f64>] {
-        if station.spread <= self.compact { &station.points.0 } else { &station.points.1 }
+        if station.material.magnetisation == 0.0 {
+            &[]
+        } else if station.spread <= self.compact {
+            &station.points.0
+        } else {
+            &station.points.1
+        }
     }
 
     /// A ring of the manipulator whose node is at `node`.
@@ -118,11 +146,44 @@ impl<'a> Source<'a> {
             (Magnet::Assembly(assembly, strength), Order::Hessian) => (strength, assembly.jet(point).ok()?),
             (Magnet::Ring(ring), Order::Hessian) => (1.0, ring.jet(point).ok()?),
         };
-        Some(Near {
-            field: jet.field * strength,
-            gradient: jet.gradient * strength,
-            along: Some(jet.hessian_along(axis) * strength),
-        })
+        Some(Near::of(&jet, axis, strength))
+    }
+
+    /// Evaluates the field at the points of `stations` at their poses, in that order; see [`Self::points`]. `None` inside a
+    /// magnet.
+    pub(crate) fn see<'s>(
+        &self,
+        stations: impl Iterator<Item = (&'s Station, Pose)>,
+        order: Order,
+        out: &mut StationFields,
+    ) -> Option<()> {
+        let Magnet::Assembly(assembly, strength) = self.magnet else { return None };
+        let StationFields { points, axes, gradients, jets, near } = out;
+        points.clear();
+        axes.clear();
+        near.clear();
+        for (station, pose) in stations {
+            let section = self.locate(&pose);
+            for position in self.points(station) {
+                points.push(section.transform(&Vector3::new(position.x, position.y, 0.0)));
+                axes.push(section.axis());
+            }
+        }
+        if points.iter().any(|point| assembly.contains(point)) {
+            return None;
+        }
+        if order == Order::Gradient {
+            assembly.field_gradients(points, gradients).ok()?;
+            near.extend(gradients.iter().map(|(field, gradient)| Near {
+                field: field * strength,
+                gradient: gradient * strength,
+                along: None,
+            }));
+        } else {
+            assembly.jets(points, jets).ok()?;
+            near.extend(jets.iter().zip(axes).map(|(jet, axis)| Near::of(jet, axis, strength)));
+        }
+        Some(())
     }
 
     /// Energy of a ring whose node is at `node`, in the axes of the source; `None` where it touches the magnet.
@@ -201,11 +262,12 @@ impl<'a> Source<'a> {
         Some(load)
     }
 
-    /// The same for the material of a section at `pose`, represented by `points` with equal shares.
+    /// The same for the material of a section at `pose`, represented by `points` with equal shares; the field at the first
+    /// ones may have been seen already.
     pub(crate) fn on_material(
         &self,
         material: &SectionMaterial,
-        points: &[Vector2<f64>],
+        (points, seen): (&[Vector2<f64>], &[Near]),
         pose: &Pose,
         order: Order,
     ) -> Option<Load> {
@@ -217,9 +279,15 @@ impl<'a> Source<'a> {
         let [d1, d2, axis]: [Vector3<f64>; 3] =
             core::array::from_fn(|i| section.rotation.column(i).into_owned());
         let mut sheet = SectionDipoles::new(order == Order::Hessian);
-        for position in points {
-            let point = section.position + d1 * position.x + d2 * position.y;
-            let near = self.near(&point, &axis, order)?;
+        for (number, position) in points.iter().enumerate() {
+            let here;
+            let near = if let Some(near) = seen.get(number) {
+                near
+            } else {
+                let point = section.position + d1 * position.x + d2 * position.y;
+                here = self.near(&point, &axis, order)?;
+                &here
+            };
             sheet.add((share, &axis), position, &near.field, &near.gradient, near.along.as_ref());
         }
         Some(sheet.load(&section.rotation))

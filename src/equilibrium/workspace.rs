@@ -6,7 +6,7 @@ use super::chain::Chain;
 use super::factorisation::{Factorisation, Linearisation, TotalLoad};
 use super::pair_loads::PairLoads;
 use super::settings::Settings;
-use super::source::SectionBatch;
+use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
@@ -25,6 +25,8 @@ pub(super) struct Workspace {
     pub(super) pair_loads: PairLoads,
     /// Sections in the field of one ring.
     pub(super) batch: SectionBatch,
+    /// Field of the external magnet at the stations.
+    pub(super) fields: StationFields,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -72,6 +74,7 @@ impl Workspace {
             placed_loads: vec![PlacedLoads::default(); count],
             pair_loads: PairLoads::new(chain),
             batch: SectionBatch::default(),
+            fields: StationFields::default(),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),

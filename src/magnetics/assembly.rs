@@ -125,6 +125,31 @@ impl Assembly {
         Ok(sum)
     }
 
+    /// `B` (T) and its gradient `dB_i/dx_j` (T/m) at many points (m), written to `out` in their order; as
+    /// [`AxialSource::field_gradients`].
+    ///
+    /// # Errors
+    /// As [`AxialSource::field_gradients`].
+    pub fn field_gradients(
+        &self,
+        points: &[Vector3<f64>],
+        out: &mut Vec<(Vector3<f64>, Matrix3<f64>)>,
+    ) -> Result<(), Error> {
+        out.clear();
+        out.resize(points.len(), (Vector3::zeros(), Matrix3::zeros()));
+        self.placed().try_for_each(|(source, centre)| source.add_field_gradients(centre.z, points, out))
+    }
+
+    /// `B`, its gradient and its second derivative at many points (m), written to `out` in their order.
+    ///
+    /// # Errors
+    /// As [`AxialSource::field_gradients`].
+    pub fn jets(&self, points: &[Vector3<f64>], out: &mut Vec<Jet>) -> Result<(), Error> {
+        out.clear();
+        out.resize(points.len(), Jet::zero());
+        self.placed().try_for_each(|(source, centre)| source.add_jets(centre.z, points, out))
+    }
+
     /// Whether a point lies inside the material of one of the cylinders.
     #[must_use]
     pub fn contains(&self, point: &Vector3<f64>) -> bool {

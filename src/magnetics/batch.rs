@@ -56,9 +56,7 @@ impl AxialSource {
     ) -> Result<(), Error> {
         out.clear();
         out.resize(points.len(), (Vector3::zeros(), Matrix3::zeros()));
-        self.each::<GRADIENT>(points, |number, at, components| {
-            out[number] = (components.field(at), components.gradient(at));
-        })
+        self.add_field_gradients(0.0, points, out)
     }
 
     /// `B`, its gradient and its second derivative at many points (m), written to `out` in their order.
@@ -68,8 +66,31 @@ impl AxialSource {
     pub fn jets(&self, points: &[Vector3<f64>], out: &mut Vec<Jet>) -> Result<(), Error> {
         out.clear();
         out.resize(points.len(), Jet::zero());
-        self.each::<HESSIAN>(points, |number, at, components| {
-            out[number] = Jet {
+        self.add_jets(0.0, points, out)
+    }
+
+    /// Adds the field and its gradient at `points`, seen from a frame in which the magnet's centre is at `height` on the axis.
+    pub(super) fn add_field_gradients(
+        &self,
+        height: f64,
+        points: &[Vector3<f64>],
+        out: &mut [(Vector3<f64>, Matrix3<f64>)],
+    ) -> Result<(), Error> {
+        self.each::<GRADIENT>(height, points, |number, at, components| {
+            out[number].0 += components.field(at);
+            out[number].1 += components.gradient(at);
+        })
+    }
+
+    /// The same with the second derivative.
+    pub(super) fn add_jets(
+        &self,
+        height: f64,
+        points: &[Vector3<f64>],
+        out: &mut [Jet],
+    ) -> Result<(), Error> {
+        self.each::<HESSIAN>(height, points, |number, at, components| {
+            out[number] += Jet {
                 field: components.field(at),
                 gradient: components.gradient(at),
                 hessian: components.hessian(at),
@@ -77,9 +98,10 @@ impl AxialSource {
         })
     }
 
-    /// Hands the components at each point, by its number, to `put`.
+    /// Hands the components at each point, by its number, to `put`; the magnet's centre is at `height` on the axis.
     fn each<const ORDER: u8>(
         &self,
+        height: f64,
         points: &[Vector3<f64>],
         mut put: impl FnMut(usize, &Meridian, &Components),
     ) -> Result<(), Error> {
@@ -89,32 +111,34 @@ impl AxialSource {
         let farthest2 = FARTHEST * FARTHEST * self.outer_radius().powi(2);
         for (number, point) in points.iter().enumerate() {
             let rho2 = point.x * point.x + point.y * point.y;
-            let r2 = rho2 + point.z * point.z;
+            let z = point.z - height;
+            let r2 = rho2 + z * z;
             let waiting = if self.is_near(r2) {
                 &mut near
             } else if r2 <= farthest2 {
                 &mut far
             } else {
-                let (at, components) = self.components::<ORDER>(point)?;
+                let (at, components) = self.components::<ORDER>(&Vector3::new(point.x, point.y, z))?;
                 put(number, &at, &components);
                 continue;
             };
             let (lane, at) = (waiting.count, Meridian::of(point.x, point.y));
             (waiting.numbers[lane], waiting.at[lane]) = (number, at);
-            (waiting.rho[lane], waiting.z[lane]) = (at.rho, point.z);
+            (waiting.rho[lane], waiting.z[lane]) = (at.rho, z);
             waiting.count += 1;
             if waiting.count == WIDTH {
-                self.flush::<ORDER>(waiting, points, &mut put)?;
+                self.flush::<ORDER>(waiting, height, points, &mut put)?;
             }
         }
-        self.flush::<ORDER>(&mut near, points, &mut put)?;
-        self.flush::<ORDER>(&mut far, points, &mut put)
+        self.flush::<ORDER>(&mut near, height, points, &mut put)?;
+        self.flush::<ORDER>(&mut far, height, points, &mut put)
     }
 
     /// Evaluates the waiting points.
     fn flush<const ORDER: u8>(
         &self,
         waiting: &mut Waiting,
+        height: f64,
         points: &[Vector3<f64>],
         put: &mut impl FnMut(usize, &Meridian, &Components),
     ) -> Result<(), Error> {
@@ -133,7 +157,8 @@ impl AxialSource {
         };
         for (lane, (number, at)) in numbers.iter().zip(at).enumerate().take(count) {
             if !together {
-                let (at, components) = self.components::<ORDER>(&points[*number])?;
+                let point = points[*number] - Vector3::new(0.0, 0.0, height);
+                let (at, components) = self.components::<ORDER>(&point)?;
                 put(*number, &at, &components);
                 continue;
             }

@@ -10,7 +10,7 @@ use super::edge::{GRADIENT, HESSIAN, Parts, Place};
 use super::integrals::Integrals;
 use super::lanes::Lanes;
 use super::multipole::Multipole;
-use super::processor::for_each_processor;
+use crate::numerics::processor::for_each_processor;
 
 /// Number of points side by side.
 pub(super) const WIDTH: usize = 8;

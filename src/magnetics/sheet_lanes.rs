@@ -5,7 +5,7 @@
 use super::edge::{GRADIENT, HESSIAN};
 use super::lanes::Lanes;
 use super::points::{self, COMPONENTS, Origin, Row, WIDTH};
-use super::processor::for_each_processor;
+use crate::numerics::processor::for_each_processor;
 
 /// Eight dipoles: positions in the plane (m) and moments (A m2). Those beyond the last one have no moment.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,6 +11,7 @@ use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
 use super::placed_load::{PlacedCoupling, PlacedLoad};
 use super::row::{COMPONENTS, ROTATIONS, Row};
+use crate::numerics::dense;
 
 /// Order of the derivatives to evaluate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -318,38 +319,18 @@ impl ElementDerivatives {
     /// Adds the second derivatives of a load with respect to the position and directors of the frame whose motion was
     /// computed last.
     pub(super) fn add_stiffness(&mut self, load: &Load) {
-        let size = self.size;
-        let stiffness = |r: usize, c: usize| match (r / 3, c / 3) {
-            (0, 0) => load.position_position[(r, c)],
-            (0, _) => load.position_rotation[(r, c - 3)],
-            (_, 0) => load.position_rotation[(c, r - 3)],
-            _ => load.rotation_rotation[(r - 3, c - 3)],
-        };
+        let stiffness: [f64; 36] = core::array::from_fn(|entry| {
+            let (r, c) = (entry / 6, entry % 6);
+            match (r / 3, c / 3) {
+                (0, 0) => load.position_position[(r, c)],
+                (0, _) => load.position_rotation[(r, c - 3)],
+                (_, 0) => load.position_rotation[(c, r - 3)],
+                _ => load.rotation_rotation[(r - 3, c - 3)],
+            }
+        });
         self.answer.fill(0.0);
-        for r in 0..6 {
-            let target = &mut self.answer[r * size..][..size];
-            for c in 0..6 {
-                let factor = stiffness(r, c);
-                for (entry, value) in target.iter_mut().zip(&self.motion[c * size..][..size]) {
-                    *entry += factor * value;
-                }
-            }
-        }
-        for i in 0..size {
-            let target = &mut self.hessian[i * size + i..][..size - i];
-            // Shear and extension do not rotate the station, so their second pass is empty.
-            for half in [0, 3] {
-                let factor: [f64; 3] = core::array::from_fn(|k| self.motion[(half + k) * size + i]);
-                if factor.iter().all(|entry| *entry == 0.0) {
-                    continue;
-                }
-                let [x, y, z]: [&[f64]; 3] =
-                    core::array::from_fn(|k| &self.answer[(half + k) * size + i..][..size - i]);
-                for (entry, ((x, y), z)) in target.iter_mut().zip(x.iter().zip(y).zip(z)) {
-                    *entry += factor[0] * x + factor[1] * y + factor[2] * z;
-                }
-            }
-        }
+        dense::add_product(&stiffness, &self.motion, 6, self.size, &mut self.answer);
+        dense::add_upper(&self.motion, &self.answer, self.size, &mut self.hessian);
     }
 
     /// Adds the moment on the end, which acts on the rotation vector from start to end alone.

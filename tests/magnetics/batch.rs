@@ -1,7 +1,7 @@
 //! Fields at many points, beside those at single points.
 
 use mcm::error::Error;
-use mcm::magnetics::AxialSource;
+use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Jet};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -81,6 +81,31 @@ fn many_points_are_as_each_alone() {
             }
             same(2, &jet.hessian.0, &alone.hessian.0);
         }
+    }
+}
+
+#[test]
+fn an_assembly_at_many_points_is_as_at_each_alone() {
+    let cylinder =
+        AxialMagnet { radius: 22.5e-3, inner_radius: 0.0, length: 30e-3, offset: -20e-3, remanence: 1.35 };
+    let ring = AxialMagnet { inner_radius: 10e-3, offset: 30e-3, remanence: -1.1, ..cylinder };
+    let assembly = Assembly::new(vec![cylinder, ring]).expect("apart");
+    let around = AxialSource::new(0.0, 22.5e-3, 80e-3, 1.0).expect("allowed");
+    let points = points(&around, 1000, 11);
+    let (mut fields, mut jets) = (vec![Default::default(); 3], vec![Jet::zero(); 3]);
+    assembly.field_gradients(&points, &mut fields).expect("no point is on an edge");
+    assembly.jets(&points, &mut jets).expect("no point is on an edge");
+    assert_eq!((fields.len(), jets.len()), (points.len(), points.len()));
+    for ((point, jet), (field, gradient)) in points.iter().zip(&jets).zip(&fields) {
+        let same = |order, got: &[f64], expected: &[f64]| {
+            assert_same(&format!("assembly at {point:?}"), order, &around, got, expected);
+        };
+        let alone = assembly.jet(point).expect("not on an edge");
+        same(0, field.as_slice(), alone.field.as_slice());
+        same(1, gradient.as_slice(), alone.gradient.as_slice());
+        same(0, jet.field.as_slice(), alone.field.as_slice());
+        same(1, jet.gradient.as_slice(), alone.gradient.as_slice());
+        same(2, &jet.hessian.0, &alone.hessian.0);
     }
 }
 

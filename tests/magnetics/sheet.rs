@@ -1,11 +1,13 @@
 //! Sums over the dipoles of a sheet, beside sums of the fields at its points.
 
 use mcm::geometry::Pose;
-use mcm::magnetics::{AxialSource, DipoleSheet, FieldAccuracy, Instructions, SecondSums, SheetSums};
+use mcm::magnetics::{AxialSource, DipoleSheet, FieldAccuracy, SecondSums, SheetSums};
+use mcm::numerics::processor::Instructions;
 use nalgebra::{Matrix3, SMatrix, Vector2, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+use crate::instructions::with_instructions;
 use crate::tolerance::{BATCH, LEFT_OUT, ROUGH_SHEET};
 
 const RING: [f64; 3] = [0.75e-3, 2.0e-3, 1.0e-3];
@@ -167,9 +169,7 @@ fn every_processor_gives_the_same_bits() {
         cases.push((DipoleSheet::new(&dipoles(11, &mut random)), pose(far, &mut random)));
     }
     let points: Vec<Vector3<f64>> = cases.iter().map(|(_, pose)| pose.position).collect();
-    let all = |portable| {
-        // Other tests that run beside this one get the same bits with either.
-        Instructions::force_portable(portable);
+    let all = || {
         let accuracies = [FieldAccuracy::Exact, FieldAccuracy::Rough, FieldAccuracy::Multipoles(7)];
         let sums: Vec<_> = accuracies
             .into_iter()
@@ -183,7 +183,7 @@ fn every_processor_gives_the_same_bits() {
         ring.jets(&points, &mut jets).unwrap();
         format!("{sums:?} {fields:?} {jets:?}")
     };
-    let (portable, detected) = (all(true), all(false));
+    let (portable, detected) = (with_instructions(true, all), with_instructions(false, all));
     println!("portable and {}", Instructions::in_use());
     assert!(portable.len() > 100_000);
     assert_eq!(portable, detected);

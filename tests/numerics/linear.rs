@@ -7,12 +7,12 @@ use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 use crate::tolerance::{EIGENVALUE, LAW, assert_close};
 
 /// A fixed number between -1 and 1.
-fn pseudo(seed: usize, i: usize) -> f64 {
+pub(super) fn pseudo(seed: usize, i: usize) -> f64 {
     (12.9898 * (i as f64 + 1.0) + 78.233 * seed as f64).sin()
 }
 
 /// A symmetric matrix with the eigenvalues 1 and more, or with the smallest moved to `lowest`.
-fn symmetric(size: usize, seed: usize, lowest: f64) -> DMatrix<f64> {
+pub(super) fn symmetric(size: usize, seed: usize, lowest: f64) -> DMatrix<f64> {
     let basis = DMatrix::from_fn(size, size, |i, j| pseudo(seed, i * size + j)).qr().q();
     let values = DVector::from_fn(size, |i, _| if i == 0 { lowest } else { 1.0 + i as f64 });
     let matrix = &basis * DMatrix::from_diagonal(&values) * basis.transpose();

@@ -2,6 +2,7 @@
 
 mod arnoldi;
 mod continuation;
+mod dense;
 mod linear;
 mod pseudo_transient;
 mod quadrature;

@@ -21,7 +21,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use mcm::magnetics::Instructions;
+use mcm::numerics::processor::Instructions;
 
 use failure::Failure;
 

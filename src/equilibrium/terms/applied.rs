@@ -24,7 +24,7 @@ impl<'a> Applied<'a> {
                 (Input::RingForce(*number), self.0.ring_forces.get(*number)?, body.half_length())
             }
             Frame::Tip(offset) => (Input::TipForce, &self.0.tip_force, *offset),
-            Frame::Station(_) | Frame::Section(_) => return None,
+            Frame::Station(..) | Frame::Section(_) => return None,
         };
         Some((input, *force, pose.axis() * distance))
     }
@@ -35,7 +35,7 @@ impl Term for Applied<'_> {
         match frame {
             Frame::Ring(number, _) => self.0.ring_forces.get(*number).is_some_and(|f| *f != Vector3::zeros()),
             Frame::Tip(_) => self.0.tip_force != Vector3::zeros() || !self.has_potential(),
-            Frame::Station(_) | Frame::Section(_) => false,
+            Frame::Station(..) | Frame::Section(_) => false,
         }
     }
 

@@ -2,13 +2,15 @@
 
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::ring_body::RingBody;
+use crate::equilibrium::source::Near;
 use crate::rod::{SectionMaterial, Station};
 
 /// The body that a frame carries; the pose of the frame is given separately.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Frame<'a> {
-    /// The material represented by a Gauss point of an element; the pose is that of the section.
-    Station(&'a Station),
+    /// The material represented by a Gauss point of an element; the pose is that of the section. The field of the external
+    /// magnet at its points may have been seen already.
+    Station(&'a Station, &'a [Near]),
     /// Material of a section, per length or as a whole.
     Section(&'a SectionMaterial),
     /// A ring by its number; the pose is that of its node, on its proximal face.
@@ -28,7 +30,7 @@ impl<'a> Frame<'a> {
     /// The material, if the body is that of a section.
     pub(super) fn material(&self) -> Option<&'a SectionMaterial> {
         match self {
-            Self::Station(station) => Some(&station.material),
+            Self::Station(station, _) => Some(&station.material),
             Self::Section(material) => Some(material),
             Self::Ring(..) | Self::Tip(_) => None,
         }

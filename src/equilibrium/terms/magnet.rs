@@ -8,10 +8,10 @@ use crate::equilibrium::chain::Chain;
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::layout::Input;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
-use crate::equilibrium::source::Source;
+use crate::equilibrium::source::{Source, StationFields};
 use crate::geometry::{Pose, hat};
 use crate::magnetics::{Assembly, Jet};
-use crate::rod::{Load, Order};
+use crate::rod::{Load, Order, Station};
 
 /// The external magnet at its pose.
 #[derive(Debug, Clone, Copy)]
@@ -46,6 +46,21 @@ impl<'a> Magnet<'a> {
     /// The same term without the assembly: as if the magnet could not be switched on.
     pub(crate) fn removed(self) -> Self {
         Self { assembly: None, source: None, ..self }
+    }
+
+    /// Evaluates its field at the material of `stations` at their poses; `None` inside it.
+    pub(crate) fn see<'s>(
+        &self,
+        stations: impl Iterator<Item = (&'s Station, Pose)>,
+        order: Order,
+        out: &mut StationFields,
+    ) -> Option<()> {
+        self.source.as_ref().map_or(Some(()), |source| source.see(stations, order, out))
+    }
+
+    /// Number of points at which [`Self::see`] evaluates it on a station.
+    pub(crate) fn points_on(&self, station: &Station) -> usize {
+        self.source.as_ref().map_or(0, |source| source.points(station).len())
     }
 
     /// Its field (T) at a point in the world frame; `None` inside it.
@@ -101,10 +116,12 @@ impl Term for Magnet<'_> {
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
         let Some(source) = &self.source else { return Some(Load::zero()) };
         let load = match frame {
-            Frame::Station(station) => {
-                source.on_material(&station.material, source.points(station), pose, order)
+            Frame::Station(station, seen) => {
+                source.on_material(&station.material, (source.points(station), seen), pose, order)
             }
-            Frame::Section(material) => source.on_material(material, &material.moments.points(), pose, order),
+            Frame::Section(material) => {
+                source.on_material(material, (&material.moments.points(), &[]), pose, order)
+            }
             Frame::Ring(number, body) => {
                 let centre = pose.position + pose.axis() * body.half_length();
                 let rule = self.rules.external(*number, self.distance(&centre));
@@ -121,7 +138,7 @@ impl Term for Magnet<'_> {
         }
         let first = Input::MagnetPosition.columns().start;
         match frame {
-            Frame::Station(station) if station.material.magnetisation != 0.0 => {
+            Frame::Station(station, _) if station.material.magnetisation != 0.0 => {
                 let points =
                     self.source.as_ref().map_or(&station.points.1[..], |source| source.points(station));
                 let whole = pose.axis() * (station.material.magnetisation * station.material.moments.volume);
@@ -140,7 +157,7 @@ impl Term for Magnet<'_> {
                     out.add_dipole(first, &moment, &arm, &self.rates(&(pose.position + arm))?);
                 }
             }
-            Frame::Station(_) | Frame::Section(_) | Frame::Tip(_) => {}
+            Frame::Station(..) | Frame::Section(_) | Frame::Tip(_) => {}
         }
         Some(())
     }

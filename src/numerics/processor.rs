@@ -1,10 +1,11 @@
-//! Which instructions evaluate fields at many points: the widest vectors of this processor, or those that every one has.
+//! Which instructions evaluate fields at many points and multiply matrices: the widest vectors of this processor, or those
+//! that every one has.
 //!
 //! The results are the same bits; only the time differs.
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Instructions that evaluate fields at many points.
+/// Instructions that evaluate fields at many points and multiply matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Instructions {
     /// Those that every processor of this kind has.
@@ -29,7 +30,7 @@ impl Instructions {
     /// were first needed, or [`Instructions::force_portable`] has decided.
     ///
     /// ```
-    /// use mcm::magnetics::Instructions;
+    /// use mcm::numerics::processor::Instructions;
     /// Instructions::force_portable(true);
     /// assert_eq!(Instructions::in_use(), Instructions::Portable);
     /// ```
@@ -75,7 +76,7 @@ impl std::fmt::Display for Instructions {
 
 /// Whether portable instructions are to be used.
 #[inline]
-pub(super) fn are_portable() -> bool {
+pub(crate) fn are_portable() -> bool {
     match CHOSEN.load(Ordering::Relaxed) {
         UNKNOWN => decide(),
         chosen => chosen == PORTABLE,
@@ -110,8 +111,8 @@ macro_rules! for_each_processor {
                 every($($own),*)
             }
 
-            if $crate::magnetics::processor::are_portable() { portable($($own),*) } else { detected($($own),*) }
+            if $crate::numerics::processor::are_portable() { portable($($own),*) } else { detected($($own),*) }
         }
     };
 }
-pub(super) use for_each_processor;
+pub(crate) use for_each_processor;
