@@ -1,11 +1,14 @@
 //! The discretised chain: nodes joined by elements, with rings on nodes.
 
+use std::sync::Arc;
+
 use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
+use crate::magnetics::PairTable;
 use crate::rod::{Element, Piece, Resolution, SourceGeometry};
 
 use super::ring_body::RingBody;
-use super::settings::Settings;
+use super::settings::{Interaction, Settings};
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
 
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
@@ -40,6 +43,17 @@ pub(crate) struct Chain {
     pub(crate) radii: Vec<f64>,
     /// Quadratures of the elements in the fields of the rings.
     pub(super) span_quadratures: SpanQuadratures,
+    /// Rules for pairs of rings, one table for each ring; equal rings share theirs.
+    pub(super) pair_tables: Vec<Arc<PairTable>>,
+    made_from: (Design, Discretisation),
+}
+
+/// The settings that a chain depends on.
+type Discretisation = (Interaction, usize, usize, f64, bool);
+
+fn discretisation(settings: &Settings) -> Discretisation {
+    let Settings { interaction, degree, cylinder_elements, pair_accuracy, bending_stop, .. } = *settings;
+    (interaction, degree, cylinder_elements, pair_accuracy, bending_stop)
 }
 
 impl Chain {
@@ -100,7 +114,26 @@ impl Chain {
         let widest =
             |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
         let radii = chains.iter().map(widest).collect();
-        Ok(Self { elements, rings, tip_offset: offset, first, metric, cores, radii, span_quadratures })
+        let pair_tables = pair_tables(&rings, settings.pair_accuracy);
+        let made_from = (design.clone(), discretisation(settings));
+        let tip_offset = offset;
+        Ok(Self {
+            elements,
+            rings,
+            tip_offset,
+            first,
+            metric,
+            cores,
+            radii,
+            span_quadratures,
+            pair_tables,
+            made_from,
+        })
+    }
+
+    /// Whether it is what [`Self::new`] makes of this.
+    pub(super) fn is_of(&self, design: &Design, settings: &Settings) -> bool {
+        self.made_from.1 == discretisation(settings) && self.made_from.0 == *design
     }
 
     /// Unstrained length, m.
@@ -122,4 +155,15 @@ impl Chain {
     pub(crate) fn radian_norm(&self) -> f64 {
         self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
+}
+
+/// Rules for pairs of `rings` to a relative accuracy, one table for each.
+fn pair_tables(rings: &[RingBody], accuracy: f64) -> Vec<Arc<PairTable>> {
+    let mut tables: Vec<Arc<PairTable>> = Vec::new();
+    for body in rings {
+        let (inner, outer, length) = (body.ring.inner_radius, body.ring.outer_radius, body.ring.length);
+        let equal = tables.iter().find(|table| table.is_of(inner, outer, length)).cloned();
+        tables.push(equal.unwrap_or_else(|| Arc::new(PairTable::new(inner, outer, length, accuracy))));
+    }
+    tables
 }

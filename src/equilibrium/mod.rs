@@ -23,6 +23,7 @@ mod outcome;
 mod output_derivatives;
 mod pair_loads;
 mod pair_quadrature;
+mod pool;
 mod potential;
 mod predict;
 mod refinement;

@@ -22,19 +22,18 @@ pub(crate) struct PairQuadrature {
 }
 
 impl PairQuadrature {
-    /// Makes the tables for the accuracy and the interaction of `settings`.
+    /// For the chain and the settings that it was made with.
     pub(crate) fn new(chain: &Chain, settings: &Settings) -> Self {
-        let accuracy = settings.pair_accuracy;
-        let mut tables: Vec<Arc<PairTable>> = Vec::new();
-        for body in &chain.rings {
-            let (inner, outer, length) = (body.ring.inner_radius, body.ring.outer_radius, body.ring.length);
-            let equal = tables.iter().find(|table| table.is_of(inner, outer, length)).cloned();
-            tables.push(equal.unwrap_or_else(|| Arc::new(PairTable::new(inner, outer, length, accuracy))));
-        }
-        let count = tables.len() * tables.len().saturating_sub(1) / 2;
+        let count = chain.rings.len() * chain.rings.len().saturating_sub(1) / 2;
         let elements = if settings.interaction.acts_on_spans() { chain.elements.len() } else { 0 };
         let spans = vec![0; elements * chain.rings.len()];
-        Self { tables, chosen: vec![0; count], spans, number: 0, accuracy }
+        Self {
+            tables: chain.pair_tables.clone(),
+            chosen: vec![0; count],
+            spans,
+            number: 0,
+            accuracy: settings.pair_accuracy,
+        }
     }
 
     /// Chooses the rules for the present node poses; returns whether any rule has changed.

@@ -82,7 +82,7 @@ impl Equilibrium {
             ));
         }
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
-        let chain = Chain::new(design, &settings)?;
+        let chain = Chain::shared(design, &settings)?;
         let shape = arc_lengths.map(|s| point_at(&chain, s));
         let (work, rules) = (Workspace::new(&chain, &settings), PairQuadrature::new(&chain, &settings));
         let mut out = Self {
@@ -93,10 +93,27 @@ impl Equilibrium {
             work,
             rules,
             scratch: Scratch::new(&chain),
-            chain: Arc::new(chain),
+            chain,
         };
         out.reset();
         Ok(out)
+    }
+
+    /// Whether both use the same tables of modes and quadratures in memory: all models of one design and discretisation that
+    /// live in a process do.
+    ///
+    /// ```
+    /// use mcm::equilibrium::Equilibrium;
+    /// use mcm::manipulator::Scene;
+    /// let scene = Scene::parse("[model]\ninteraction = \"rings\"", "doc")?;
+    /// let made = || Equilibrium::new(&scene.design()?, None, scene.settings, 2);
+    /// let (first, second) = (made()?, made()?);
+    /// assert!(first.shares_tables_with(&second));
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn shares_tables_with(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.chain, &other.chain)
     }
 
     /// Returns to the straight shape at the origin and forgets the branch.

@@ -21,3 +21,4 @@ mod sensitivity;
 mod short_helix;
 mod spacing;
 mod stop;
+mod tables;
