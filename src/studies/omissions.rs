@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::fidelity::{SCENES, Walk};
 use crate::design::{Specification, SpiralKind};
-use crate::equilibrium::Interaction;
+use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Scene;
@@ -73,7 +73,7 @@ pub fn omissions() -> Result<Vec<Omission>, Error> {
     let mut out = Vec::new();
     for (name, segments, field) in SCENES {
         let mut exact = Scene::parse(&format!("{field}\n[design]\nsegments = {segments}"), name)?;
-        exact.settings.interaction = Interaction::Rings;
+        exact.settings = Settings { interaction: Interaction::Rings, ..exact.settings.as_discretised() };
         let walk = Walk::new(name, &exact)?;
         let mut whole = f64::NAN;
         for (what, simplify) in SIMPLIFICATIONS {

@@ -9,8 +9,8 @@ use super::failure::Failure;
 use super::study_files::{leave, progress_bar};
 
 const HEADER: &str = "\
-| scene | model | tolerance over length | time (us) | over the richest | tip error over length | angle (deg) | steps by the richest |
-| --- | --- | --- | --- | --- | --- | --- | --- |
+| scene | model | tolerance over length | time (us) | over the richest | tip error over length | angle (deg) |
+| --- | --- | --- | --- | --- | --- | --- |
 ";
 
 const LEFT_OUT: &str = "\
@@ -39,13 +39,7 @@ fn left_out(row: &Omission) -> String {
 fn row(row: &Fidelity) -> String {
     let tolerance = row.tolerance.map_or_else(String::new, |tolerance| format!("{tolerance:.0e}"));
     format!(
-        "| {} | {} | {tolerance} | {:.0} | {:.3} | {:.0e} | {:.0e} | {:.0} % |\n",
-        row.scene,
-        row.model,
-        row.time_us,
-        row.time_relative,
-        row.tip_over_length,
-        row.angle_deg,
-        100.0 * row.by_richest
+        "| {} | {} | {tolerance} | {:.0} | {:.3} | {:.0e} | {:.0e} |\n",
+        row.scene, row.model, row.time_us, row.time_relative, row.tip_over_length, row.angle_deg
     )
 }
