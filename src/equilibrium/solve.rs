@@ -16,7 +16,9 @@ const KEPT: f64 = 0.1;
 /// be large because there is no branch to lose yet.
 const SETTLING: f64 = 4.0;
 
-const STRAIGHT: f64 = 1.0;
+/// Length (radian norm) of the first step from the unloaded shape, as its factorisation predicts it, up to which that step
+/// is tried: Newton's method finds no shape much farther away.
+const STRAIGHT: f64 = 2.0;
 
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
