@@ -64,7 +64,7 @@ pub struct Settings {
     /// Level of local interaction; default [`Interaction::Rings`].
     pub interaction: Interaction,
     /// Largest deviation of a manipulator's tip position from the converged solution of the model, m; default 5e-5, a
-    /// thousandth of the length of nine segments like the paper's: a tenth of what the model itself is uncertain by. Where
+    /// thousandth of the length of nine segments like the paper's: a twentieth of what the model itself is uncertain by. Where
     /// the deviation is larger, a finer discretisation is solved; [`Interaction::Auto`] also chooses the interaction by
     /// it.
     pub tolerance_position: f64,

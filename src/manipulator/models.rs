@@ -161,7 +161,7 @@ impl Models {
 
 impl Models {
     /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
-    /// which a finer one of its own tells for a tenth of the time that the richest would take.
+    /// which a finer one of its own tells.
     fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
         let coarse = &mut self.whole[number];
         let judge = match &mut self.judge {
