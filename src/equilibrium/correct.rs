@@ -1,6 +1,7 @@
 //! Corrector: Newton's method for one shape, and the test whether it has stayed on its branch.
 
 use super::inputs::Inputs;
+use super::potential::Potential;
 use super::search::{CORRECTIONS, Model, NEARLY, PASSING, ROUNDING, Search};
 use crate::numerics::eigenvalue::inner;
 use crate::numerics::trust_region::{Objective, dual_norm, norm};
@@ -196,12 +197,16 @@ impl Search<'_> {
     /// Whether the branch leads from the first shape, at the first inputs, to the second one, just found at the second
     /// inputs.
     ///
-    /// One Newton step at the first inputs with the Hessian of the second shape must lead nearly back. From beyond a fold
-    /// it does not: there the change of the inputs moves the shape by far less than the distance of the two.
+    /// One Newton step at the first inputs must lead nearly back: with the Hessian of the second shape or, as loads may
+    /// stiffen or soften it, with the one under the first inputs. From beyond a fold it does not: there the change of the
+    /// inputs moves the shape by far less than the distance of the two.
     fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
         let metric = &self.model.chain.metric;
         let mut between = std::mem::take(&mut self.scratch.between);
-        between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
+        let apart = |between: &mut [f64]| {
+            between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
+        };
+        apart(&mut between);
         let distance = norm(metric, &between);
         // At such a short distance the last factorisation would have been valid for both.
         if distance <= self.reach * self.model.chain.radian_norm() {
@@ -209,21 +214,18 @@ impl Search<'_> {
             return true;
         }
         let (residual, energy) = (self.report.residual, self.report.energy);
-        let mut returned = false;
-        let mut potential = self.potential(before);
-        if potential.slope(now).is_some() {
+        let mut leads_back = |potential: &mut Potential<'_>| {
+            apart(&mut between);
             potential.add_newton_step(&mut between);
-            returned = norm(metric, &between) <= MISSED * distance;
-        }
+            norm(metric, &between) <= MISSED * distance
+        };
+        let mut potential = self.potential(before);
+        let mut returned = potential.slope(now).is_some() && leads_back(&mut potential);
         if !returned {
-            // A load that stiffens hides the way back: the Hessian under the first inputs knows it.
             let kept = self.work.factorisation.take();
-            between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);
             let mut potential = self.potential(before);
-            if potential.linearise(now).is_some() && potential.factorise(0.0) {
-                potential.add_newton_step(&mut between);
-                returned = norm(metric, &between) <= MISSED * distance;
-            }
+            let regular = potential.linearise(now).is_some() && potential.factorise(0.0);
+            returned = regular && leads_back(&mut potential);
             self.work.factorisation = kept;
         }
         self.scratch.between = between;

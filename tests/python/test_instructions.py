@@ -28,23 +28,30 @@ def scene(segments: int, interaction: str, field: str) -> str:
     return f'{field}[design]\nsegments = {segments}\n[model]\ninteraction = "{interaction}"\ntime_budget_s = 600\n'
 
 
+# Scenes, and what varies in a sweep; `None` is one cold solve.
 SCENES = {
     "S=1 rings, field turning": (scene(1, "rings", "[field]\nuniform_mt = [0, 20, 0]\n"), TURNING),
     "S=9 rings, pair passing": (scene(9, "rings", PAIR), PASSING),
     "S=1 full, pair passing": (scene(1, "full", PAIR), PASSING),
     "S=9 full, pair passing": (scene(9, "full", PAIR), PASSING),
     "S=9 auto, pair passing": (scene(9, "auto", PAIR), PASSING),
+    "S=9 full, pair, cold": (scene(9, "full", PAIR), None),
 }
 
 
 def counted(folder: Path, name: str) -> int:
-    """Instructions of a sweep over a hundred steps, from the start of the program to its end, on one thread."""
+    """Instructions from the start of the program to its end, on one thread."""
     text, vary = SCENES[name]
     (folder / "scene.toml").write_text(text)
+    task = ["sweep", "--vary", vary, "--out", "sweep.csv"] if vary else ["solve"]
     command = [
-        "valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null",
-        program(), "sweep", "scene.toml", "--vary", vary, "--out", "sweep.csv",
-    ]  # fmt: skip
+        "valgrind",
+        "--tool=callgrind",
+        "--callgrind-out-file=/dev/null",
+        program(),
+        *task,
+        "scene.toml",
+    ]
     environment = {**os.environ, "MCM_PORTABLE": "1", "RAYON_NUM_THREADS": "1"}
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, check=False, timeout=600
