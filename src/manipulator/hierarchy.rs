@@ -300,11 +300,12 @@ impl Hierarchy {
     /// would not help. No estimate is made for a solution of the richest model that used up the time budget.
     fn is_within(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();
-        let error = if late { None } else { self.models.error(self.present)? };
+        let tolerance = self.tolerance;
+        let within = |error: &TipDeviation| tolerance.room(error, part) >= 1.0;
+        let error = if late { None } else { self.models.error(self.present, within)? };
         let unknown = TipDeviation { distance: self.length, angle: core::f64::consts::PI };
         self.record(inputs, error.unwrap_or(unknown));
-        let within = |error| self.tolerance.room(&error, part) >= 1.0;
-        Ok(error.map_or(self.present >= self.models.richest(), within))
+        Ok(error.as_ref().map_or(self.present >= self.models.richest(), within))
     }
 
     fn record(&mut self, inputs: &Inputs, error: TipDeviation) {

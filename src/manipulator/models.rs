@@ -136,11 +136,16 @@ impl Models {
 
     /// Estimated tip deviation of a solved model from the converged one; `None` where no estimate is available.
     ///
-    /// Estimating the error of a cheaper model discards the branch of the richest.
+    /// Where the distance from the richest model alone is not allowed, that is all that is told: the error of the richest can
+    /// only add to it. Estimating the error of a cheaper model discards the branch of the richest.
     ///
     /// # Errors
     /// As [`Models::make`].
-    pub(super) fn error(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
+    pub(super) fn error(
+        &mut self,
+        number: usize,
+        is_allowed: impl Fn(&TipDeviation) -> bool,
+    ) -> Result<Option<TipDeviation>, Error> {
         let richest = self.richest();
         if number < richest && self.is_refinement(richest, number) {
             return self.error_of_coarse(number);
@@ -149,6 +154,9 @@ impl Models {
         if number < richest {
             let (cheaper, richest) = self.whole.split_at_mut(richest);
             let Some(deviation) = richest[0].deviation_of(&cheaper[number]) else { return Ok(None) };
+            if !is_allowed(&deviation) {
+                return Ok(Some(deviation));
+            }
             apart = deviation;
         }
         self.make(number.max(richest) + 1)?;
