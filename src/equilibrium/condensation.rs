@@ -13,7 +13,7 @@ use crate::rod::{Configuration, ElementDerivatives, START};
 use super::terms::blocks;
 
 /// Number of columns of the two end nodes.
-pub(super) const NODES: usize = 12;
+const NODES: usize = 12;
 
 /// Number of amplitudes that the end nodes determine.
 const END: usize = 6;

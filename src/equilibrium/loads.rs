@@ -48,14 +48,14 @@ impl Potential<'_> {
             let work = &*self.work;
             element.stations.iter().enumerate().map(move |(index, station)| (station, work.station(k, index)))
         });
-        self.terms.magnet.see(stations, order, &mut fields)?;
+        self.terms.magnet.fields_at(stations, order, &mut fields)?;
         let mut near = &fields.near[..];
         for (k, element) in self.chain.elements.iter().enumerate() {
             let axes = self.work.nodes[k].rotation;
             for (index, station) in element.stations.iter().enumerate() {
-                let seen;
-                (seen, near) = near.split_at(self.terms.magnet.points_on(station));
-                let (frame, pose) = (Frame::Station(station, seen), self.work.station(k, index));
+                let own;
+                (own, near) = near.split_at(self.terms.magnet.points_on(station));
+                let (frame, pose) = (Frame::Station(station, own), self.work.station(k, index));
                 let about = (&base, &mut self.work.wrenches);
                 let load = self.terms.load(&frame, &pose, &axes, order, about)?;
                 energy += load.energy;

@@ -151,7 +151,7 @@ impl<'a> Source<'a> {
 
     /// Evaluates the field at the points of `stations` at their poses, in that order; see [`Self::points`]. `None` inside a
     /// magnet.
-    pub(crate) fn see<'s>(
+    pub(crate) fn fields_at<'s>(
         &self,
         stations: impl Iterator<Item = (&'s Station, Pose)>,
         order: Order,
@@ -263,11 +263,11 @@ impl<'a> Source<'a> {
     }
 
     /// The same for the material of a section at `pose`, represented by `points` with equal shares; the field at the first
-    /// ones may have been seen already.
+    /// ones may have been evaluated already.
     pub(crate) fn on_material(
         &self,
         material: &SectionMaterial,
-        (points, seen): (&[Vector2<f64>], &[Near]),
+        (points, fields): (&[Vector2<f64>], &[Near]),
         pose: &Pose,
         order: Order,
     ) -> Option<Load> {
@@ -281,7 +281,7 @@ impl<'a> Source<'a> {
         let mut sheet = SectionDipoles::new(order == Order::Hessian);
         for (number, position) in points.iter().enumerate() {
             let here;
-            let near = if let Some(near) = seen.get(number) {
+            let near = if let Some(near) = fields.get(number) {
                 near
             } else {
                 let point = section.position + d1 * position.x + d2 * position.y;

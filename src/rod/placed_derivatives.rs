@@ -6,6 +6,7 @@ use super::element::Element;
 use super::element_derivatives::{ElementDerivatives, START};
 use super::placed_load::{PlacedCoupling, PlacedLoad};
 use super::row::ROTATIONS;
+use crate::numerics::dense;
 
 impl ElementDerivatives {
     /// Adds a placed load, except for its force on the tangents of the stations before it.
@@ -57,20 +58,10 @@ impl ElementDerivatives {
         let [first, second] = coupling.between.map(|number| &loads[number]);
         self.motion(element, &first.row, &first.frame.pose.position, &first.frame.left);
         self.answer.fill(0.0);
-        for (r, target) in self.answer.chunks_exact_mut(size).enumerate() {
-            for (c, moved) in self.motion.chunks_exact(size).enumerate() {
-                let factor = coupling.matrix[(c, r)];
-                target.iter_mut().zip(moved).for_each(|(entry, value)| *entry += factor * value);
-            }
-        }
+        // Stored by column: row by row it is the transpose.
+        dense::add_product(coupling.matrix.as_slice(), &self.motion, 6, size, &mut self.answer);
         self.motion(element, &second.row, &second.frame.pose.position, &second.frame.left);
-        for (answer, moved) in self.answer.chunks_exact(size).zip(self.motion.chunks_exact(size)) {
-            for i in 0..size {
-                let target = &mut self.hessian[i * size + i..][..size - i];
-                for (entry, (a, m)) in target.iter_mut().zip(answer[i..].iter().zip(&moved[i..])) {
-                    *entry += answer[i] * m + a * moved[i];
-                }
-            }
-        }
+        dense::add_upper(&self.answer, &self.motion, size, &mut self.hessian);
+        dense::add_upper(&self.motion, &self.answer, size, &mut self.hessian);
     }
 }

@@ -9,7 +9,7 @@ use crate::rod::{SectionMaterial, Station};
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Frame<'a> {
     /// The material represented by a Gauss point of an element; the pose is that of the section. The field of the external
-    /// magnet at its points may have been seen already.
+    /// magnet at its points may have been evaluated already.
     Station(&'a Station, &'a [Near]),
     /// Material of a section, per length or as a whole.
     Section(&'a SectionMaterial),

@@ -49,16 +49,16 @@ impl<'a> Magnet<'a> {
     }
 
     /// Evaluates its field at the material of `stations` at their poses; `None` inside it.
-    pub(crate) fn see<'s>(
+    pub(crate) fn fields_at<'s>(
         &self,
         stations: impl Iterator<Item = (&'s Station, Pose)>,
         order: Order,
         out: &mut StationFields,
     ) -> Option<()> {
-        self.source.as_ref().map_or(Some(()), |source| source.see(stations, order, out))
+        self.source.as_ref().map_or(Some(()), |source| source.fields_at(stations, order, out))
     }
 
-    /// Number of points at which [`Self::see`] evaluates it on a station.
+    /// Number of points at which [`Self::fields_at`] evaluates it on a station.
     pub(crate) fn points_on(&self, station: &Station) -> usize {
         self.source.as_ref().map_or(0, |source| source.points(station).len())
     }
@@ -116,8 +116,8 @@ impl Term for Magnet<'_> {
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
         let Some(source) = &self.source else { return Some(Load::zero()) };
         let load = match frame {
-            Frame::Station(station, seen) => {
-                source.on_material(&station.material, (source.points(station), seen), pose, order)
+            Frame::Station(station, fields) => {
+                source.on_material(&station.material, (source.points(station), fields), pose, order)
             }
             Frame::Section(material) => {
                 source.on_material(material, (&material.moments.points(), &[]), pose, order)
