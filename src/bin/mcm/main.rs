@@ -40,7 +40,7 @@ struct Arguments {
     /// Print version
     #[arg(short = 'V', long)]
     version: bool,
-    /// With --version: also which instructions evaluate fields at many points, and the number of threads
+    /// With --version: also which instructions evaluate fields and matrix products, and the number of threads
     #[arg(long, requires = "version")]
     verbose: bool,
     #[command(subcommand)]
@@ -89,7 +89,7 @@ fn version(verbose: bool) -> Result<ExitCode, Failure> {
     let mut out = std::io::stdout().lock();
     writeln!(out, "mcm {}", env!("CARGO_PKG_VERSION"))?;
     if verbose {
-        writeln!(out, "instructions for fields at many points: {}", Instructions::in_use())?;
+        writeln!(out, "instructions for fields and products: {}", Instructions::in_use())?;
         writeln!(out, "threads: {}", rayon::current_num_threads())?;
     }
     Ok(ExitCode::SUCCESS)
