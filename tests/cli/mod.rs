@@ -83,7 +83,7 @@ fn the_version_tells_the_instructions_in_use() {
         .env("MCM_PORTABLE", "1")
         .output()
         .unwrap();
-    assert!(stdout(&forced).contains("points: portable\n"), "{}", stdout(&forced));
+    assert!(stdout(&forced).contains("products: portable\n"), "{}", stdout(&forced));
     assert_status(&mcm(&here, &["--verbose"]), 1);
 }
 
