@@ -125,11 +125,11 @@ fn every_method_has_the_same_bending_stop() {
     ] {
         let [y, z] = field;
         let mut scene = scene(&format!("[field]\nuniform_mt = [0, {y}, {z}]"), 3, interaction);
-        scene.settings.bending_stop = true;
+        scene.settings.bending_stop = Some(true);
         let design = scene.design().expect("a design");
         let length = design.length();
         let reference = reference(&scene, equilibrium::Settings { degree: 8, ..scene.settings });
-        let free = equilibrium::Settings { bending_stop: false, ..scene.settings };
+        let free = equilibrium::Settings { bending_stop: Some(false), ..scene.settings };
         let open = device(&Scene { settings: free, ..scene.clone() }, Settings::default())
             .solve(&scene.inputs)
             .map(|out| (out.status == Status::Solved, out.tip_angle));

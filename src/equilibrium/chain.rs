@@ -52,8 +52,8 @@ pub(crate) struct Chain {
 type Discretisation = (Interaction, usize, usize, f64, bool);
 
 fn discretisation(settings: &Settings) -> Discretisation {
-    let Settings { interaction, degree, cylinder_elements, pair_accuracy, bending_stop, .. } = *settings;
-    (interaction, degree, cylinder_elements, pair_accuracy, bending_stop)
+    let Settings { interaction, degree, cylinder_elements, pair_accuracy, .. } = *settings;
+    (interaction, degree, cylinder_elements, pair_accuracy, settings.has_bending_stop())
 }
 
 impl Chain {
@@ -74,7 +74,7 @@ impl Chain {
                 bend: 0.0,
                 accuracy: SPAN_SHARE * settings.pair_accuracy,
             }),
-            bending_stop: settings.bending_stop,
+            bending_stop: settings.has_bending_stop(),
         };
         let (mut elements, mut cores, mut chains): (Vec<Element>, _, Vec<Vec<Piece<'_>>>) =
             (Vec::new(), Vec::new(), Vec::new());

@@ -71,8 +71,8 @@ pub struct Settings {
     /// Largest rotation of the tip relative to the converged solution, rad; default 0.1 deg.
     pub tolerance_angle: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent windings
-    /// touch; default no, as in the paper's model. [`Interaction::Auto`] always includes it.
-    pub bending_stop: bool,
+    /// touch. By default (`None`) the level decides, see [`Settings::has_bending_stop`].
+    pub bending_stop: Option<bool>,
     /// Highest polynomial degree of the strain modes of a segment, 0 to 8; default 2. Four degrees are added where rings
     /// act on spans, and a manipulator adds two or four where its tolerances need them.
     pub degree: usize,
@@ -109,7 +109,7 @@ impl Default for Settings {
             interaction: Interaction::Rings,
             tolerance_position: 5e-5,
             tolerance_angle: 0.1 * core::f64::consts::PI / 180.0,
-            bending_stop: false,
+            bending_stop: None,
             degree: 2,
             cylinder_elements: 8,
             pair_accuracy: 1e-5,
@@ -124,6 +124,13 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Whether the model has the bending stop: as told or, if nothing is told, at the level [`Interaction::Auto`] alone, as the
+    /// paper's model has none.
+    #[must_use]
+    pub fn has_bending_stop(&self) -> bool {
+        self.bending_stop.unwrap_or(self.interaction == Interaction::Auto)
+    }
+
     /// The same settings without tolerances of the tip: the discretisation is exactly the one that the settings specify.
     #[must_use]
     pub fn as_discretised(&self) -> Self {

@@ -314,7 +314,7 @@ impl Hierarchy {
         if let Some(estimate) = &mut self.estimate {
             estimate.renew(model, inputs, error);
         } else {
-            let stops = self.models.at(self.models.richest()).settings().bending_stop;
+            let stops = self.models.at(self.models.richest()).settings().has_bending_stop();
             self.estimate = Some(ErrorEstimate::new(model, inputs, error, stops));
         }
     }

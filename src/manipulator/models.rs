@@ -108,7 +108,7 @@ impl Models {
     pub(super) fn is_refinement(&self, number: usize, of: usize) -> bool {
         let interaction = |number| {
             let settings = self.at(number).settings();
-            (settings.interaction, settings.bending_stop)
+            (settings.interaction, settings.has_bending_stop())
         };
         interaction(number) == interaction(of)
     }
@@ -192,8 +192,9 @@ pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
         ..model
     };
     let iterations = settings.iterations.min(CHEAP);
-    let cheap = |interaction| Settings { interaction, bending_stop: false, iterations, ..*settings };
-    let richest = Settings { interaction: Interaction::Full, bending_stop: true, ..*settings };
+    let cheap = |interaction| Settings { interaction, bending_stop: Some(false), iterations, ..*settings };
+    let bending_stop = Some(settings.has_bending_stop());
+    let richest = Settings { interaction: Interaction::Full, bending_stop, ..*settings };
     let mut out = vec![coarse(COARSE, cheap(Interaction::None))];
     if has_rings {
         out.push(coarse(COARSE, cheap(Interaction::Rings)));

@@ -30,7 +30,8 @@ pub(super) struct Line {
 
 impl Line {
     pub(super) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
-        let plain = Settings { interaction: Interaction::None, degree: 0, bending_stop: false, ..*settings };
+        let plain =
+            Settings { interaction: Interaction::None, degree: 0, bending_stop: Some(false), ..*settings };
         let chain = Chain::new(design, &plain)?;
         let spans: Vec<Vec<Span>> = design
             .segments()

@@ -94,7 +94,7 @@ fn devices() -> Result<Vec<Device>, Error> {
         // Where a shape ends is told to a hundredth of a degree.
         let (tolerance_position, tolerance_angle) = (1e-5, 1e-3);
         let exact = Settings { tolerance_position, tolerance_angle, ..Settings::default() };
-        Device::new(design.clone(), Settings { interaction, bending_stop, ..exact })
+        Device::new(design.clone(), Settings { interaction, bending_stop: Some(bending_stop), ..exact })
     };
     Ok(vec![
         device(Interaction::Rings, false),

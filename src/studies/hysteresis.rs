@@ -92,7 +92,8 @@ pub fn hysteresis() -> Result<Study, Error> {
 /// None for the paper's design.
 pub(super) fn manipulator() -> Result<Manipulator, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
-    let settings = Settings { interaction: Interaction::Rings, bending_stop: true, ..Settings::default() };
+    let settings =
+        Settings { interaction: Interaction::Rings, bending_stop: Some(true), ..Settings::default() };
     Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)
 }
 

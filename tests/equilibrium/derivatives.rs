@@ -43,7 +43,8 @@ fn cases() -> Vec<Case> {
         for (magnet, degree, closed) in
             [(false, 0, false), (false, 2, false), (true, 3, false), (true, 2, true)]
         {
-            let settings = Settings { interaction, degree, bending_stop: closed, ..Settings::default() };
+            let settings =
+                Settings { interaction, degree, bending_stop: Some(closed), ..Settings::default() };
             let assembly = pair();
             let equilibrium =
                 Equilibrium::new(&design, magnet.then_some(&assembly), settings, 2).expect("allowed");

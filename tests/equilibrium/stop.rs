@@ -14,7 +14,7 @@ fn design(segments: usize) -> Design {
 }
 
 fn manipulator(segments: usize, interaction: Interaction, bending_stop: bool) -> Equilibrium {
-    let settings = Settings { interaction, bending_stop, ..Settings::default() };
+    let settings = Settings { interaction, bending_stop: Some(bending_stop), ..Settings::default() };
     Equilibrium::new(&design(segments), None, settings, 2).expect("default settings")
 }
 
@@ -154,7 +154,8 @@ fn the_margin_follows_windings_that_close() {
     let Specification::Segmented(mut paper) = Specification::paper(1) else { unreachable!() };
     paper.helix.boundary_angle = 77_f64.to_radians();
     let design = Design::new(Specification::Segmented(paper)).expect("allowed");
-    let settings = Settings { interaction: Interaction::Full, bending_stop: true, ..Settings::default() };
+    let settings =
+        Settings { interaction: Interaction::Full, bending_stop: Some(true), ..Settings::default() };
     let manipulator = || Equilibrium::new(&design, None, settings, 2).expect("default settings");
     let (mut short, mut worst, mut told) = (manipulator(), 0.0_f64, Vec::new());
     for step in 0..=1500 {

@@ -33,7 +33,7 @@ fn only_models_of_one_design_and_discretisation_share_them() {
         Settings { degree: 3, ..usual },
         Settings { pair_accuracy: 1e-4, ..usual },
         Settings { cylinder_elements: 4, ..usual },
-        Settings { bending_stop: true, ..usual },
+        Settings { bending_stop: Some(true), ..usual },
     ];
     for settings in others {
         assert!(!one.shares_tables_with(&model(2, settings)), "{settings:?}");

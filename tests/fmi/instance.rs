@@ -1,6 +1,7 @@
 //! The life of an instance.
 
 use allocation_counter::measure;
+use mcm::equilibrium::Interaction;
 use mcm::fmi::Instance;
 use mcm::fmi::state::{Ending, State};
 use mcm::fmi::value::Value;
@@ -134,6 +135,34 @@ fn a_bad_value_in_the_middle_of_a_call_changes_nothing() {
     }
     assert_eq!(instance.set(&[strength, length, stop], good.into_iter()), Ending::Ok);
     assert_ne!(state(&mut instance), before);
+}
+
+#[test]
+fn the_level_decides_about_the_bending_stop_until_it_is_set() {
+    for (scene, asked, level, acts) in [
+        ("", None, None, true),
+        ("[model]\ninteraction = \"rings\"", None, None, false),
+        ("[model]\nbending_stop = false", None, None, false),
+        ("", None, Some(Interaction::Rings), false),
+        ("[model]\ninteraction = \"rings\"", None, Some(Interaction::Auto), true),
+        ("[model]\nbending_stop = true", None, Some(Interaction::Rings), true),
+        ("", Some(false), None, false),
+        ("", Some(true), Some(Interaction::Rings), true),
+        ("[model]\nbending_stop = true", Some(false), Some(Interaction::Full), false),
+    ] {
+        let (mut instance, package, told) = instance(&format!("{scene}\n[design]\nsegments = 1"));
+        let of = |name: &str| [reference(package.table(), name)];
+        if let Some(asked) = asked {
+            let set = instance.set(&of("model.bending_stop"), [Value::Boolean(asked)].into_iter());
+            assert_eq!(set, Ending::Ok, "{}", last(&told));
+        }
+        if let Some(level) = level {
+            let set = instance.set(&of("model.interaction"), [Value::Integer(level as i32)].into_iter());
+            assert_eq!(set, Ending::Ok, "{}", last(&told));
+        }
+        let shown = instance.get(&of("model.bending_stop"), "Boolean", Value::boolean).unwrap()[0];
+        assert_eq!(shown, acts, "{scene:?}, {asked:?}, {level:?}");
+    }
 }
 
 #[test]

@@ -234,7 +234,7 @@ fn windings_that_touch() {
     let design = Design::new(Specification::paper(2)).unwrap();
     let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.04, -0.01), ..everything(3) };
     inputs.base.rotation = RotationVector::new(Vector3::new(0.1, 0.2, 0.3)).matrix();
-    let settings = Settings { bending_stop: true, ..settings(Interaction::Rings) };
+    let settings = Settings { bending_stop: Some(true), ..settings(Interaction::Rings) };
     let mut manipulator = Manipulator::new(&design, Some(&pair()), settings, POINTS).unwrap();
     let largest = manipulator.solve(&inputs).unwrap().core_angles.iter().copied().fold(0.0, f64::max);
     assert!(largest.to_degrees() > 40.0, "open at {} deg", largest.to_degrees());

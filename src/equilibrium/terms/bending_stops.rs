@@ -11,7 +11,7 @@ pub(crate) struct BendingStops {
 
 impl BendingStops {
     pub(super) fn new(settings: &Settings) -> Self {
-        Self { act: settings.bending_stop }
+        Self { act: settings.has_bending_stop() }
     }
 
     /// The bending stop of an element's core; `None` where it has no windings, or where the model has no stops.

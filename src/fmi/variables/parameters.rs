@@ -79,11 +79,11 @@ impl Rows {
         self.scalar(draft.min(0.0).tunable());
 
         let bending_stop = Access::Boolean {
-            get: |values| values.settings.bending_stop,
-            set: |values, on| values.settings.bending_stop = on,
+            get: |values| values.settings.has_bending_stop(),
+            set: |values, on| values.settings.bending_stop = Some(on),
         };
-        let description =
-            "Whether a core stiffens once it has bent by its boundary angle, because windings touch";
+        let description = "Whether a core stiffens once it has bent by its boundary angle, because windings touch; \
+                           where it is not set, the level decides: at auto it does";
         self.scalar(Draft::parameter("model.bending_stop", DataType::Boolean, description, bending_stop));
 
         let budget = access!(|values| values.settings.time_budget);

@@ -254,7 +254,8 @@ pub(super) struct ModelEntries {
     pub(super) interaction: Interaction,
     #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
     pub(super) method: Method,
-    pub(super) bending_stop: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) bending_stop: Option<bool>,
     pub(super) time_budget_s: f64,
 }
 
@@ -263,7 +264,7 @@ impl Default for ModelEntries {
         Self {
             interaction: Interaction::Auto,
             method: Method::Potential,
-            bending_stop: false,
+            bending_stop: None,
             time_budget_s: Settings::default().time_budget,
         }
     }

@@ -240,7 +240,7 @@ fn verdict_of_auto(scene: &Scene, manipulator: &Manipulator, out: &Outputs) -> V
     let design = scene.design().unwrap();
     let settings = Settings {
         interaction: Interaction::Full,
-        bending_stop: true,
+        bending_stop: Some(scene.settings.has_bending_stop()),
         degree: DEGREE,
         pair_accuracy: PAIR_ACCURACY,
         ..scene.settings

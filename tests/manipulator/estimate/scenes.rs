@@ -71,7 +71,7 @@ impl Scene {
         });
         let settings = Settings {
             interaction: level.map_or(Interaction::Auto, |level| level.0),
-            bending_stop: random.random_bool(0.3),
+            bending_stop: random.random_bool(0.3).then_some(true),
             ..Settings::default()
         };
         Self { inputs: inputs(&mut random, &design), design, settings }
@@ -86,7 +86,7 @@ impl Scene {
         let (degree, pair_accuracy) = CONVERGED;
         let converged = Settings {
             interaction: if auto { Interaction::Full } else { self.settings.interaction },
-            bending_stop: auto || self.settings.bending_stop,
+            bending_stop: Some(self.settings.has_bending_stop()),
             degree,
             pair_accuracy,
             time_budget: 30.0,
