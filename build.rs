@@ -1,8 +1,12 @@
-//! With feature `bindgen`: writes the FMI bindings anew from the official headers, to `$OUT_DIR/bindings.rs`, and fails
+//! Says where the libraries are built. With feature `bindgen`: writes the FMI bindings anew from the official headers, to `$OUT_DIR/bindings.rs`, and fails
 //! unless the checked-in `src/fmi/bindings.rs`, which is what the crate compiles, is the same.
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
+    // The folder in which cargo leaves the library, three above that of this script's output: `mcm pack` looks for it there.
+    let out = std::path::PathBuf::from(std::env::var("OUT_DIR").unwrap_or_default());
+    let folder = out.ancestors().nth(3).unwrap_or(&out);
+    println!("cargo::rustc-env=MCM_BUILD_FOLDER={}", folder.display());
     #[cfg(feature = "bindgen")]
     bindings::write();
 }

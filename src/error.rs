@@ -42,12 +42,20 @@ pub enum Error {
         /// Why it was refused.
         reason: String,
     },
+    /// Several faults of one text.
+    #[error("{}", in_lines(.0))]
+    Several(Vec<Error>),
     /// Derivatives were asked for where there are none: at a fold, or before anything is solved.
     #[error("no derivatives: {0}")]
     NoDerivatives(String),
     /// A combination of choices that does not exist.
     #[error("{0}")]
     Unsupported(String),
+}
+
+/// One line for each.
+fn in_lines(errors: &[Error]) -> String {
+    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 impl Error {

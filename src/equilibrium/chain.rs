@@ -19,7 +19,7 @@ const EXTRA_DEGREES: usize = 4;
 /// # Errors
 /// [`Error::Range`] for fewer than two points, the two ends.
 pub(crate) fn arc_lengths(length: f64, points: usize) -> Result<impl Iterator<Item = f64>, Error> {
-    check("number of shape points", points as f64, |v| v >= 2.0, ">= 2")?;
+    check("number of shape points", points as f64, |v| (2.0..=1e5).contains(&v), "from 2 to 100000")?;
     Ok((0..points).map(move |i| length * i as f64 / (points - 1) as f64))
 }
 

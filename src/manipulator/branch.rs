@@ -1,8 +1,10 @@
 //! Following a branch along a path of inputs, and locating the folds where it is left.
 
+use serde::{Deserialize, Serialize};
+
 use super::prediction::predicted;
 use super::solve::Solve;
-use super::{Inputs, Outcome, Outputs, Status};
+use super::{Inputs, Outcome, Outputs, Snapshot, Status};
 use crate::error::{Error, check};
 
 /// Width of the interval in which a fold is located, relative to the span of the path.
@@ -12,7 +14,7 @@ const FOLD_WIDTH: f64 = 1e-5;
 const REMEMBERED: usize = 3;
 
 /// A fold, where the followed branch was left.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
     /// Path parameter at the fold: the middle of an interval of 1e-5 of the path's span.
     pub value: f64,
@@ -52,6 +54,16 @@ pub struct Branch<F> {
     lost: bool,
     folds: Vec<Fold>,
     /// Path parameter and stability margin at the last solved targets of [`Branch::to`] on this branch.
+    margins: Vec<(f64, f64)>,
+}
+
+/// Serializable state of a branch that is being followed, from which another one goes on with bit-identical results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PathSnapshot {
+    manipulator: Snapshot,
+    here: Option<f64>,
+    lost: bool,
+    folds: Vec<Fold>,
     margins: Vec<(f64, f64)>,
 }
 
@@ -134,6 +146,25 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     #[must_use]
     pub fn predicted_fold(&self) -> Option<f64> {
         predicted(&self.margins)
+    }
+
+    /// The state; `None` for a manipulator solved by another method than the potential method.
+    #[must_use]
+    pub fn snapshot(&self) -> Option<PathSnapshot> {
+        let Self { manipulator, here, lost, folds, margins, .. } = self;
+        let (manipulator, folds, margins) = (manipulator.snapshot()?, folds.clone(), margins.clone());
+        Some(PathSnapshot { manipulator, here: *here, lost: *lost, folds, margins })
+    }
+
+    /// Goes on from the state of another branch of the same manipulator, inputs and steps.
+    ///
+    /// # Errors
+    /// As [`Manipulator::restore`](super::Manipulator::restore).
+    pub fn restore(&mut self, snapshot: PathSnapshot) -> Result<(), Error> {
+        let PathSnapshot { manipulator, here, lost, folds, margins } = snapshot;
+        self.manipulator.restore(&manipulator)?;
+        (self.here, self.lost, self.folds, self.margins) = (here, lost, folds, margins);
+        Ok(())
     }
 
     fn trial(&self, value: f64) -> Result<Box<dyn Solve>, Error> {

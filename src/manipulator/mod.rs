@@ -12,7 +12,7 @@ mod scene;
 mod solve;
 
 pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output};
-pub use branch::{Branch, Fold};
+pub use branch::{Branch, Fold, PathSnapshot};
 pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
 pub use models::models_of_auto;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Inputs, Jacobian, Manipulator, Outputs};
+use super::{Inputs, Jacobian, Manipulator, Outputs, Snapshot};
 use crate::error::Error;
 
 /// A manipulator solved by any method; see [`super::Scene::device`].
@@ -28,6 +28,19 @@ pub trait Solve: fmt::Debug {
     /// As [`Manipulator::jacobian`]; [`Error::NoDerivatives`] for any other method.
     fn jacobian(&self) -> Result<Jacobian, Error>;
 
+    /// As [`Manipulator::snapshot`]; `None` for any other method.
+    fn snapshot(&self) -> Option<Snapshot> {
+        None
+    }
+
+    /// As [`Manipulator::restore`].
+    ///
+    /// # Errors
+    /// As [`Manipulator::restore`]; [`Error::Unsupported`] for any other method.
+    fn restore(&mut self, _: &Snapshot) -> Result<(), Error> {
+        Err(Error::Unsupported("this method has no snapshots".into()))
+    }
+
     /// A full copy, which gives bit for bit the same answers as the original.
     fn duplicate(&self) -> Box<dyn Solve>;
 }
@@ -51,6 +64,14 @@ impl Solve for Manipulator {
 
     fn jacobian(&self) -> Result<Jacobian, Error> {
         Self::jacobian(self)
+    }
+
+    fn snapshot(&self) -> Option<Snapshot> {
+        Some(Self::snapshot(self))
+    }
+
+    fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        Self::restore(self, snapshot)
     }
 
     fn duplicate(&self) -> Box<dyn Solve> {

@@ -59,8 +59,9 @@ fn external_field_adds_up_in_the_world_frame() {
 fn bad_points_are_refused_with_their_line() {
     for (points, expected) in [
         ("x_m,y_m,z_m\n0,0,0.01\n0.002,0,0.0005\n", "points.csv, line 3: the field at"),
-        ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is not a number"),
-        ("x_m,y_m,z_m\n0,nan,0.01\n", "points.csv, line 2: "),
+        ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is not a finite number"),
+        ("x_m,y_m,z_m\n0,nan,0.01\n", "points.csv, line 2: y_m = \"nan\" is not a finite number"),
+        ("x_m,y_m,z_m\n0,0\n", "cannot read points.csv: CSV error"),
         ("x,y,z\n0,0,0.01\n", "points.csv has no column x_m; it has x, y, z"),
         ("x_m,y_m,z_m\n0,0\n", "line: 2"),
     ] {
@@ -72,4 +73,28 @@ fn bad_points_are_refused_with_their_line() {
     let (_, output) = run("no_ring", rod, "x_m,y_m,z_m\n0,0,0\n", &["--ring"]);
     assert_status(&output, 1);
     assert!(stderr(&output).contains("has no ring"));
+}
+
+#[test]
+fn without_a_magnet_bad_points_are_refused_all_the_same_and_an_older_table_stays() {
+    let points = "x_m,y_m,z_m\n0,0,0.01\n0,inf,0\n";
+    let (here, output) = run("no magnet", "[field]\nuniform_mt = [0, 1, 0]", points, &[]);
+    assert_status(&output, 1);
+    let expected = "points.csv, line 3: y_m = \"inf\" is not a finite number";
+    assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    assert!(!here.join("field.csv").exists());
+    std::fs::write(here.join("field.csv"), "older").unwrap();
+    let arguments = ["field", "scene.toml", "--at", "points.csv", "--out"];
+    for (out, expected) in [
+        ("field.csv", "is not a finite number"),
+        ("points.csv", "points.csv would be written over points.csv, which is read"),
+        ("./scene.toml", "which is read"),
+    ] {
+        let output = mcm(&here, &[&arguments[..], &[out]].concat());
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
+    }
+    assert_eq!(std::fs::read_to_string(here.join("field.csv")).unwrap(), "older");
+    assert_eq!(std::fs::read_to_string(here.join("points.csv")).unwrap(), points);
+    assert_eq!(std::fs::read_dir(&here).unwrap().count(), 3, "nothing half written is left");
 }

@@ -9,7 +9,8 @@ mod study;
 mod sweep;
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 
 /// A folder of its own for one test, emptied first.
 fn folder(test: &str) -> PathBuf {
@@ -21,6 +22,32 @@ fn folder(test: &str) -> PathBuf {
 
 fn mcm(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_mcm")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// Starts `mcm` with its output caught.
+fn start(folder: &Path, arguments: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_mcm"))
+        .current_dir(folder)
+        .args(arguments)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Waits until it holds, at most half a minute.
+fn wait_for(mut holds: impl FnMut() -> bool) {
+    let start = Instant::now();
+    while !holds() && start.elapsed() < Duration::from_secs(30) {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Ctrl-C, or an end without warning.
+fn interrupt(child: &Child, at_once: bool) {
+    let signal = if at_once { "KILL" } else { "INT" };
+    let sent = Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status();
+    assert!(sent.is_ok());
 }
 
 /// Runs `mcm` with a scene file of the given text, named in `arguments` as `scene.toml`.

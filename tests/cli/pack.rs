@@ -15,10 +15,36 @@ const LIBRARIES: [(&str, &[u8]); 4] = [
     ("text.dll", b"no library"),
 ];
 
+/// Names as a library's table of symbols holds them.
+const FUNCTIONS: [&str; 16] = [
+    "fmi2GetTypesPlatform",
+    "fmi2GetVersion",
+    "fmi2Instantiate",
+    "fmi2FreeInstance",
+    "fmi2SetupExperiment",
+    "fmi2EnterInitializationMode",
+    "fmi2ExitInitializationMode",
+    "fmi2Terminate",
+    "fmi2Reset",
+    "fmi2GetReal",
+    "fmi2GetInteger",
+    "fmi2GetBoolean",
+    "fmi2SetReal",
+    "fmi2SetInteger",
+    "fmi2SetBoolean",
+    "fmi2DoStep",
+];
+
+/// The bytes of a file of [`LIBRARIES`], followed by the names of its functions.
+fn library(number: usize) -> Vec<u8> {
+    let names = format!("\0{}\0", FUNCTIONS.join("\0"));
+    [LIBRARIES[number].1, names.as_bytes()].concat()
+}
+
 fn libraries(test: &str) -> std::path::PathBuf {
     let folder = folder(test);
-    for (name, bytes) in LIBRARIES {
-        fs::write(folder.join(name), bytes).unwrap();
+    for (number, (name, _)) in LIBRARIES.iter().enumerate() {
+        fs::write(folder.join(name), library(number)).unwrap();
     }
     folder
 }
@@ -59,11 +85,11 @@ fn an_archive_carries_several_platforms() {
     assert_status(&output, 0);
     let found = binaries(&folder.join("mcm.fmu"));
     let expected = [
-        ("binaries/darwin64/mcm.dylib", LIBRARIES[2].1),
-        ("binaries/linux64/mcm.so", LIBRARIES[0].1),
-        ("binaries/win64/mcm.dll", LIBRARIES[1].1),
+        ("binaries/darwin64/mcm.dylib", library(2)),
+        ("binaries/linux64/mcm.so", library(0)),
+        ("binaries/win64/mcm.dll", library(1)),
     ];
-    assert_eq!(found, expected.map(|(name, bytes)| (name.to_owned(), bytes.to_vec())));
+    assert_eq!(found, expected.map(|(name, bytes)| (name.to_owned(), bytes)));
 }
 
 #[test]
@@ -99,4 +125,63 @@ fn what_cannot_be_packed_is_said_and_nothing_is_written() {
         assert!(stderr(&output).contains(reason), "{arguments:?}: {}", stderr(&output));
         assert!(!folder.join("mcm.fmu").exists(), "{arguments:?}");
     }
+}
+
+#[test]
+fn a_library_without_the_functions_of_an_fmu_is_refused() {
+    let folder = libraries("pack functions");
+    let whole = library(0);
+    for name in FUNCTIONS {
+        let text = String::from_utf8_lossy(&whole).replace(&format!("\0{name}\0"), "\0fmi3DoStep\0");
+        fs::write(folder.join("other.so"), text).unwrap();
+        let output = mcm(&folder, &["pack", "--out", "mcm.fmu", "--library", "other.so"]);
+        assert_status(&output, 1);
+        let expected = format!("other.so is not the library of an FMU: it has no function {name}");
+        assert!(stderr(&output).contains(&expected), "{}", stderr(&output));
+        assert!(!folder.join("mcm.fmu").exists());
+    }
+}
+
+#[test]
+fn an_archive_is_not_written_over_what_is_read_and_an_older_one_stays_until_it_is_complete() {
+    let folder = libraries("pack over");
+    fs::write(folder.join("scene.toml"), "[design]\nsegments = 1").unwrap();
+    for out in ["scene.toml", "./linux.so", "windows.dll"] {
+        let arguments = [
+            "pack",
+            "--scene",
+            "scene.toml",
+            "--library",
+            "linux.so",
+            "--binary",
+            "win64=windows.dll",
+            "--out",
+            out,
+        ];
+        let output = mcm(&folder, &arguments);
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains("which is read"), "{out}: {}", stderr(&output));
+    }
+    fs::write(folder.join("old.fmu"), "an older one").unwrap();
+    assert_status(&mcm(&folder, &["pack", "--library", "text.dll", "--out", "old.fmu"]), 1);
+    assert_eq!(fs::read_to_string(folder.join("old.fmu")).unwrap(), "an older one");
+    assert_status(&mcm(&folder, &["pack", "--library", "linux.so", "--out", "old.fmu"]), 0);
+    assert_eq!(binaries(&folder.join("old.fmu")).len(), 1);
+    let left = fs::read_dir(&folder)
+        .unwrap()
+        .filter(|entry| entry.as_ref().unwrap().file_name().to_string_lossy().ends_with(".part"));
+    assert_eq!(left.count(), 0, "nothing half written is left");
+}
+
+/// As `cargo install` leaves it: a program alone in its folder, whose library is where both were built.
+#[test]
+fn an_installed_program_finds_its_library() {
+    let folder = folder("pack installed");
+    let program = folder.join("mcm");
+    fs::copy(env!("CARGO_BIN_EXE_mcm"), &program).unwrap();
+    let output =
+        std::process::Command::new(&program).current_dir(&folder).args(["pack", "--out", "a.fmu"]).output();
+    let output = output.unwrap();
+    assert_status(&output, 0);
+    assert!(binaries(&folder.join("a.fmu")).iter().any(|(_, bytes)| bytes.len() > 100_000));
 }

@@ -1,6 +1,6 @@
 //! `mcm sweep`.
 
-use super::{assert_status, stderr, table, with_scene};
+use super::{assert_status, mcm, stderr, stdout, table, with_scene};
 use crate::tolerance::{ROUNDING, SAME_SHAPE, TWO_DECIMALS_DEG};
 
 const SCENE: &str = "[design]\nsegments = 1\n[model]\ninteraction = \"none\"\n";
@@ -55,4 +55,163 @@ fn bad_ranges_are_refused() {
         assert!(stderr(&output).contains(expected), "{vary}: {}", stderr(&output));
         assert!(!here.join("sweep.csv").exists(), "nothing is written for bad input");
     }
+}
+
+/// Two folds on the way forth, and back.
+const FOLDING: &str =
+    "[design]\nsegments = 2\n[field]\nuniform_mt = [0, 15, 0]\n[model]\ninteraction = \"rings\"\n";
+
+const ASKED: [&str; 9] = [
+    "sweep",
+    "scene.toml",
+    "--vary",
+    "field.turn_deg=0:170:18",
+    "--vary",
+    "design.helix.length_mm=3.8:4.2:3",
+    "--back",
+    "--folds",
+    "folds.csv",
+];
+
+fn asked<'a>(more: &[&'a str]) -> Vec<&'a str> {
+    [&ASKED[..], more].concat()
+}
+
+#[test]
+fn a_sweep_that_was_cut_short_ends_with_the_same_table() {
+    let (here, output) = with_scene("resume", FOLDING, &asked(&["--out", "whole.csv"]));
+    let said = stdout(&output).replace("whole.csv", "cut.csv");
+    assert!(!here.join("whole.csv.part").exists());
+    let read = |name: &str| std::fs::read(here.join(name)).unwrap();
+    let (whole, folds) = (read("whole.csv"), read("folds.csv"));
+    // Stopped early, later, and in the middle of a line; then by a crash of the writer.
+    let resumed = asked(&["--out", "cut.csv", "--resume"]);
+    let part = here.join("cut.csv.part");
+    let mut cut = 0;
+    for (number, rows) in [5, 30, 60].into_iter().enumerate() {
+        let first = if number == 0 { asked(&["--out", "cut.csv"]) } else { resumed.clone() };
+        let mut child = super::start(&here, &first);
+        super::wait_for(|| rows_in(&part) >= rows || child.try_wait().unwrap().is_some());
+        super::interrupt(&child, number == 1);
+        let ended = child.wait_with_output().unwrap();
+        if ended.status.success() || ended.status.code() == Some(2) {
+            break; // it was faster
+        }
+        cut += 1;
+        assert!(!here.join("cut.csv").exists(), "nothing half written");
+        if number != 1 {
+            assert_status(&ended, 130);
+            assert!(stderr(&ended).contains("its rows so far are in cut.csv.part"), "{}", stderr(&ended));
+        }
+        assert!(rows_in(&part) >= rows, "finished rows are kept");
+        let again = mcm(&here, &asked(&["--out", "cut.csv"]));
+        assert_status(&again, 1);
+        assert!(stderr(&again).contains("go on with --resume, or delete it"), "{}", stderr(&again));
+        let other =
+            ["sweep", "scene.toml", "--vary", "field.turn_deg=0:170:19", "--out", "cut.csv", "--resume"];
+        assert!(stderr(&mcm(&here, &other)).contains("is of another sweep"));
+        let text = std::fs::read_to_string(&part).unwrap();
+        std::fs::write(&part, format!("{text}12,3.0,4")).unwrap();
+    }
+    assert!(cut > 0, "never caught");
+    if part.exists() {
+        let last = mcm(&here, &resumed);
+        assert_eq!(last.status.code(), output.status.code(), "{}", stderr(&last));
+        assert_eq!(stdout(&last), said);
+    }
+    assert_eq!(read("cut.csv"), whole);
+    assert_eq!(read("folds.csv"), folds);
+    assert!(!part.exists(), "nothing is left beside the table");
+}
+
+/// Number of rows in the file of an unfinished sweep.
+fn rows_in(part: &std::path::Path) -> usize {
+    let text = std::fs::read_to_string(part).unwrap_or_default();
+    text.lines().filter(|line| line.starts_with(|first: char| first.is_ascii_digit())).count()
+}
+
+#[test]
+fn there_may_be_nothing_to_resume() {
+    let arguments =
+        ["sweep", "scene.toml", "--vary", "field.uniform_mt[2]=0:1:2", "--out", "a.csv", "--resume"];
+    let (here, output) = with_scene("nothing to resume", SCENE, &arguments);
+    assert_status(&output, 0);
+    assert!(stderr(&output).contains("no unfinished sweep a.csv.part"), "{}", stderr(&output));
+    assert_eq!(table(&here.join("a.csv")).len(), 2);
+}
+
+#[test]
+fn a_table_of_devices_goes_on_row_by_row() {
+    let vary = |out| ["sweep", "scene.toml", "--vary", "design.helix.length_mm=3.5:4.5:5", "--out", out];
+    let (here, output) = with_scene("devices", SCENE, &vary("whole.csv"));
+    assert_status(&output, 0);
+    let whole = std::fs::read_to_string(here.join("whole.csv")).unwrap();
+    // What a sweep that was cut off after three rows has left.
+    assert_status(&mcm(&here, &[&vary("cut.csv")[..], &["--resume"]].concat()), 0);
+    std::fs::remove_file(here.join("cut.csv")).unwrap();
+    let mut child = super::start(&here, &vary("cut.csv"));
+    let part = here.join("cut.csv.part");
+    super::wait_for(|| rows_in(&part) >= 1 || child.try_wait().unwrap().is_some());
+    super::interrupt(&child, true);
+    child.wait().unwrap();
+    if !here.join("cut.csv").exists() {
+        assert_status(&mcm(&here, &[&vary("cut.csv")[..], &["--resume"]].concat()), 0);
+    }
+    assert_eq!(std::fs::read_to_string(here.join("cut.csv")).unwrap(), whole);
+}
+
+#[test]
+fn what_cannot_be_swept_is_said_before_the_first_solve() {
+    let field = "field.uniform_mt[2]=0:1:2";
+    for (arguments, expected) in [
+        (
+            &["--vary", field, "--vary", field, "--out", "a.csv"][..],
+            "--vary field.uniform_mt[2] occurs twice",
+        ),
+        (
+            &[
+                "--vary",
+                "field.turn_deg=0:1:1000000",
+                "--vary",
+                "field.uniform_mt[2]=0:1:1000000",
+                "--out",
+                "a.csv",
+            ],
+            "1000000 x 1000000 rows are too many: at most 1000000",
+        ),
+        (&["--vary", "field.turn_deg=0:1e6:2", "--out", "a.csv"], "field.turn_deg = 1000000 is not allowed"),
+        (&["--vary", "magnet.turn_deg=0:1:2", "--out", "a.csv"], "this scene has no table [magnet]"),
+        (
+            &["--vary", field, "--out", "scene.toml"],
+            "scene.toml would be written over scene.toml, which is read",
+        ),
+        (
+            &["--vary", field, "--out", "a.csv", "--folds", "./a.csv"],
+            "a.csv and ./a.csv would be the same file",
+        ),
+        (&["--vary", field, "--out", "no/a.csv"], "cannot write no/a.csv: there is no folder no"),
+        (&["--vary", field, "--out", "."], "cannot write .: it is a folder"),
+        (&["--vary", field, "--out", "a.csv", "--folds", "no/f.csv"], "cannot write no/f.csv"),
+    ] {
+        let (here, output) =
+            with_scene("refused sweeps", SCENE, &[&["sweep", "scene.toml"], arguments].concat());
+        assert_status(&output, 1);
+        assert!(stderr(&output).contains(expected), "{arguments:?}: {}", stderr(&output));
+        let names: Vec<_> =
+            std::fs::read_dir(&here).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(names, ["scene.toml"], "{arguments:?}: nothing is left");
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_keeps_what_was_there() {
+    let arguments = ["sweep", "scene.toml", "--vary", "field.uniform_mt[2]=0:1:2", "--out", "/dev/full"];
+    let (_, output) = with_scene("full", SCENE, &arguments);
+    assert_status(&output, 1);
+    assert!(
+        stderr(&output).contains("cannot write /dev/full: No space left on device"),
+        "{}",
+        stderr(&output)
+    );
 }

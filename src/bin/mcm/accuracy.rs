@@ -7,7 +7,7 @@ use mcm::studies::{PEERS, Point, Series, Stroke, accuracy, accuracy_cases, accur
 use serde::Deserialize;
 
 use super::failure::Failure;
-use super::files::open_table;
+use super::files::{bad_table, open_table};
 use super::study_files::{leave, progress_bar};
 
 const HEADER: &str = "\
@@ -60,10 +60,9 @@ fn read_peers(path: &Path) -> Result<[Vec<Series>; PEERS.len()], Failure> {
     let mut cases: [Vec<Series>; PEERS.len()] = Default::default();
     let mut solvers: [Vec<String>; PEERS.len()] = Default::default();
     for peer in open_table(path)?.deserialize() {
-        let Peer { case, solver, variant, time_us, error } =
-            peer.map_err(|error| Failure::Message(format!("cannot read {}: {error}", path.display())))?;
+        let Peer { case, solver, variant, time_us, error } = peer.map_err(|error| bad_table(path, &error))?;
         let Some(index) = PEERS.iter().position(|known| known.name == case) else {
-            return Err(Failure::Message(format!("{}: there is no case {case}", path.display())));
+            return Err(Failure(format!("{}: there is no case {case}", path.display())));
         };
         let (series, solvers) = (&mut cases[index], &mut solvers[index]);
         let stroke = if DASHED.contains(&variant.as_str()) { Stroke::Dashed } else { Stroke::Solid };

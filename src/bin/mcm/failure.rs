@@ -1,6 +1,6 @@
 //! Failure of a command, and exit statuses.
 
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::process::ExitCode;
 
 /// Exit status for bad input.
@@ -12,50 +12,30 @@ pub(crate) const NOT_CONVERGED: u8 = 2;
 pub(crate) const UNSTABLE: u8 = 3;
 /// Exit status of a solve that ended at a neutral equilibrium, where one direction is free.
 pub(crate) const NEUTRAL: u8 = 4;
+/// Exit status of a command that was stopped by Ctrl-C: 128 and the number of the signal, as shells have it.
+pub(crate) const STOPPED: u8 = 130;
 
-/// Failure of a command.
+/// Failure of a command: its message for standard error.
 #[derive(Debug)]
-pub(crate) enum Failure {
-    /// An error message for standard error.
-    Message(String),
-    /// The reader of the output has closed the pipe; no message is printed.
-    ReaderGone,
-}
+pub(crate) struct Failure(pub(crate) String);
 
 impl Failure {
-    /// Prints the message, if any, and returns the exit status.
+    /// What happened to the file or stream called `name`.
+    pub(crate) fn writing(name: impl std::fmt::Display, error: impl std::fmt::Display) -> Self {
+        Self(format!("cannot write {name}: {error}"))
+    }
+
+    /// Prints the message and returns the exit status.
     pub(crate) fn report(self) -> ExitCode {
-        if let Self::Message(message) = self {
-            // Where standard error is closed, the exit status still reports the failure.
-            let _ = writeln!(std::io::stderr(), "error: {message}");
-        }
+        // Where standard error is closed, the exit status still reports the failure.
+        let _ = writeln!(std::io::stderr(), "error: {}", self.0);
         BAD_INPUT.into()
     }
 }
 
 impl From<mcm::error::Error> for Failure {
     fn from(error: mcm::error::Error) -> Self {
-        Self::Message(error.to_string())
-    }
-}
-
-impl From<std::io::Error> for Failure {
-    fn from(error: std::io::Error) -> Self {
-        match error.kind() {
-            ErrorKind::BrokenPipe => Self::ReaderGone,
-            _ => Self::Message(error.to_string()),
-        }
-    }
-}
-
-impl From<csv::Error> for Failure {
-    fn from(error: csv::Error) -> Self {
-        Self::Message(error.to_string())
-    }
-}
-
-impl From<serde_json::Error> for Failure {
-    fn from(error: serde_json::Error) -> Self {
-        Self::Message(error.to_string())
+        // Of several faults each is an error.
+        Self(error.to_string().replace('\n', "\nerror: "))
     }
 }

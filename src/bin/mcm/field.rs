@@ -9,7 +9,8 @@ use mcm::manipulator::{Inputs, Scene};
 use nalgebra::{Matrix3, Vector3};
 
 use super::failure::Failure;
-use super::files::{create_table, open_table, read_scene};
+use super::files::{bad_table, open_table, read_scene, refuse_same};
+use super::output::Table;
 
 /// Columns of the points.
 const POINT: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -55,21 +56,22 @@ pub(crate) struct Field {
 impl Field {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        refuse_same(&[&self.scene, &self.at], &[&self.out])?;
+        let mut table = Table::at(&self.out)?;
         let scene = read_scene(&self.scene)?.scene()?;
         let source = if self.ring { Source::ring(&scene)? } else { Source::external(scene)? };
         let points = self.points()?;
-        let mut table = create_table(&self.out)?;
-        table.write_record(POINT.iter().chain(&FIELD))?;
+        table.header(POINT.iter().chain(&FIELD))?;
         for (line, point) in points {
             let (field, gradient) = source
                 .field_gradient(&point)
-                .map_err(|error| Failure::Message(format!("{}, line {line}: {error}", self.at.display())))?;
+                .map_err(|error| Failure(format!("{}, line {line}: {error}", self.at.display())))?;
             // Matrices are stored by column; the table lists dBx_dx, dBx_dy, ... by row.
             let row: Vec<f64> =
                 [point, field].iter().flatten().chain(&gradient.transpose()).copied().collect();
-            table.serialize(row)?;
+            table.row(row)?;
         }
-        table.flush()?;
+        table.complete()?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -77,23 +79,23 @@ impl Field {
     fn points(&self) -> Result<Vec<(u64, Vector3<f64>)>, Failure> {
         let name = self.at.display();
         let mut table = open_table(&self.at)?;
-        let header = table.headers()?.clone();
+        let header = table.headers().map_err(|error| bad_table(&self.at, &error))?.clone();
         let mut columns = [0; 3];
         for (column, wanted) in columns.iter_mut().zip(POINT) {
             *column = header.iter().position(|title| title == wanted).ok_or_else(|| {
                 let titles: Vec<&str> = header.iter().collect();
-                Failure::Message(format!("{name} has no column {wanted}; it has {}", titles.join(", ")))
+                Failure(format!("{name} has no column {wanted}; it has {}", titles.join(", ")))
             })?;
         }
         let mut points = Vec::new();
         for record in table.records() {
-            let record = record?;
+            let record = record.map_err(|error| bad_table(&self.at, &error))?;
             let line = record.position().map_or(0, csv::Position::line);
             let mut point = Vector3::zeros();
             for ((entry, &column), title) in point.iter_mut().zip(&columns).zip(POINT) {
                 let text = record.get(column).unwrap_or_default();
-                *entry = text.parse().map_err(|_| {
-                    Failure::Message(format!("{name}, line {line}: {title} = \"{text}\" is not a number"))
+                *entry = text.parse().ok().filter(|number: &f64| number.is_finite()).ok_or_else(|| {
+                    Failure(format!("{name}, line {line}: {title} = \"{text}\" is not a finite number"))
                 })?;
             }
             points.push((line, point));
@@ -112,7 +114,7 @@ impl Source {
     fn ring(scene: &Scene) -> Result<Self, Failure> {
         let design = scene.design()?;
         let ring = design.rings().next();
-        let ring = ring.ok_or_else(|| Failure::Message("the design of this scene has no ring".into()))?;
+        let ring = ring.ok_or_else(|| Failure("the design of this scene has no ring".into()))?;
         Ok(Self::Ring(AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?))
     }
 

@@ -1,11 +1,12 @@
-//! Reading scenes and tables, writing tables.
+//! Reading scenes and tables.
 
-use std::fs::File;
-use std::path::Path;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
 
 use mcm::manipulator::SceneFile;
 
 use super::failure::Failure;
+use super::output::folder;
 
 /// Smallest similarity (1: equal) at which another file's name is suggested as a correction.
 const PLAUSIBLE: f64 = 0.5;
@@ -17,7 +18,7 @@ pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
 
 /// Reads a text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    std::fs::read_to_string(path).map_err(|error| unreadable(path, &error))
+    fs::read_to_string(path).map_err(|error| unreadable(path, &error))
 }
 
 /// Opens a table; lines that start with `#` are comments.
@@ -26,11 +27,33 @@ pub(crate) fn open_table(path: &Path) -> Result<csv::Reader<File>, Failure> {
     Ok(csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(file))
 }
 
-/// Creates a table.
-pub(crate) fn create_table(path: &Path) -> Result<csv::Writer<File>, Failure> {
-    let file = File::create(path)
-        .map_err(|error| Failure::Message(format!("cannot write {}: {error}", path.display())))?;
-    Ok(csv::Writer::from_writer(file))
+/// Refuses to write over what is read, and to write two outputs into one file.
+pub(crate) fn refuse_same(read: &[&Path], written: &[&Path]) -> Result<(), Failure> {
+    for (number, out) in written.iter().enumerate() {
+        let place = place(out);
+        if let Some(input) = read.iter().find(|input| self::place(input) == place) {
+            return Err(Failure(format!(
+                "{} would be written over {}, which is read",
+                out.display(),
+                input.display()
+            )));
+        }
+        if let Some(other) = written[..number].iter().find(|other| self::place(other) == place) {
+            return Err(Failure(format!("{} and {} would be the same file", other.display(), out.display())));
+        }
+    }
+    Ok(())
+}
+
+/// Where a file is or would be, links resolved.
+fn place(path: &Path) -> PathBuf {
+    let beside = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
+    fs::canonicalize(path).ok().or_else(beside).unwrap_or_else(|| path.to_owned())
+}
+
+/// The failure of reading a table.
+pub(crate) fn bad_table(path: &Path, error: &csv::Error) -> Failure {
+    Failure(format!("cannot read {}: {error}", path.display()))
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
@@ -38,20 +61,19 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
         Some(name) if error.kind() == std::io::ErrorKind::NotFound => format!("; did you mean {name}?"),
         _ => String::new(),
     };
-    Failure::Message(format!("cannot read {}: {error}{hint}", path.display()))
+    Failure(format!("cannot read {}: {error}{hint}", path.display()))
 }
 
 /// The file in the same folder whose name is most similar to that of a missing file.
 fn nearest_file(path: &Path) -> Option<String> {
     let wanted = path.file_name()?.to_string_lossy().into_owned();
-    let folder = path.parent()?;
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    std::fs::read_dir(here)
+    let named = path.parent()?;
+    fs::read_dir(folder(path))
         .ok()?
         .filter_map(|entry| {
             let name = entry.ok()?.file_name().to_string_lossy().into_owned();
             let similarity = strsim::normalized_damerau_levenshtein(&wanted, &name);
-            (similarity >= PLAUSIBLE).then(|| (similarity, folder.join(name).display().to_string()))
+            (similarity >= PLAUSIBLE).then(|| (similarity, named.join(name).display().to_string()))
         })
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, name)| name)

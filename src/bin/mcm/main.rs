@@ -4,10 +4,13 @@ mod accuracy;
 mod bifurcation;
 mod budget;
 mod comparison;
+mod doing;
 mod failure;
 mod fidelity;
 mod field;
 mod files;
+mod interrupt;
+mod output;
 mod pack;
 mod picture;
 mod solve;
@@ -17,13 +20,13 @@ mod study_files;
 mod sweep;
 mod verdict;
 
-use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use mcm::numerics::processor::Instructions;
 
 use failure::Failure;
+use output::print;
 
 /// Statics of magnetic continuum manipulators: from the pose of the external magnet to shape, tip angle and forces.
 #[derive(Parser)]
@@ -66,9 +69,9 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         // Help and version are not failures; wrong usage is bad input.
         Err(message) => {
-            let printed = message.print();
-            let bad = message.use_stderr() || printed.is_err();
-            return if bad { failure::BAD_INPUT.into() } else { ExitCode::SUCCESS };
+            // Where nobody reads it, the exit status still says which.
+            drop(message.print());
+            return if message.use_stderr() { failure::BAD_INPUT.into() } else { ExitCode::SUCCESS };
         }
     };
     let outcome = match arguments.command {
@@ -86,11 +89,11 @@ fn main() -> ExitCode {
 
 /// Prints the version; `verbose` adds how fields at many points are evaluated, and on how many threads scenes are solved.
 fn version(verbose: bool) -> Result<ExitCode, Failure> {
-    let mut out = std::io::stdout().lock();
-    writeln!(out, "mcm {}", env!("CARGO_PKG_VERSION"))?;
+    let mut text = format!("mcm {}\n", env!("CARGO_PKG_VERSION"));
     if verbose {
-        writeln!(out, "instructions for fields and products: {}", Instructions::in_use())?;
-        writeln!(out, "threads: {}", rayon::current_num_threads())?;
+        text += &format!("instructions for fields and products: {}\n", Instructions::in_use());
+        text += &format!("threads: {}\n", rayon::current_num_threads());
     }
+    print(text)?;
     Ok(ExitCode::SUCCESS)
 }

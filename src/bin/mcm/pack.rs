@@ -2,9 +2,8 @@
 
 mod binary;
 
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{SystemTime, UNIX_EPOCH};
 
@@ -14,7 +13,8 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::failure::Failure;
-use super::files::read_text;
+use super::files::{read_text, refuse_same};
+use super::output::{Output, print};
 use binary::Binary;
 
 const LICENSE: &str = include_str!("../../../LICENSE");
@@ -47,6 +47,9 @@ pub(crate) struct Pack {
 impl Pack {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let read = self.scene.iter().chain(&self.library).chain(self.binary.iter().map(Binary::library));
+        refuse_same(&read.map(PathBuf::as_path).collect::<Vec<_>>(), &[&self.out])?;
+        let out = Output::at(&self.out)?;
         let package = match &self.scene {
             Some(path) => Package::new(&read_text(path)?, &path.display().to_string(), self.shape_points)?,
             None => Package::new(DEFAULT_SCENE, "default scene", self.shape_points)?,
@@ -62,32 +65,32 @@ impl Pack {
         for (name, text) in package.resources()? {
             files.push((format!("resources/{name}"), text.into()));
         }
-        write_archive(&self.out, &files)
-            .map_err(|reason| Failure::Message(format!("cannot write {}: {reason}", self.out.display())))?;
-        writeln!(std::io::stdout(), "{} {}", self.out.display(), package.guid())?;
+        write_archive(out, &files)
+            .map_err(|reason| Failure::writing(self.out.display(), reason))?
+            .complete()?;
+        print(format!("{} {}\n", self.out.display(), package.guid()))?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
 /// Writes the archive as FMI 2.0 allows: Deflate only, forward slashes, no links. The same files give the same bytes.
-fn write_archive(path: &Path, files: &[(String, Vec<u8>)]) -> Result<(), String> {
-    let file = File::create(path).map_err(|error| error.to_string())?;
-    let mut archive = ZipWriter::new(BufWriter::new(file));
+fn write_archive(out: Output, files: &[(String, Vec<u8>)]) -> Result<Output, String> {
+    let mut archive = ZipWriter::new(out);
     let plain = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
     for (name, content) in files {
         let mode = if name.starts_with("binaries/") { 0o755 } else { 0o644 };
         archive.start_file(name, plain.unix_permissions(mode)).map_err(|error| error.to_string())?;
         archive.write_all(content).map_err(|error| error.to_string())?;
     }
-    archive.finish().and_then(|mut file| Ok(file.flush()?)).map_err(|error| error.to_string())
+    archive.finish().map_err(|error| error.to_string())
 }
 
 /// The current time in UTC, in the format of FMI 2.0; `SOURCE_DATE_EPOCH` makes builds reproducible.
 fn now() -> Result<String, Failure> {
     let seconds = match std::env::var("SOURCE_DATE_EPOCH") {
-        Ok(text) => text.parse().map_err(|_| {
-            Failure::Message(format!("SOURCE_DATE_EPOCH = {text} is not a number of seconds"))
-        })?,
+        Ok(text) => text
+            .parse()
+            .map_err(|_| Failure(format!("SOURCE_DATE_EPOCH = {text} is not a number of seconds")))?,
         Err(_) => SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |time| time.as_secs()),
     };
     let (year, month, day) = date(seconds / 86_400);

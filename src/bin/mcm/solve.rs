@@ -1,6 +1,5 @@
 //! `mcm solve`: one equilibrium.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -9,8 +8,10 @@ use mcm::manipulator::{Jacobian, Outputs, Status};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
+use super::doing::Doing;
 use super::failure::Failure;
 use super::files::read_scene;
+use super::output::{print, warn};
 use super::verdict;
 
 /// Solves one equilibrium, starting from the unloaded shape.
@@ -40,29 +41,33 @@ impl Solve {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let scene = read_scene(&self.scene)?.scene()?;
+        let level = scene.settings.interaction.name();
+        let doing = Doing::now(format!("making the models of level {level}"));
         let mut manipulator = scene.device(self.shape_points)?;
+        let budget = scene.settings.time_budget;
+        doing.then(format!(
+            "solving at level {level}, which may take {budget} s of processor time (model.time_budget_s)"
+        ));
         manipulator.solve(&scene.inputs)?;
+        doing.then("derivatives and stability margin");
         let jacobian = manipulator.jacobian();
         let outputs = manipulator.measure_margin();
-        let mut stdout = std::io::stdout().lock();
-        if self.json {
-            let answer = as_json(outputs, &jacobian, scene.magnets.is_some());
-            serde_json::to_writer_pretty(&mut stdout, &answer)?;
-            writeln!(stdout)?;
+        drop(doing);
+        print(if self.json {
+            format!("{:#}\n", as_json(outputs, &jacobian, scene.magnets.is_some()))
         } else {
-            write!(stdout, "{}", as_table(outputs))?;
-        }
-        stdout.flush()?;
-        exit_status(outputs)
+            as_table(outputs)
+        })?;
+        Ok(exit_status(outputs))
     }
 }
 
-fn exit_status(outputs: &Outputs) -> Result<ExitCode, Failure> {
+fn exit_status(outputs: &Outputs) -> ExitCode {
     let Some((status, message)) = verdict::warning(outputs) else {
-        return Ok(ExitCode::SUCCESS);
+        return ExitCode::SUCCESS;
     };
-    writeln!(std::io::stderr(), "warning: {message}")?;
-    Ok(status.into())
+    warn(&message);
+    status.into()
 }
 
 /// Report of the solve and the shape found; without a shape, all its numbers are null.

@@ -1,6 +1,5 @@
 //! `mcm study`: the paper's figures as tables and pictures.
 
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -10,6 +9,7 @@ use mcm::studies;
 use rayon::prelude::*;
 
 use super::failure::Failure;
+use super::output::print;
 use super::study_files::{leave_drawn, progress_bar, tell};
 use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 
@@ -105,7 +105,7 @@ impl Study {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
-            .map_err(|error| Failure::Message(format!("cannot create {}: {error}", self.out.display())))?;
+            .map_err(|error| Failure(format!("cannot create {}: {error}", self.out.display())))?;
         match self.name {
             Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
             Name::Budget => return budget::run(&self.out),
@@ -136,7 +136,7 @@ impl Study {
         if self.name == Name::All {
             return tell(&self.out, "comparison", &table);
         }
-        std::io::stdout().write_all(table.as_bytes())?;
+        print(table)?;
         Ok(ExitCode::SUCCESS)
     }
 }

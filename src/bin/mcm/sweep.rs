@@ -1,22 +1,24 @@
 //! `mcm sweep`: equilibria while numbers of the scene vary.
 
+mod journal;
 mod range;
 mod rows;
 mod summary;
+mod walk;
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use mcm::manipulator::{Branch, Fold, Scene, SceneFile};
-use rayon::prelude::*;
-use serde::Serialize;
 
-use super::failure::{Failure, NOT_CONVERGED};
-use super::files::{create_table, read_scene};
-use range::{Range, grid};
-use rows::{Row, header};
+use super::failure::{Failure, NOT_CONVERGED, STOPPED};
+use super::files::{read_scene, refuse_same};
+use super::interrupt;
+use super::output::{Table, print, warn};
+use journal::Journal;
+use range::{MOST_VALUES, Range};
+use rows::header;
+use walk::{Plan, Walk};
 
 /// Follows one branch along the first key, for every combination of the other keys.
 #[derive(clap::Args)]
@@ -31,7 +33,9 @@ mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.le
 mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
 mcm sweep scene.toml --vary magnet.turn_deg=0:90:91 --out sweep.csv\n\n\
 Rows that did not converge have no shape: outcome says why, progress how far the last step to them got.\n\n\
-Exit status: 0 done, 1 bad input, 2 some rows did not converge (all files are written)."
+Until all rows are there they are in OUT.csv.part, in the order in which they were found: after Ctrl-C, a crash or with a full \
+disk the same command with --resume goes on from there and ends with the same table.\n\n\
+Exit status: 0 done, 1 bad input, 2 some rows did not converge (all files are written), 130 stopped by Ctrl-C."
 )]
 pub(crate) struct Sweep {
     /// Scene file (TOML)
@@ -48,164 +52,115 @@ pub(crate) struct Sweep {
     /// CSV file for the folds: the value of each, and the angles before and after
     #[arg(long, value_name = "FOLDS.csv")]
     folds: Option<PathBuf>,
-}
-
-/// Longest step between two solves, relative to the first key's range: a field that turns by half a circle moves along
-/// chords of two degrees.
-const LONGEST_STEP: f64 = 0.01;
-
-/// Direction in which the first key varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Way {
-    Forth,
-    Back,
-}
-
-impl std::fmt::Display for Way {
-    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        out.write_str(if *self == Self::Forth { "forth" } else { "back" })
-    }
-}
-
-/// Results for one combination of the other keys.
-struct Walk {
-    others: Vec<f64>,
-    rows: Vec<Row>,
-    folds: Vec<(Fold, Way)>,
+    /// Go on with a sweep that was cut short, from the rows that it left in OUT.csv.part
+    #[arg(long)]
+    resume: bool,
 }
 
 impl Sweep {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let part = part_of(&self.out);
+        let written = [Some(self.out.as_path()), self.folds.as_deref(), part.as_deref()];
+        refuse_same(&[&self.scene], &written.into_iter().flatten().collect::<Vec<_>>())?;
+        let total = self.count()?;
         let file = read_scene(&self.scene)?;
-        let Some((along, others)) = self.vary.split_first() else { return Ok(ExitCode::SUCCESS) };
-        let grid = grid(others);
-        // Every key and value is checked before the first solve.
-        let mut same_device = true;
-        for combination in &grid {
-            let varied = with(&file, others, combination)?;
-            let mut first: Option<Scene> = None;
-            for &value in &along.values {
-                let scene = varied.with(&along.key, value)?.scene()?;
-                same_device &= is_same_device(first.get_or_insert_with(|| scene.clone()), &scene);
-            }
-        }
-        if self.back && !same_device {
-            return Err(Failure::Message(format!(
-                "--back does not apply to {}: each of its values is a separate device, which starts unloaded",
-                along.key
-            )));
-        }
-        let mut table = create_table(&self.out)?;
-        let ways = if self.back { 2 } else { 1 };
-        let bar = progress_bar((ways * grid.len() * along.values.len()) as u64);
-        let walks: Vec<Walk> = grid
-            .par_iter()
-            .map(|combination| {
-                let file = with(&file, others, combination)?;
-                if same_device {
-                    self.walk(&file, along, combination, &bar)
-                } else {
-                    devices(&file, along, combination, &bar)
-                }
-            })
-            .collect::<Result<_, Failure>>()?;
+        let checking = progress_bar(total, "values checked");
+        let plan = Plan::new(file, self.vary.split_at(1), self.back, || checking.inc(1))?;
+        checking.finish_and_clear();
+        // Both are tried before the first solve.
+        let mut table = Table::at(&self.out)?;
+        let folds = self.folds.as_deref().map(Table::at).transpose()?;
+        let (journal, kept) = match &part {
+            Some(part) => plan.journal(part, self.resume).map(|(journal, kept)| (Some(journal), kept))?,
+            None => (None, plan.nothing_kept()),
+        };
+        interrupt::listen()?;
+        let [_, rows] = plan.rows();
+        let bar = progress_bar(rows as u64, "rows");
+        let walks =
+            plan.run(journal.as_ref(), kept, &bar).map_err(|failure| unfinished(failure, &journal))?;
         bar.finish_and_clear();
+        let Some(walks) = walks else {
+            let there = journal.map_or_else(String::new, |journal| {
+                format!(": its rows so far are in {}, and --resume goes on", journal.path().display())
+            });
+            warn(&format!("stopped{there}"));
+            return Ok(STOPPED.into());
+        };
         let keys: Vec<&str> = self.vary.iter().map(|range| range.key.as_str()).collect();
-        table.write_record(header(keys.iter().copied()))?;
-        for row in walks.iter().flat_map(|walk| &walk.rows) {
-            table.serialize(row.cells())?;
+        table.header(header(keys.iter().copied()))?;
+        walks.iter().flat_map(|walk| &walk.rows).try_for_each(|row| table.row(row.cells()))?;
+        if let Some(folds) = folds {
+            summary::write_folds(folds, &keys, &walks)?;
         }
-        table.flush()?;
-        if let Some(path) = &self.folds {
-            summary::write_folds(path, &keys, &walks)?;
+        table.complete()?;
+        if let Some(journal) = journal {
+            journal.remove()?;
         }
         self.report(&keys, &walks)
     }
 
-    /// Follows one branch along the first key, and back.
-    fn walk(
-        &self,
-        file: &SceneFile,
-        along: &Range,
-        others: &[f64],
-        bar: &ProgressBar,
-    ) -> Result<Walk, Failure> {
-        let manipulator = file.with(&along.key, along.values[0])?.scene()?.device(2)?;
-        let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
-        // With a single value, or equal ones, any span will do.
-        let span = if along.span() > 0.0 { along.span() } else { 1.0 };
-        let mut branch = Branch::new(manipulator, inputs, span, LONGEST_STEP * span)?;
-        let forth = along.values.iter().map(|&value| (value, Way::Forth));
-        let back = along.values.iter().rev().skip(1).map(|&value| (value, Way::Back));
-        let (mut rows, mut folds) = (Vec::new(), Vec::new());
-        for (value, way) in forth.chain(back.filter(|_| self.back)) {
-            branch.to(value)?;
-            rows.push(Row::new([&[value], others].concat(), way, branch.outputs(), branch.predicted_fold()));
-            folds.resize(branch.folds().len(), way);
-            bar.inc(1);
+    /// Number of combinations of all values. A key may occur once only.
+    fn count(&self) -> Result<u64, Failure> {
+        for (number, range) in self.vary.iter().enumerate() {
+            if self.vary[..number].iter().any(|other| other.key == range.key) {
+                return Err(Failure(format!("--vary {} occurs twice", range.key)));
+            }
         }
-        let folds = branch.folds().iter().cloned().zip(folds).collect();
-        Ok(Walk { others: others.to_vec(), rows, folds })
+        let counts = self.vary.iter().map(|range| range.values.len() as u64);
+        let total = counts.clone().try_fold(1, u64::checked_mul).filter(|total| *total <= MOST_VALUES.into());
+        total.ok_or_else(|| {
+            let counts: Vec<String> = counts.map(|count| count.to_string()).collect();
+            Failure(format!("{} rows are too many: at most {MOST_VALUES}", counts.join(" x ")))
+        })
     }
 
     /// Prints a summary and returns the exit status.
     fn report(&self, keys: &[&str], walks: &[Walk]) -> Result<ExitCode, Failure> {
         let rows = || walks.iter().flat_map(|walk| &walk.rows);
         let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
-        let mut stdout = std::io::stdout().lock();
-        writeln!(stdout, "{}: {} rows, folds met: {folds}", self.out.display(), rows().count())?;
-        for walk in walks {
-            write!(stdout, "{}", summary::describe(keys, walk))?;
-        }
-        stdout.flush()?;
+        let told: String = walks.iter().map(|walk| summary::describe(keys, walk)).collect();
+        print(format!("{}: {} rows, folds met: {folds}\n{told}", self.out.display(), rows().count()))?;
         let lost = rows().filter(|row| !row.converged());
         let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
-        writeln!(
-            std::io::stderr(),
-            "warning: {} of {} rows did not converge and hold no shape; at {} = {}: {}",
+        warn(&format!(
+            "{} of {} rows did not converge and hold no shape; at {} = {}: {}",
             lost.count(),
             rows().count(),
             keys[0],
             first.value(),
-            first.outcome()
-        )?;
+            first.reason()
+        ));
         Ok(NOT_CONVERGED.into())
     }
 }
 
-/// Whether two scenes differ in their inputs alone.
-fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.solver)
-        == (&b.specification, &b.magnets, &b.settings, &b.solver)
+/// Beside the table, the file that keeps its rows until all are there; `None` for a device or a pipe.
+fn part_of(out: &Path) -> Option<PathBuf> {
+    let place = std::fs::canonicalize(out).unwrap_or_else(|_| out.to_owned());
+    let special = std::fs::metadata(&place).is_ok_and(|old| !old.is_file());
+    let name = format!("{}.part", out.file_name()?.to_string_lossy());
+    (!special).then(|| out.with_file_name(name))
 }
 
-/// Solves each value of the first key on a separate device, from its unloaded shape.
-fn devices(file: &SceneFile, along: &Range, others: &[f64], bar: &ProgressBar) -> Result<Walk, Failure> {
-    let solve = |&value: &f64| {
-        let scene = file.with(&along.key, value)?.scene()?;
-        let mut manipulator = scene.device(2)?;
-        manipulator.solve(&scene.inputs)?;
-        bar.inc(1);
-        Ok(Row::new([&[value], others].concat(), Way::Forth, manipulator.measure_margin(), None))
-    };
-    let rows = along.values.par_iter().map(solve).collect::<Result<_, Failure>>()?;
-    Ok(Walk { others: others.to_vec(), rows, folds: Vec::new() })
-}
-
-fn with(file: &SceneFile, ranges: &[Range], values: &[f64]) -> Result<SceneFile, Failure> {
-    let mut varied = file.clone();
-    for (range, &value) in ranges.iter().zip(values) {
-        varied = varied.with(&range.key, value)?;
+/// The failure of a sweep, with what is left of it.
+fn unfinished(failure: Failure, journal: &Option<Journal>) -> Failure {
+    match journal {
+        Some(journal) => Failure(format!(
+            "{}; the rows so far are in {}, and --resume goes on",
+            failure.0,
+            journal.path().display()
+        )),
+        None => failure,
     }
-    Ok(varied)
 }
 
 /// Progress bar on standard error; hidden where that is not a terminal.
-fn progress_bar(solves: u64) -> ProgressBar {
-    let bar = ProgressBar::new(solves);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} solves, {eta} left") {
+fn progress_bar(count: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(count);
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left");
+    if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }
     bar

@@ -1,6 +1,8 @@
 //! A scene as text (TOML, units in the names): the design, its inputs and the model.
 
+mod faults;
 mod file;
+mod names;
 mod resolve;
 mod text;
 
@@ -48,8 +50,7 @@ impl Scene {
     /// `what` names the text in error messages, for example its file name.
     ///
     /// # Errors
-    /// [`Error::Syntax`] with line and key for a text that is no scene, [`Error::Range`] for NaN, an infinity or an
-    /// orientation that is no unit quaternion, [`Error::Unsupported`] for a model that does not exist.
+    /// As [`SceneFile::parse`].
     pub fn parse(text: &str, what: &str) -> Result<Self, Error> {
         SceneFile::parse(text, what)?.scene()
     }

@@ -1,12 +1,13 @@
 //! Conversion of a scene file to SI units and to the quantities that its names stand for.
 
 use nalgebra::{Matrix3, Vector3};
+use toml::Value;
 
-use super::Scene;
 use super::file::{
     BackboneEntries, DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries,
     RingEntries, SceneFile, SpiralName,
 };
+use super::{Scene, names};
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
     SpiralKind,
@@ -14,13 +15,16 @@ use crate::design::{
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
-use crate::magnetics::AxialMagnet;
+use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Inputs;
 use crate::methods;
 
-const MM_PER_M: f64 = 1e3;
+pub(super) const MM_PER_M: f64 = 1e3;
 const MT_PER_T: f64 = 1e3;
-const PA_PER_MPA: f64 = 1e6;
+pub(super) const PA_PER_MPA: f64 = 1e6;
+
+/// Largest turn, deg: a hundred times round. Of a larger one too few digits would be left.
+const LARGEST_TURN: f64 = 36_000.0;
 
 /// Distance of the magnet's axis below the manipulator's middle when no position is given, m.
 const MAGNET_DISTANCE: f64 = 0.12;
@@ -29,12 +33,28 @@ fn beside(design: &Design) -> [f64; 3] {
     [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
 }
 
-/// Right-handed rotation by `degrees` about an axis of any positive length.
-fn turn(key: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
+/// Right-handed rotation by `degrees` about an axis of any positive length, of the table of this name.
+fn turn(table: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
     let axis = Vector3::from(axis);
     let length = axis.norm();
-    check(&format!("length of {key}"), length, |v| v > 0.0, "> 0")?;
+    check(&format!("length of {table}.turn_axis"), length, |v| v > 0.0, "> 0")?;
+    let key = format!("{table}.turn_deg");
+    check(&key, degrees, |v| v.abs() <= LARGEST_TURN, "from -36000 to 36000")?;
     Ok(RotationVector::new(axis * (degrees.to_radians() / length)).matrix())
+}
+
+fn in_metres(position_mm: [f64; 3]) -> [f64; 3] {
+    position_mm.map(|x| x / MM_PER_M)
+}
+
+/// A pose of the table of this name; position in m.
+fn pose(table: &str, position: [f64; 3], orientation_wxyz: [f64; 4]) -> Result<Pose, Error> {
+    Pose::new(position, orientation_wxyz).map_err(|error| match error {
+        Error::Range { value, allowed, .. } => {
+            Error::range(format!("norm of {table}.orientation_wxyz"), value, allowed)
+        }
+        other => other,
+    })
 }
 
 /// The pose rotated about its own origin.
@@ -48,9 +68,21 @@ impl SceneFile {
     /// # Errors
     /// See [`Scene::parse`].
     pub fn scene(&self) -> Result<Scene, Error> {
+        self.in_si().map_err(|error| match self.table() {
+            Ok(table) => names::as_written(error, &Value::Table(table)),
+            Err(_) => error,
+        })
+    }
+
+    fn in_si(&self) -> Result<Scene, Error> {
         let specification = self.design.specification()?;
         let inputs = self.inputs(&Design::new(specification.clone())?)?;
-        let magnets = self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
+        let magnets: Option<Vec<_>> =
+            self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
+        magnets.clone().map(Assembly::new).transpose().map_err(|error| match error {
+            Error::Range { .. } => error,
+            of_the_list => Error::Unsupported(format!("magnet.cylinders: {of_the_list}")),
+        })?;
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         Ok(Scene { specification, magnets, inputs, settings: self.settings()?, solver })
     }
@@ -72,18 +104,17 @@ impl SceneFile {
         let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
         if let Some(magnet) = &self.magnet {
-            let position =
-                magnet.position_mm.map_or(beside(design), |position| position.map(|x| x / MM_PER_M));
-            let turn = turn("magnet.turn_axis", magnet.turn_axis, magnet.turn_deg)?;
-            inputs.magnet = turned(&turn, Pose::new(position, magnet.orientation_wxyz)?);
+            let position = magnet.position_mm.map_or(beside(design), in_metres);
+            let turn = turn("magnet", magnet.turn_axis, magnet.turn_deg)?;
+            inputs.magnet = turned(&turn, pose("magnet", position, magnet.orientation_wxyz)?);
             inputs.magnet_strength = magnet.strength;
         }
         let FieldEntries { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
         inputs.uniform_field =
-            turn("field.turn_axis", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));
+            turn("field", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));
         inputs.field_gradient = gradient_t_per_m;
-        let base = Pose::new(self.base.position_mm.map(|x| x / MM_PER_M), self.base.orientation_wxyz)?;
-        inputs.base = turned(&turn("base.turn_axis", self.base.turn_axis, self.base.turn_deg)?, base);
+        let base = pose("base", in_metres(self.base.position_mm), self.base.orientation_wxyz)?;
+        inputs.base = turned(&turn("base", self.base.turn_axis, self.base.turn_deg)?, base);
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
         inputs.gravity = self.gravity.acceleration_m_s2.into();

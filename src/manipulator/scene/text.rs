@@ -1,26 +1,24 @@
 //! Reading and writing scene text, with the place and reason of errors.
 
-use std::ops::Range;
+use toml::{Table, Value};
 
-use toml::de::{DeTable, DeValue};
-use toml::{Spanned, Table, Value};
-
-use super::SceneFile;
+use super::{SceneFile, faults};
 use crate::error::Error;
 
 /// Similarity (1: equal) below which no correction is suggested; lower values suggest nonsense.
 const PLAUSIBLE: f64 = 0.5;
 
+/// Tables that are missing where there is no such part.
+const OPTIONAL: [&str; 2] = ["magnet", "design.backbone"];
+
 impl SceneFile {
     /// Reads a scene file's text; `what` names it in error messages.
     ///
     /// # Errors
-    /// [`Error::Syntax`] with line and key, [`Error::Range`] for NaN or an infinity.
+    /// [`Error::Syntax`] with line, key and reason for the one fault of a text, [`Error::Several`] of these for several: what
+    /// is no TOML, unknown keys, values of another type, numbers that are not finite or out of range.
     pub fn parse(text: &str, what: &str) -> Result<Self, Error> {
-        let mut file: Self = toml::from_str(text).map_err(|error| explain(text, what, &error))?;
-        file.design.complete();
-        refuse_infinite(&file.table()?, "")?;
-        Ok(file)
+        faults::read(text, what)
     }
 
     /// The text of this file with every default written out.
@@ -42,6 +40,9 @@ impl SceneFile {
         let mut file = self.clone();
         file.complete_for(key)?;
         let mut root = Value::Table(file.table()?);
+        if let Some(with) = with_optional(&root, key, value) {
+            return Ok(with);
+        }
         let entry = entry(&mut root, key)?;
         *entry = match entry {
             Value::Float(_) if value.is_finite() => Value::Float(value),
@@ -60,7 +61,7 @@ impl SceneFile {
         })
     }
 
-    fn table(&self) -> Result<Table, Error> {
+    pub(super) fn table(&self) -> Result<Table, Error> {
         Table::try_from(self).map_err(|error| unwritable(&error))
     }
 }
@@ -69,29 +70,8 @@ fn unwritable(error: &toml::ser::Error) -> Error {
     Error::Syntax { what: "scene".into(), reason: error.to_string() }
 }
 
-/// The error with its line and the full path of the key.
-fn explain(text: &str, what: &str, error: &toml::de::Error) -> Error {
-    let span = error.span().unwrap_or(0..0);
-    let line = text.get(..span.start).unwrap_or(text).matches('\n').count() + 1;
-    let path = DeTable::parse(text).ok().and_then(|root| path_in_table(root.get_ref(), &span, ""));
-    let message = error.message().trim_end();
-    // serde writes the key in backquotes, then the known keys.
-    let reason = match (message.strip_prefix("unknown field `"), path) {
-        (Some(rest), path) => {
-            let mut quoted = rest.split('`').step_by(2);
-            let key = quoted.next().unwrap_or_default();
-            let path = path.unwrap_or_else(|| key.into());
-            let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
-            format!("unknown key `{path}`{}", suggestion(key, &known))
-        }
-        (None, Some(path)) => format!("`{path}`: {message}"),
-        (None, None) => message.replace('\n', ", "),
-    };
-    Error::Syntax { what: format!("{what}, line {line}"), reason }
-}
-
 /// Suggests the nearest of the known keys, or lists all of them when none is near.
-fn suggestion(key: &str, known: &[&str]) -> String {
+pub(super) fn suggestion(key: &str, known: &[&str]) -> String {
     let similarity = |other: &str| strsim::normalized_damerau_levenshtein(key, other);
     let nearest = known.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)));
     match nearest {
@@ -101,49 +81,25 @@ fn suggestion(key: &str, known: &[&str]) -> String {
     }
 }
 
-/// Path of the key or value at `span`; the innermost value that contains it when there is no exact match.
-fn path_in_table(table: &DeTable<'_>, span: &Range<usize>, prefix: &str) -> Option<String> {
-    table.iter().find_map(|(key, value)| {
-        let path =
-            if prefix.is_empty() { key.get_ref().to_string() } else { format!("{prefix}.{}", key.get_ref()) };
-        if key.span() == *span { Some(path) } else { path_in_value(value, span, &path) }
-    })
+/// Whether the rest of a path leads to an entry of the table before it.
+fn begins_inside(rest: &str) -> bool {
+    rest.starts_with('.')
 }
 
-fn path_in_value(value: &Spanned<DeValue<'_>>, span: &Range<usize>, path: &str) -> Option<String> {
-    let inner = match value.get_ref() {
-        DeValue::Table(table) => path_in_table(table, span, path),
-        DeValue::Array(entries) => entries
-            .iter()
-            .enumerate()
-            .find_map(|(index, entry)| path_in_value(entry, span, &format!("{path}[{}]", index + 1))),
-        _ => None,
-    };
-    inner.or_else(|| (value.span() == *span).then(|| path.to_string()))
-}
-
-fn refuse_infinite(table: &Table, prefix: &str) -> Result<(), Error> {
-    for (key, value) in table {
-        let path = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
-        refuse_infinite_value(value, &path)?;
+/// The file with a number that it may hold but does not; `None` for any other key.
+fn with_optional(root: &Value, key: &str, value: f64) -> Option<SceneFile> {
+    let (table, last) = key.rsplit_once('.')?;
+    let mut root = root.clone();
+    let Value::Table(table) = entry(&mut root, table).ok()? else { return None };
+    if table.contains_key(last) || !value.is_finite() {
+        return None;
     }
-    Ok(())
-}
-
-fn refuse_infinite_value(value: &Value, path: &str) -> Result<(), Error> {
-    match value {
-        Value::Float(number) if !number.is_finite() => Err(Error::range(path, *number, "finite")),
-        Value::Table(table) => refuse_infinite(table, path),
-        Value::Array(entries) => entries
-            .iter()
-            .enumerate()
-            .try_for_each(|(index, entry)| refuse_infinite_value(entry, &format!("{path}[{}]", index + 1))),
-        _ => Ok(()),
-    }
+    table.insert(last.into(), Value::Float(value));
+    root.try_into().ok()
 }
 
 /// The entry at `path`, such as `magnet.cylinders[1].radius_mm`.
-fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value, Error> {
+pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value, Error> {
     let mut here = root;
     for part in path.split('.') {
         let (key, indices) = part.split_once('[').map_or((part, None), |(key, rest)| (key, Some(rest)));
@@ -151,6 +107,13 @@ fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value, Error> {
             return Err(Error::Unsupported(format!("unknown key `{path}`: `{key}` is not in a table")));
         };
         if !table.contains_key(key) {
+            if let Some(optional) =
+                OPTIONAL.iter().find(|table| path.strip_prefix(**table).is_some_and(begins_inside))
+            {
+                return Err(Error::Unsupported(format!(
+                    "no key `{path}`: this scene has no table [{optional}]"
+                )));
+            }
             let known: Vec<&str> = table.keys().map(String::as_str).collect();
             return Err(Error::Unsupported(format!("unknown key `{path}`{}", suggestion(key, &known))));
         }

@@ -14,6 +14,7 @@ use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::failure::Failure;
+use super::output::Output;
 
 /// Width and minimum height of a picture, and heights of a row of panels without and with long legends, pixels.
 const WIDTH: u32 = 900;
@@ -61,7 +62,7 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Draws a study into a PNG file.
 pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
-    let failure = |reason: String| Failure::Message(format!("cannot draw {}: {reason}", path.display()));
+    let failure = |reason: String| Failure(format!("cannot draw {}: {reason}", path.display()));
     let rows = u32::try_from(study.panels.len().div_ceil(2)).unwrap_or(u32::MAX);
     let tall = study.panels.iter().any(|panel| matches!(panel, Panel::Places { .. }));
     let bars = study.panels.iter().map(bars_height).max().unwrap_or_default();
@@ -69,15 +70,16 @@ pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
     let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
     draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
-    let file = std::fs::File::create(path).map_err(|error| failure(error.to_string()))?;
-    let mut encoder = png::Encoder::new(std::io::BufWriter::new(file), size.0, size.1);
+    let mut file = Output::at(path)?;
+    let mut encoder = png::Encoder::new(&mut file, size.0, size.1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| {
         writer.write_image_data(&averaged(&pixels, size))?;
         writer.finish()
     });
-    written.map_err(|error| failure(error.to_string()))
+    written.map_err(|error| failure(error.to_string()))?;
+    file.complete()
 }
 
 fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {

@@ -2,8 +2,11 @@
 
 use std::str::FromStr;
 
-/// Maximum number of values of one key; a larger table would not fit into memory.
-const MOST_VALUES: u32 = 1_000_000;
+/// Maximum number of values of one key, and of rows of a table; a larger one would not fit into memory.
+pub(super) const MOST_VALUES: u32 = 1_000_000;
+
+/// Largest value: none of a scene is as large.
+const LARGEST: f64 = 1e100;
 
 /// Values of one key.
 #[derive(Clone)]
@@ -24,12 +27,20 @@ impl FromStr for Range {
             _ => Err(format!("\"{text}\" is not a finite number")),
         };
         let (start, stop) = (number(start)?, number(stop)?);
+        if start.abs().max(stop.abs()) > LARGEST {
+            return Err(format!("{start} to {stop} is not allowed: values must be from -1e100 to 1e100"));
+        }
         let count: u32 = count.trim().parse().map_err(|_| format!("\"{count}\" is not a valid count"))?;
         if !(1..=MOST_VALUES).contains(&count) {
             return Err(format!("COUNT = {count} is not allowed: it must be from 1 to {MOST_VALUES}"));
         }
         let last = f64::from(count - 1);
-        let value = |i: u32| if i == 0 { start } else { start + (stop - start) * (f64::from(i) / last) };
+        let value = |i: u32| match f64::from(i) {
+            0.0 => start,
+            i if i >= last => stop,
+            // A whole number of steps between whole numbers gives whole numbers.
+            i => (start * (last - i) + stop * i) / last,
+        };
         Ok(Self { key: key.trim().into(), values: (0..count).map(value).collect() })
     }
 }

@@ -1,9 +1,11 @@
 //! The columns of a sweep's table.
 
-use mcm::manipulator::{Outcome, Outputs};
+use std::str::FromStr;
+
+use mcm::manipulator::Outputs;
 use nalgebra::Vector3;
 
-use super::Way;
+use super::walk::Way;
 use crate::verdict;
 
 /// Tip distance up to which two shapes count as equal, mm: ten thousand times the error that a solve leaves.
@@ -43,7 +45,7 @@ const NUMBERS: [&str; 29] = [
 ];
 
 /// Columns of the solve.
-const SEARCH: [&str; 9] = [
+const SEARCH: [&str; 10] = [
     "predicted_fold",
     "stable",
     "stability",
@@ -53,21 +55,25 @@ const SEARCH: [&str; 9] = [
     "progress",
     "iterations",
     "residual",
+    "reason",
 ];
 
 /// One line of the table.
 pub(super) struct Row {
     varied: Vec<f64>,
     way: Way,
-    numbers: Vec<f64>,
+    /// `None` in a row that did not converge.
+    numbers: Option<Vec<f64>>,
     predicted_fold: Option<f64>,
     stable: Option<bool>,
-    stability: Option<&'static str>,
+    stability: Option<String>,
     snaps: u32,
-    outcome: Outcome,
+    outcome: String,
     progress: f64,
     iterations: u32,
     residual: f64,
+    /// Why it did not converge, or is neutral.
+    reason: Option<String>,
 }
 
 /// The table's header for these keys.
@@ -79,10 +85,36 @@ impl Row {
     /// The cells in the order of [`header`].
     pub(super) fn cells(&self) -> impl serde::Serialize + '_ {
         let converged = self.converged();
-        let numbers: Vec<_> = self.numbers.iter().map(|number| converged.then_some(number)).collect();
-        let verdict = (self.predicted_fold, self.stable.filter(|_| converged), self.stability, self.snaps);
-        let search = (converged, self.outcome.name(), self.progress, self.iterations, self.residual);
-        (&self.varied, self.way, numbers, verdict, search)
+        let number = |index| self.numbers.as_ref().map(|numbers| numbers[index]);
+        let numbers: Vec<Option<f64>> = (0..NUMBERS.len()).map(number).collect();
+        let verdict = (self.predicted_fold, self.stable, &self.stability, self.snaps);
+        let search = (converged, &self.outcome, self.progress, self.iterations, self.residual, &self.reason);
+        (&self.varied, self.way.name(), numbers, verdict, search)
+    }
+
+    /// The row with these cells and this number of keys; `None` for anything else.
+    pub(super) fn read<'a>(mut cells: impl Iterator<Item = &'a str>, keys: usize) -> Option<Self> {
+        fn some<T: FromStr>(cell: &str) -> Option<Option<T>> {
+            if cell.is_empty() { Some(None) } else { cell.parse().ok().map(Some) }
+        }
+        let mut next = || cells.next();
+        Some(Self {
+            varied: (0..keys).map(|_| next()?.parse().ok()).collect::<Option<_>>()?,
+            way: Way::named(next()?)?,
+            numbers: NUMBERS.iter().map(|_| some(next()?)).collect::<Option<Vec<_>>>()?.into_iter().collect(),
+            predicted_fold: some(next()?)?,
+            stable: some(next()?)?,
+            stability: some(next()?)?,
+            snaps: next()?.parse().ok()?,
+            outcome: {
+                next()?; // whether it converged
+                next()?.into()
+            },
+            progress: next()?.parse().ok()?,
+            iterations: next()?.parse().ok()?,
+            residual: next()?.parse().ok()?,
+            reason: some(next()?)?,
+        })
     }
 
     pub(super) fn new(varied: Vec<f64>, way: Way, outputs: &Outputs, predicted_fold: Option<f64>) -> Self {
@@ -107,15 +139,16 @@ impl Row {
         Self {
             varied,
             way,
-            numbers,
+            numbers: verdict::converged(outputs).then_some(numbers),
             predicted_fold,
-            stable: outputs.stable,
-            stability: verdict::stability(outputs),
+            stable: outputs.stable.filter(|_| verdict::converged(outputs)),
+            stability: verdict::stability(outputs).map(str::to_owned),
             snaps: outputs.snaps,
-            outcome: outputs.outcome,
+            outcome: outputs.outcome.name().into(),
             progress: outputs.progress,
             iterations: outputs.iterations,
             residual: outputs.residual,
+            reason: verdict::reason(outputs),
         }
     }
 
@@ -124,13 +157,14 @@ impl Row {
         self.varied[0]
     }
 
-    pub(super) fn outcome(&self) -> Outcome {
-        self.outcome
+    /// Why it did not converge, or is neutral.
+    pub(super) fn reason(&self) -> &str {
+        self.reason.as_deref().unwrap_or(&self.outcome)
     }
 
-    /// The tip angle of the last shape that was found, deg.
-    pub(super) fn angle(&self) -> f64 {
-        self.numbers[0]
+    /// The tip angle, deg; `None` without a shape.
+    pub(super) fn angle(&self) -> Option<f64> {
+        Some(self.numbers.as_ref()?[0])
     }
 
     pub(super) fn way(&self) -> Way {
@@ -138,12 +172,15 @@ impl Row {
     }
 
     pub(super) fn converged(&self) -> bool {
-        self.outcome.is_solved()
+        self.numbers.is_some()
     }
 
     /// Whether the tip positions differ, or only one of the two rows converged.
     pub(super) fn differs(&self, other: &Self) -> bool {
-        let tip = |row: &Self| Vector3::from_row_slice(&row.numbers[1..4]);
-        self.converged() != other.converged() || (tip(self) - tip(other)).norm() > SAME_TIP
+        let tip = |row: &Self| row.numbers.as_ref().map(|numbers| Vector3::from_row_slice(&numbers[1..4]));
+        match (tip(self), tip(other)) {
+            (Some(own), Some(other)) => (own - other).norm() > SAME_TIP,
+            (own, other) => own.is_some() != other.is_some(),
+        }
     }
 }

@@ -1,33 +1,31 @@
 //! Folds of a sweep as a table, and a summary of its results in words.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use mcm::manipulator::Fold;
 
 use super::rows::Row;
-use super::{Walk, Way};
+use super::walk::{Walk, Way};
 use crate::failure::Failure;
-use crate::files::create_table;
+use crate::output::Table;
 
 /// Columns of a fold after the keys.
 const COLUMNS: [&str; 6] =
     ["way", "alpha_before_deg", "stability_margin_before", "alpha_after_deg", "after_at", "branch"];
 
 /// Writes the folds of all combinations; the first key's column holds the value at the fold.
-pub(super) fn write_folds(path: &Path, keys: &[&str], walks: &[Walk]) -> Result<(), Failure> {
-    let mut table = create_table(path)?;
-    table.write_record(keys.iter().chain(&COLUMNS))?;
+pub(super) fn write_folds(mut table: Table, keys: &[&str], walks: &[Walk]) -> Result<(), Failure> {
+    table.header(keys.iter().chain(&COLUMNS))?;
     for walk in walks {
         for (fold, way) in &walk.folds {
             let varied = [&[fold.value], &walk.others[..]].concat();
             let before = (fold.before.tip_angle.to_degrees(), fold.before.stability_margin);
             let after = fold.after.as_ref().map(|(value, shape)| (shape.tip_angle.to_degrees(), *value));
             let branch = if after.is_some() { "snap" } else { "end" };
-            table.serialize((varied, way, before, after.map(|a| a.0), after.map(|a| a.1), branch))?;
+            table.row((varied, way.name(), before, after.map(|a| a.0), after.map(|a| a.1), branch))?;
         }
     }
-    Ok(table.flush()?)
+    table.complete()
 }
 
 /// Summary of one combination in lines of text; empty if there is nothing to report.
@@ -51,7 +49,7 @@ pub(super) fn describe(keys: &[&str], walk: &Walk) -> String {
 fn fold_in_words(key: &str, fold: &Fold, way: Way) -> String {
     let before = fold.before.tip_angle.to_degrees();
     let margin = fold.before.stability_margin;
-    let there = format!("{way}: at {key} = {:.6}, {before:.2} deg (margin {margin:.3})", fold.value);
+    let there = format!("{}: at {key} = {:.6}, {before:.2} deg (margin {margin:.3})", way.name(), fold.value);
     match &fold.after {
         Some((value, shape)) => {
             let angle = shape.tip_angle.to_degrees();
@@ -79,14 +77,18 @@ fn hysteresis(key: &str, rows: &[Row]) -> Option<String> {
                 .into()
         });
     };
-    let difference = |(a, b): &&(&Row, &Row)| (a.angle() - b.angle()).abs();
+    // Where only one way has a shape they differ most.
+    let difference = |(a, b): &&(&Row, &Row)| {
+        a.angle().zip(b.angle()).map_or(f64::INFINITY, |(there, back)| (there - back).abs())
+    };
+    let told = |row: &Row| row.angle().map_or("no shape".into(), |angle| format!("{angle:.2} deg"));
     let (there, back) = apart.iter().max_by(|a, b| difference(a).total_cmp(&difference(b)))?;
     Some(format!(
-        "hysteresis: the way back differs from {key} = {} to {}, most at {}: {:.2} deg forth, {:.2} deg back",
+        "hysteresis: the way back differs from {key} = {} to {}, most at {}: {} forth, {} back",
         first.0.value(),
         last.0.value(),
         there.value(),
-        there.angle(),
-        back.angle()
+        told(there),
+        told(back)
     ))
 }

@@ -1,0 +1,178 @@
+//! The rows of an unfinished sweep: a table beside its own place, to which each row is added as soon as it is known.
+//!
+//! Its first line says of which sweep. The column `row` counts through the whole table. A comment
+//! `# at WALK STATE` holds what a walk needs to go on from its last row.
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use mcm::manipulator::{Fold, PathSnapshot};
+use serde::{Deserialize, Serialize};
+
+use super::rows::Row;
+use super::walk::Way;
+use crate::failure::Failure;
+use crate::output::warn;
+
+/// What the comments with states begin with.
+const AT: &str = "# at ";
+
+/// The file of an unfinished sweep.
+pub(super) struct Journal {
+    path: PathBuf,
+    file: Mutex<File>,
+}
+
+/// What is known of a walk.
+#[derive(Default)]
+pub(super) struct Kept {
+    /// Its rows with their numbers within the walk.
+    pub(super) rows: Vec<(usize, Row)>,
+    /// Its last state; `None` where there is none to go on from.
+    pub(super) state: Option<State>,
+}
+
+/// State of a walk from which it goes on.
+#[derive(Serialize, Deserialize)]
+pub(super) struct State {
+    /// Number of rows until there.
+    pub(super) rows: usize,
+    /// The direction in which each fold was met.
+    pub(super) ways: Vec<Way>,
+    pub(super) stage: Stage,
+}
+
+/// How far a walk has come.
+#[derive(Serialize, Deserialize)]
+pub(super) enum Stage {
+    /// To this state of its branch.
+    UnderWay(PathSnapshot),
+    /// To its end, past these folds.
+    Complete(Vec<Fold>),
+}
+
+/// What identifies a sweep and its table.
+pub(super) struct Identity<'a> {
+    /// A number that differs for every other sweep.
+    pub(super) stamp: u32,
+    pub(super) header: &'a [&'a str],
+    /// Number of keys that are varied.
+    pub(super) keys: usize,
+    pub(super) walks: usize,
+    pub(super) rows_per_walk: usize,
+}
+
+impl Journal {
+    /// Begins the file at `path`, or takes up the one that is there. Returns what is known of each walk.
+    pub(super) fn open(path: &Path, resume: bool, sweep: &Identity) -> Result<(Self, Vec<Kept>), Failure> {
+        let name = path.display();
+        let old = fs::read_to_string(path).ok().filter(|text| !text.is_empty());
+        if old.is_some() && !resume {
+            return Err(Failure(format!(
+                "{name} holds the rows of an unfinished sweep: go on with --resume, or delete it"
+            )));
+        }
+        if old.is_none() && resume {
+            warn(&format!("there is no unfinished sweep {name}: this one starts at its first row"));
+        }
+        let (length, kept) = match &old {
+            Some(text) => sweep.read(text).ok_or_else(|| {
+                Failure(format!("{name} is of another sweep or version: delete it, or choose another --out"))
+            })?,
+            None => (0, sweep.nothing()),
+        };
+        let failure = |error| Failure::writing(path.display(), error);
+        let file = File::options().create(true).append(true).open(path).map_err(failure)?;
+        file.set_len(length).map_err(failure)?;
+        let journal = Self { path: path.to_owned(), file: Mutex::new(file) };
+        if length == 0 {
+            journal.add(format!("{}\nrow,{}\n", sweep.title(), sweep.header.join(",")).as_bytes())?;
+        }
+        Ok((journal, kept))
+    }
+
+    /// Adds a row, with its number in the whole table.
+    pub(super) fn row(&self, number: usize, row: &Row) -> Result<(), Failure> {
+        let mut line = csv::Writer::from_writer(Vec::new());
+        line.serialize((number, row.cells()))
+            .map_err(|error| Failure::writing(self.path.display(), error))?;
+        let bytes =
+            line.into_inner().map_err(|error| Failure::writing(self.path.display(), error.error()))?;
+        self.add(&bytes)
+    }
+
+    /// Adds the state of a walk.
+    pub(super) fn state(&self, walk: usize, state: &State) -> Result<(), Failure> {
+        let bytes =
+            postcard::to_stdvec(state).map_err(|error| Failure::writing(self.path.display(), error))?;
+        self.add(format!("{AT}{walk} {}\n", in_digits(&bytes)).as_bytes())
+    }
+
+    /// Adds whole lines at once, so that rows of several walks do not mix.
+    fn add(&self, lines: &[u8]) -> Result<(), Failure> {
+        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
+        file.write_all(lines).map_err(|error| Failure::writing(self.path.display(), error))
+    }
+
+    /// Removes the file: the table is complete.
+    pub(super) fn remove(self) -> Result<(), Failure> {
+        drop(self.file);
+        fs::remove_file(&self.path)
+            .map_err(|error| Failure(format!("cannot remove {}: {error}", self.path.display())))
+    }
+
+    /// Its path.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+}
+
+impl Identity<'_> {
+    fn title(&self) -> String {
+        format!("# mcm {} sweep {:08x}, unfinished: --resume goes on", env!("CARGO_PKG_VERSION"), self.stamp)
+    }
+
+    fn nothing(&self) -> Vec<Kept> {
+        (0..self.walks).map(|_| Kept::default()).collect()
+    }
+
+    /// The length of what is whole, bytes, and what it says of each walk; `None` for the file of another sweep.
+    fn read(&self, text: &str) -> Option<(u64, Vec<Kept>)> {
+        // What was cut off has no end of line.
+        let whole = &text[..text.rfind('\n')? + 1];
+        let lines = whole.strip_prefix(&self.title())?;
+        let mut kept = self.nothing();
+        let table =
+            csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(lines.as_bytes()).into_records();
+        for record in table {
+            let (number, row) = numbered(&record.ok()?, self.keys)?;
+            kept.get_mut(number / self.rows_per_walk)?.rows.push((number % self.rows_per_walk, row));
+        }
+        for line in lines.lines().filter_map(|line| line.strip_prefix(AT)) {
+            let (walk, state) = line.split_once(' ')?;
+            let state: State = postcard::from_bytes(&from_digits(state)?).ok()?;
+            kept.get_mut(walk.parse::<usize>().ok()?)?.state = Some(state);
+        }
+        Some((whole.len() as u64, kept))
+    }
+}
+
+/// The number of a row and the row itself.
+fn numbered(record: &csv::StringRecord, keys: usize) -> Option<(usize, Row)> {
+    let mut cells = record.iter();
+    Some((cells.next()?.parse().ok()?, Row::read(cells, keys)?))
+}
+
+/// Bytes as hexadecimal digits.
+fn in_digits(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    let digit = |half: u8| char::from(DIGITS[usize::from(half)]);
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
+}
+
+fn from_digits(digits: &str) -> Option<Vec<u8>> {
+    let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok();
+    digits.as_bytes().chunks(2).map(byte).collect()
+}

@@ -1,0 +1,237 @@
+//! Reading a scene text: all its faults at once, each with its line, its key and what is wrong.
+
+use std::ops::Range;
+
+use serde::Deserialize;
+use toml::de::{DeTable, DeValue, Deserializer};
+use toml::{Spanned, Value};
+
+use super::SceneFile;
+use super::text::{entry, suggestion};
+use crate::error::Error;
+
+/// Largest number of faults that are told of one text.
+const MOST: usize = 20;
+
+/// Reads the scene of a text called `what`.
+///
+/// An entry at fault is left out, and the rest read again, until no more faults are found.
+pub(super) fn read(text: &str, what: &str) -> Result<SceneFile, Error> {
+    let mut faults = Faults { text, what, found: Vec::new() };
+    let (root, broken) = DeTable::parse_recoverable(text);
+    for error in &broken {
+        faults.add(error.span(), error.message().replace('\n', ", "));
+    }
+    if !broken.is_empty() {
+        return Err(faults.all());
+    }
+    let file = faults.types_and_keys(&root);
+    let Some(file) = file else { return Err(faults.all()) };
+    faults.values(root.get_ref(), &file)?;
+    if faults.found.is_empty() { Ok(file) } else { Err(faults.all()) }
+}
+
+/// The faults found so far in a text.
+struct Faults<'a> {
+    text: &'a str,
+    what: &'a str,
+    /// With where they begin.
+    found: Vec<(usize, Error)>,
+}
+
+impl Faults<'_> {
+    fn add(&mut self, span: Option<Range<usize>>, reason: String) {
+        let start = span.as_ref().map_or(usize::MAX, |span| span.start);
+        let line = self.text.get(..start).map(|before| before.matches('\n').count() + 1);
+        let line = line.map_or_else(String::new, |line| format!(", line {line}"));
+        self.found.push((start, Error::Syntax { what: format!("{}{line}", self.what), reason }));
+    }
+
+    /// All of them, in the order of the text.
+    fn all(mut self) -> Error {
+        self.found.sort_by_key(|(start, _)| *start);
+        let mut errors: Vec<Error> = self.found.into_iter().map(|(_, error)| error).collect();
+        if errors.len() == 1 { errors.remove(0) } else { Error::Several(errors) }
+    }
+
+    /// Finds keys that do not exist, values of another type and arrays of another length. What is left of the file without
+    /// them; `None` where nothing can be read without them.
+    fn types_and_keys(&mut self, root: &Spanned<DeTable<'_>>) -> Option<SceneFile> {
+        let mut kept = root.clone();
+        let mut file = loop {
+            let error = match SceneFile::deserialize(Deserializer::from(kept.clone())) {
+                Ok(file) => break file,
+                Err(error) => error,
+            };
+            let span = error.span().unwrap_or(0..0);
+            let path = entries(root.get_ref()).into_iter().rfind(|entry| entry.is_at(&span));
+            let path = path.map(|entry| entry.path);
+            self.add(Some(span.clone()), explained(error.message().trim_end(), path.as_deref()));
+            if !remove(kept.get_mut(), &span) || self.found.len() == MOST {
+                return None;
+            }
+        };
+        file.design.complete();
+        let mut written = Value::Table(file.table().ok()?);
+        for Entry { path, span, value, .. } in entries(root.get_ref()) {
+            if let DeValue::Array(given) = value
+                && let Ok(Value::Array(kept)) = entry(&mut written, &path)
+                && given.len() > kept.len()
+            {
+                self.add(Some(span), format!("{path} has {} entries, expected {}", given.len(), kept.len()));
+            }
+        }
+        Some(file)
+    }
+
+    /// Finds values out of their range.
+    fn values(&mut self, root: &DeTable<'_>, file: &SceneFile) -> Result<(), Error> {
+        let mut table = Value::Table(file.table()?);
+        for (path, number) in infinite(&table, "") {
+            self.add(span_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
+            forget(&mut table, &path);
+        }
+        let mut told: Vec<String> = Vec::new();
+        while self.found.len() < MOST {
+            let mut rest: SceneFile = table.clone().try_into().map_err(|error: toml::de::Error| {
+                Error::Syntax { what: self.what.into(), reason: error.message().into() }
+            })?;
+            rest.design.complete();
+            let Err(error) = rest.scene() else { return Ok(()) };
+            // A combination proves nothing once a part of it has been left out.
+            if !self.found.is_empty() && !matches!(error, Error::Range { .. }) {
+                return Ok(());
+            }
+            let reason = error.to_string();
+            let words = reason.split(' ').map(|word| word.trim_end_matches(':'));
+            let key = words.into_iter().find(|word| entry(&mut table.clone(), word).is_ok());
+            let path = key.unwrap_or("design").to_owned();
+            if !told.contains(&path) {
+                self.add(span_of(root, &path), reason);
+                told.push(path.clone());
+            }
+            if !forget(&mut table, &path) {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The reason of an error of serde, with the full path of the key.
+fn explained(message: &str, path: Option<&str>) -> String {
+    // serde writes the key in backquotes, then the known keys.
+    match (message.strip_prefix("unknown field `"), path) {
+        (Some(rest), path) => {
+            let mut quoted = rest.split('`').step_by(2);
+            let key = quoted.next().unwrap_or_default();
+            let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
+            format!("unknown key `{}`{}", path.unwrap_or(key), suggestion(key, &known))
+        }
+        (None, Some(path)) => format!("`{path}`: {message}"),
+        (None, None) => message.replace('\n', ", "),
+    }
+}
+
+/// A key or an entry of an array.
+struct Entry<'a> {
+    path: String,
+    /// Where its key is in the text, or the value of an entry of an array.
+    span: Range<usize>,
+    value: &'a DeValue<'a>,
+    value_span: Range<usize>,
+}
+
+impl Entry<'_> {
+    fn is_at(&self, span: &Range<usize>) -> bool {
+        self.span == *span || self.value_span == *span
+    }
+}
+
+/// All keys and entries of arrays; those within another come after it.
+fn entries<'a>(root: &'a DeTable<'a>) -> Vec<Entry<'a>> {
+    fn add<'a>(path: String, span: Range<usize>, value: &'a Spanned<DeValue<'a>>, out: &mut Vec<Entry<'a>>) {
+        let inside = path.clone();
+        out.push(Entry { path, span, value: value.get_ref(), value_span: value.span() });
+        match value.get_ref() {
+            DeValue::Table(table) => {
+                for (key, value) in table {
+                    add(format!("{inside}.{}", key.get_ref()), key.span(), value, out);
+                }
+            }
+            DeValue::Array(array) => {
+                for (index, value) in array.iter().enumerate() {
+                    add(format!("{inside}[{}]", index + 1), value.span(), value, out);
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut out = Vec::new();
+    for (key, value) in root {
+        add(key.get_ref().to_string(), key.span(), value, &mut out);
+    }
+    out
+}
+
+/// Where the text gives a key, or the nearest table around it.
+fn span_of(root: &DeTable<'_>, path: &str) -> Option<Range<usize>> {
+    let known = entries(root);
+    let mut path = path;
+    loop {
+        if let Some(entry) = known.iter().find(|entry| entry.path == path) {
+            return Some(entry.span.clone());
+        }
+        path = &path[..path.rfind(['.', '['])?];
+    }
+}
+
+/// Removes the key at `span`, or the one whose value is there.
+fn remove(table: &mut DeTable<'_>, span: &Range<usize>) -> bool {
+    let mut own = None;
+    for (key, value) in table.iter_mut() {
+        let here = key.span() == *span;
+        match if here { Some(false) } else { remove_in(value, span) } {
+            Some(true) => return true,
+            Some(false) => own = Some(key.clone()),
+            None => {}
+        }
+    }
+    own.is_some_and(|key| table.remove(&key).is_some())
+}
+
+/// Removes the key at `span` within a value: whether that is done, or the whole value is meant; `None` for neither.
+fn remove_in(value: &mut Spanned<DeValue<'_>>, span: &Range<usize>) -> Option<bool> {
+    let meant = (value.span() == *span).then_some(false);
+    let inside = match value.get_mut() {
+        DeValue::Table(table) => remove(table, span).then_some(true),
+        DeValue::Array(array) => array.iter_mut().find_map(|value| remove_in(value, span)),
+        _ => None,
+    };
+    inside.or(meant)
+}
+
+/// Paths and values of numbers that are not finite.
+fn infinite(value: &Value, path: &str) -> Vec<(String, f64)> {
+    match value {
+        Value::Float(number) if !number.is_finite() => vec![(path.to_owned(), *number)],
+        Value::Table(table) => {
+            let inside = |key: &String| if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            table.iter().flat_map(|(key, value)| infinite(value, &inside(key))).collect()
+        }
+        Value::Array(array) => {
+            let numbered = array.iter().enumerate();
+            numbered.flat_map(|(index, value)| infinite(value, &format!("{path}[{}]", index + 1))).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Removes a key, so that its default takes its place; an array as a whole. Where there is no such key, the table around it.
+fn forget(file: &mut Value, path: &str) -> bool {
+    let path = path.split('[').next().unwrap_or_default();
+    let (table, key) = path.rsplit_once('.').unwrap_or(("", path));
+    let inside = if table.is_empty() { Ok(&mut *file) } else { entry(file, table) };
+    let removed = inside.ok().and_then(Value::as_table_mut).and_then(|inside| inside.remove(key));
+    removed.is_some() || (!table.is_empty() && forget(file, table))
+}

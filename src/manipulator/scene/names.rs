@@ -1,0 +1,116 @@
+//! The keys under which a scene file holds the quantities of a specification, and their units there.
+
+use core::f64::consts::PI;
+
+use toml::Value;
+
+use super::resolve::{MM_PER_M, PA_PER_MPA};
+use super::text::entry;
+use crate::error::Error;
+use crate::magnetics::Assembly;
+
+/// Unit of a number in a scene file.
+#[derive(Debug, Clone, Copy)]
+enum Unit {
+    /// That of the library.
+    Same,
+    Millimetre,
+    Degree,
+    Megapascal,
+}
+
+impl Unit {
+    /// A number of the file as the library has it.
+    fn si(self, number: f64) -> f64 {
+        match self {
+            Self::Same => number,
+            Self::Millimetre => number / MM_PER_M,
+            Self::Degree => number.to_radians(),
+            Self::Megapascal => number * PA_PER_MPA,
+        }
+    }
+
+    /// A range in words, with its limits in this unit.
+    fn range(self, words: &str) -> String {
+        let factor = match self {
+            Self::Same => return words.to_owned(),
+            Self::Millimetre => MM_PER_M,
+            Self::Degree => 180.0 / PI,
+            Self::Megapascal => 1.0 / PA_PER_MPA,
+        };
+        let limit = |word: &str| {
+            let number = if word == "pi" { Some(PI) } else { word.parse().ok() };
+            // Rounded to the digits that matter.
+            number.map_or_else(
+                || word.to_owned(),
+                |number: f64| format!("{}", (number * factor * 1e9).round() / 1e9),
+            )
+        };
+        words.split(' ').map(limit).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Quantities as [`crate::design`] and [`crate::magnetics`] name them, the keys that may hold them, and their unit there. `*`
+/// is the number of a cylinder.
+const KEYS: [(&str, &str, Unit); 37] = [
+    ("number of segments", "design.segments", Unit::Same),
+    ("helix length L (m)", "design.helix.length_mm", Unit::Millimetre),
+    ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg", Unit::Degree),
+    ("helix radius R (m)", "design.helix.radius_mm", Unit::Millimetre),
+    ("windings W", "design.helix.windings", Unit::Same),
+    ("core outer radius r_oc (m)", "design.helix.core_outer_radius_mm", Unit::Millimetre),
+    ("core inner radius r_ic (m)", "design.helix.core_inner_radius_mm", Unit::Millimetre),
+    ("Shore A hardness", "design.helix.shore_a", Unit::Same),
+    ("Poisson's ratio", "design.helix.poisson", Unit::Same),
+    ("volume fraction Phi", "design.helix.volume_fraction", Unit::Same),
+    ("particle remanence B_r (T)", "design.helix.particle_remanence_t", Unit::Same),
+    ("density (kg/m3)", "design.helix.density_kg_m3", Unit::Same),
+    ("ring length L_mag (m)", "design.ring.length_mm", Unit::Millimetre),
+    ("ring remanence B_r (T)", "design.ring.remanence_t", Unit::Same),
+    ("ring recoil permeability mu_r", "design.ring.recoil_permeability", Unit::Same),
+    ("density (kg/m3)", "design.ring.density_kg_m3", Unit::Same),
+    ("backbone outer radius (m)", "design.backbone.outer_radius_mm", Unit::Millimetre),
+    ("backbone inner radius (m)", "design.backbone.inner_radius_mm", Unit::Millimetre),
+    ("Shore A hardness", "design.backbone.shore_a", Unit::Same),
+    ("Young's modulus (Pa)", "design.backbone.elastic_modulus_mpa", Unit::Megapascal),
+    ("Poisson's ratio", "design.backbone.poisson", Unit::Same),
+    ("density (kg/m3)", "design.backbone.density_kg_m3", Unit::Same),
+    ("cylinder length (m)", "design.length_mm", Unit::Millimetre),
+    ("cylinder radius (m)", "design.radius_mm", Unit::Millimetre),
+    ("cylinder inner radius (m)", "design.inner_radius_mm", Unit::Millimetre),
+    ("Shore A hardness", "design.shore_a", Unit::Same),
+    ("Young's modulus (Pa)", "design.elastic_modulus_mpa", Unit::Megapascal),
+    ("Poisson's ratio", "design.poisson", Unit::Same),
+    ("volume fraction Phi", "design.volume_fraction", Unit::Same),
+    ("particle remanence B_r (T)", "design.particle_remanence_t", Unit::Same),
+    ("cylinder remanence (T)", "design.remanence_t", Unit::Same),
+    ("density (kg/m3)", "design.density_kg_m3", Unit::Same),
+    ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm", Unit::Millimetre),
+    ("magnet inner radius (m)", "magnet.cylinders[*].inner_radius_mm", Unit::Millimetre),
+    ("magnet length (m)", "magnet.cylinders[*].length_mm", Unit::Millimetre),
+    ("magnet offset (m)", "magnet.cylinders[*].offset_mm", Unit::Millimetre),
+    ("magnet remanence (T)", "magnet.cylinders[*].remanence_t", Unit::Same),
+];
+
+/// What follows from several keys of the helix.
+const HEIGHT: &str = "winding height h (m)";
+
+/// The same error with the key and the number as `file` writes them, if it is of a quantity with a key.
+pub(super) fn as_written(error: Error, file: &Value) -> Error {
+    let Error::Range { quantity, value, allowed } = &error else { return error };
+    let written = |key: &str| entry(&mut file.clone(), key).ok().and_then(|entry| number(entry));
+    let candidates = KEYS.iter().filter(|(name, ..)| name == quantity).flat_map(|(_, key, unit)| {
+        let cylinders = if key.contains('*') { 1..=Assembly::MOST_MAGNETS } else { 1..=1 };
+        cylinders.map(move |cylinder| (key.replace('*', &cylinder.to_string()), *unit))
+    });
+    for (key, unit) in candidates {
+        if let Some(number) = written(&key).filter(|number| unit.si(*number) == *value) {
+            return Error::range(key, number, unit.range(allowed));
+        }
+    }
+    if quantity == HEIGHT { Error::range(format!("design.helix: {HEIGHT}"), *value, allowed) } else { error }
+}
+
+fn number(entry: &Value) -> Option<f64> {
+    entry.as_float().or_else(|| entry.as_integer().map(|whole| whole as f64))
+}
