@@ -84,9 +84,6 @@ impl Instance {
             changed |= variable.host_value(&self.fmu_state.host_values) != Some(value);
             rebuild |= variable.variability == Variability::Fixed;
         }
-        if !changed {
-            return Ending::Ok; // the equilibrium, and what was measured of it, stays valid
-        }
         // What was checked is not refused now.
         for (&reference, value) in references.iter().zip(values) {
             let variable = self.package.table().find(reference);
@@ -95,6 +92,9 @@ impl Instance {
             if let Err(error) = set {
                 return self.refuse(&error.to_string());
             }
+        }
+        if !changed {
+            return Ending::Ok; // the equilibrium, and what was measured of it, stays valid
         }
         self.fmu_state.solved = false;
         if rebuild {

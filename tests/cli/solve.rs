@@ -127,9 +127,9 @@ fn model_without_potential_is_judged_by_its_whole_matrix() {
 fn bad_numbers_are_refused_with_quantity_and_range() {
     for (scene, expected) in [
         ("[field]\nuniform_mt = [0, nan, 0]", "field.uniform_mt[2] = NaN"),
-        ("[design.helix]\nwindings = 0", "windings"),
-        ("[design.helix]\npoisson = 0.7", "Poisson"),
-        ("[magnet]\ncylinders = []", "magnet"),
+        ("[design.helix]\nwindings = 0", "design.helix.windings = 0"),
+        ("[design.helix]\npoisson = 0.7", "design.helix.poisson = 0.7"),
+        ("[magnet]\ncylinders = []", "line 2: magnet.cylinders: "),
     ] {
         let (_, output) = with_scene("numbers", scene, &["solve", "scene.toml"]);
         assert_status(&output, 1);
