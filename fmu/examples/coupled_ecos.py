@@ -1,5 +1,6 @@
 """Couples the manipulator with the robot arm in ecos, which needs Debian's package libtbb12.
 
+    fmu/venv fmu/examples/requirements.txt
     .venv/bin/python fmu/examples/coupled_ecos.py mcm.fmu arm.fmu --out coupled.csv
 
 With `--apart` the manipulator runs in a process of its own. What ecos tells of an output after a step is its value
@@ -16,6 +17,8 @@ try:
     import ecospy
     from ecospy import EcosSimulation, EcosSimulationStructure
     from ecospy.lib import EcosLib
+except ModuleNotFoundError as error:
+    raise SystemExit(f"{error}: {coupling.INSTALL}") from error
 except OSError as error:
     raise SystemExit(f"ecos cannot be loaded ({error}); on Debian: apt-get install libtbb12") from error
 

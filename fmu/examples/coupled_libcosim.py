@@ -1,5 +1,6 @@
 """Couples the manipulator with the robot arm in libcosim.
 
+fmu/venv fmu/examples/requirements.txt
 .venv/bin/python fmu/examples/coupled_libcosim.py mcm.fmu arm.fmu --out coupled.csv
 """
 
@@ -7,11 +8,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import coupling
-from libcosimpy.CosimEnums import CosimVariableType
-from libcosimpy.CosimExecution import CosimExecution
-from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
-from libcosimpy.CosimObserver import CosimObserver
-from libcosimpy.CosimSlave import CosimLocalSlave
+
+try:
+    from libcosimpy.CosimEnums import CosimVariableType
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+    from libcosimpy.CosimObserver import CosimObserver
+    from libcosimpy.CosimSlave import CosimLocalSlave
+except ModuleNotFoundError as error:
+    raise SystemExit(f"{error}: {coupling.INSTALL}") from error
 
 NANOSECONDS = 1_000_000_000  # libcosim counts time in whole nanoseconds
 

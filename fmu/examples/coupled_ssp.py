@@ -1,5 +1,6 @@
 """Runs the coupling from its SSP archive, in fmpy, libcosim or ecos.
 
+    fmu/venv fmu/examples/requirements.txt
     .venv/bin/python fmu/examples/coupled_ssp.py coupling.ssp --master libcosim --out coupled.csv
 
 fmpy's own `simulate_ssp` sets every input to zero for its first step, and a quaternion of zeros is no orientation: here

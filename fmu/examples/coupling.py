@@ -9,6 +9,9 @@ import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+# What a master says whose package is missing.
+INSTALL = "fmu/venv fmu/examples/requirements.txt installs what this example needs"
+
 STEP = 0.05  # communication step, s
 STEPS = 100
 

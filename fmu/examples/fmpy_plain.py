@@ -3,14 +3,20 @@
     .venv/bin/python fmu/examples/fmpy_plain.py mcm.fmu --out driven.csv --picture driven.png
 
 The inputs are a table over time, by default `magnet_pass.csv`: from its start pose beside the middle the magnet goes
-60 mm along the manipulator and 10 mm aside and turns by 0.5 rad. Inputs hold during a step; outputs are those at its
-end.
+60 mm along the manipulator and 10 mm aside and turns by 0.5 rad. A row of the outputs is the answer to the inputs of
+the same time.
+
+fmpy sets the inputs of a time `t`, holds them during a step `h` and writes the answer in the row at `t + h`: one step
+late. So this runs one step longer, leaves out fmpy's first row and gives every row the time of its inputs. With
+`--interpolate` the inputs move on straight lines from row to row instead, by fmpy's `set_input_derivatives`: then the
+row at `t + h` is the answer to the inputs of `t + h`, and the manipulator has followed the path between.
 """
 
 import argparse
 import csv
 from pathlib import Path
 
+import fmpy.simulation
 import matplotlib as mpl
 import numpy as np
 from fmpy import simulate_fmu
@@ -27,21 +33,43 @@ OUTPUTS = [
 ]
 
 
-def run(fmu: Path, inputs: Path) -> np.ndarray:
+class InterpolatedInput(fmpy.simulation.Input):
+    """What `set_input_derivatives` needs of fmpy 0.3.32, whose own class refuses any other number of inputs than nine.
+
+    At the time of a row fmpy takes the slope from the row before, and none at the first row. A table that is earlier by
+    far less than a step has the slope to the next row there.
+    """
+
+    def __init__(self, *arguments, **options) -> None:
+        super().__init__(*arguments, **options)
+        if self.t is not None:
+            self.t = self.t - 1e-12 * np.ptp(self.t)
+            self.continuous = [group._replace(derivatives=type(group.values)()) for group in self.continuous]
+
+
+def run(fmu: Path, inputs: Path, *, interpolate: bool = False) -> np.ndarray:
     """The outputs at the times of the inputs."""
     signals = read_csv(inputs)
     times = signals["time"]
     step = times[1] - times[0]
     if not np.allclose(np.diff(times), step):
         raise SystemExit(f"{inputs}: the times are not evenly spaced")
-    return simulate_fmu(
+    if interpolate:
+        fmpy.simulation.Input = InterpolatedInput
+    rows = simulate_fmu(
         str(fmu),
         start_time=times[0],
-        stop_time=times[-1],
+        stop_time=times[-1] if interpolate else times[-1] + step,
         output_interval=step,
         input=signals,
         output=OUTPUTS,
+        set_input_derivatives=interpolate,
     )
+    if interpolate:
+        return rows
+    rows = rows[1:]
+    rows["time"] -= step
+    return rows
 
 
 def write(out: Path, table: np.ndarray) -> None:
@@ -76,10 +104,11 @@ def main() -> None:
     )
     parser.add_argument("fmu", type=Path, help="the FMU, as `mcm pack` writes it")
     parser.add_argument("--inputs", type=Path, default=INPUTS, help="input variables over time (CSV)")
+    parser.add_argument("--interpolate", action="store_true", help="move the inputs from row to row")
     parser.add_argument("--out", type=Path, required=True, help="the table to write (CSV)")
     parser.add_argument("--picture", type=Path, help="the picture to write (PNG)")
     arguments = parser.parse_args()
-    table = run(arguments.fmu, arguments.inputs)
+    table = run(arguments.fmu, arguments.inputs, interpolate=arguments.interpolate)
     write(arguments.out, table)
     if arguments.picture:
         draw(arguments.picture, table)

@@ -1,5 +1,6 @@
 """Sweeps magnet poses and designs with the FMU on a `dask.distributed` cluster.
 
+    fmu/venv fmu/examples/requirements.txt
     .venv/bin/python fmu/examples/sweep_dask.py mcm.fmu --vary 'magnet.position[3]=-0.04:0.08:25' \\
         --vary design.helix.length=0.0035:0.0045:5 --out sweep.csv --picture sweep.png
 
@@ -19,12 +20,17 @@ from pathlib import Path
 
 import matplotlib as mpl
 import numpy as np
-from distributed import Client, LocalCluster, as_completed, get_worker
-from distributed.diagnostics.plugin import UploadFile
 from fmpy import extract, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
 from tqdm import tqdm
+
+try:
+    from distributed import Client, LocalCluster, as_completed, get_worker
+    from distributed.diagnostics.plugin import UploadFile
+except ModuleNotFoundError as error:
+    needed = "fmu/venv fmu/examples/requirements.txt installs what this example needs"
+    raise SystemExit(f"{error}: {needed}") from error
 
 CASES_PER_TASK = 8
 OUTPUTS = ["tip.angle", *(f"tip.position[{k}]" for k in (1, 2, 3)), "stability.margin"]

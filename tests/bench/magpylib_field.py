@@ -1,6 +1,7 @@
 """Time and accuracy of magpylib for the reference ring and pair of cylinders: the peer of `cargo bench --bench field`.
 
-Run: pip install magpylib && python tests/bench/magpylib_field.py
+fmu/venv tests/bench/requirements.txt
+.venv/bin/python tests/bench/magpylib_field.py
 """
 
 import csv

@@ -4,6 +4,9 @@ The first and the last element are half outside the rod: so it has as many joint
 bends them to exactly its angle, and what is left of the error is how far it has settled. Density and radius do not
 change where it rests: they make the waves of bending and of stretching equally fast, and so the step as long as it can
 be.
+
+fmu/venv tests/bench/requirements.txt
+.venv/bin/python tests/bench/pyelastica_peer.py
 """
 
 import time

@@ -1,5 +1,6 @@
 """Reference: mean magnetisation of ring magnets whose recoil permeability is not 1, by an integral equation.
 
+fmu/venv tests/bench/requirements.txt
 .venv/bin/python tests/bench/recoil_permeability.py
 
 A magnet of uniform remanence B_r along z and relative recoil permeability mu_r, M = B_r/mu_0 + (mu_r - 1) H, carries

@@ -2,6 +2,9 @@
 
 The core of one segment, 2.698 mm long, carries a ring magnet at its tip in a field of 20 mT across it.
 The moment is the same everywhere, so the angle solves theta = Lam sin(phi - theta).
+
+fmu/venv tests/bench/requirements.txt
+.venv/bin/python tests/bench/solve_bvp_peer.py
 """
 
 import time

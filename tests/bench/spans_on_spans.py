@@ -1,7 +1,8 @@
 """What spans acting on one another do to the bending stiffness: magnetostatic energy of the bent composite (MPC).
 
 Run (about 6 minutes): .venv/bin/python tests/bench/spans_on_spans.py
-With the motion of finite elements too: the packages of spiral_stiffness.py, and the option --elastic (3 minutes more).
+With the motion of finite elements too: fmu/venv tests/bench/finite_elements.txt, and the option --elastic (3 minutes
+more).
 Writes tests/bench/spans_on_spans.csv and prints how it converges.
 
 The energy is that of the magnetic charges, E = mu0 / (8 pi) sum sum q q' / |x - x'|, touching parts in it. For a

@@ -1,6 +1,6 @@
 """What the glued spiral adds to a core's stiffness, which the paper neglects: linear finite elements of one core.
 
-Run (about 8 minutes): .venv/bin/pip install scikit-fem==12.0.2 pypardiso==0.4.7
+Run (about 8 minutes): fmu/venv tests/bench/finite_elements.txt
                        .venv/bin/python tests/bench/spiral_stiffness.py
 Writes tests/bench/spiral_stiffness.csv. With --fine a mesh of twice the cells around and along too, which is in the
 record (10 minutes more).

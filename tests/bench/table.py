@@ -1,5 +1,6 @@
 """Measures the solves and fields beside their peers in one run and prints the tables in Markdown.
 
+fmu/venv tests/bench/requirements.txt
 .venv/bin/python tests/bench/table.py            all
 .venv/bin/python tests/bench/table.py solve      only the solves beside scipy and PyElastica
 .venv/bin/python tests/bench/table.py field      only the fields beside magba and magpylib
@@ -18,9 +19,12 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
-import magpylib_field
-import pyelastica_peer
-import solve_bvp_peer
+try:
+    import magpylib_field
+    import pyelastica_peer
+    import solve_bvp_peer
+except ModuleNotFoundError as error:
+    raise SystemExit(f"{error}: fmu/venv tests/bench/requirements.txt installs the peers") from error
 
 PACKAGE = Path(__file__).resolve().parents[2]
 PEERS = PACKAGE / "tests" / "charts" / "peers.csv"

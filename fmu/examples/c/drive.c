@@ -5,9 +5,9 @@
        gcc -std=c11 -Wall -Wextra -Ifmu/headers -o drive fmu/examples/c/drive.c -ldl
        ./drive unpacked fmu/examples/magnet_pass.csv driven.csv
 
-   The first line of the inputs names `time` and input variables. Inputs are set at the start of each step and hold
-   during it; the outputs are written at its end. Half-way the state is saved; at the end it is restored and the second
-   half is driven again, which must give the same numbers. */
+   The first line of the inputs names `time` and input variables. For a step to the time of a row the inputs of this row
+   are set, then the step is taken: a row of the outputs is the answer to the inputs of the same time. Half-way the state
+   is saved; at the end it is restored and the second half is driven again, which must give the same numbers. */
 
 #define _POSIX_C_SOURCE 200809L
 #include <dlfcn.h>
@@ -164,12 +164,13 @@ static void set_inputs(fmi2Component device, size_t row)
     check(fmi.SetReal(device, inputs.references, inputs.count, inputs.values[row]), "fmi2SetReal");
 }
 
-/* Drives from row `first` to row `last`; keeps the outputs of every row after the first. */
+/* Drives from row `first` to row `last`, the inputs of a step being those of its end; keeps the outputs of every row after
+   the first. */
 static void drive(fmi2Component device, size_t first, size_t last, const fmi2ValueReference *outputs,
                   double kept[][OUTPUT_COUNT])
 {
     for (size_t row = first; row < last; ++row) {
-        set_inputs(device, row);
+        set_inputs(device, row + 1);
         const double step = inputs.time[row + 1] - inputs.time[row];
         check(fmi.DoStep(device, inputs.time[row], step, fmi2False), "fmi2DoStep");
         check(fmi.GetReal(device, outputs, OUTPUT_COUNT, kept[row + 1]), "fmi2GetReal");
