@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::progress::Progress;
 use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -122,18 +123,19 @@ struct Case {
     length: f64,
 }
 
-/// All points of 27 cases, with cold and warm solves in one thread; calls `done` after each case. A case without a
+/// All points of 27 cases, with cold and warm solves in one thread. A case without a
 /// reference, as where the rings snap together, has one point without numbers.
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
-pub fn accuracy(done: impl Fn()) -> Result<Vec<Point>, Error> {
+pub fn accuracy(progress: &dyn Progress) -> Result<Vec<Point>, Error> {
+    progress.more(Case::COUNT);
     let mut points = Vec::new();
     for (field, table) in FIELDS {
         for segments in SEGMENTS {
             for level in LEVELS {
                 points.extend(Case::new(field, table, segments, level)?.points()?);
-                done();
+                progress.done();
             }
         }
     }
@@ -301,10 +303,4 @@ fn trials(base: Settings) -> Vec<Trial> {
         }
     }
     out
-}
-
-/// Number of times that [`accuracy`] calls `done`.
-#[must_use]
-pub fn accuracy_cases() -> usize {
-    Case::COUNT
 }

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use self::canvas::{Canvas, Drawing};
 use self::case::{Case, turned};
 use super::experiment::{SEGMENTS, magnet_pair};
+use super::progress::Progress;
 use super::study::Study;
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Shape};
@@ -73,9 +74,23 @@ struct Found {
 ///
 /// # Errors
 /// None for the paper's designs; those of the solves are passed on.
-pub fn bifurcation() -> Result<Bifurcation, Error> {
-    let diagrams = [turning, growing, nearing, pulling, spacing::branches, spacing::critical];
-    let found = diagrams.into_par_iter().map(|diagram| diagram()).collect::<Result<Vec<_>, Error>>()?;
+pub fn bifurcation(progress: &dyn Progress) -> Result<Bifurcation, Error> {
+    type Diagram = fn(&dyn Progress) -> Result<Found, Error>;
+    let diagrams: [Diagram; 6] = [
+        |_| turning(),
+        |_| growing(),
+        |_| nearing(),
+        |_| pulling(),
+        |_| spacing::branches(),
+        spacing::critical,
+    ];
+    progress.more(diagrams.len());
+    let found = diagrams.into_par_iter().map(|diagram| {
+        let found = diagram(progress);
+        progress.done();
+        found
+    });
+    let found = found.collect::<Result<Vec<_>, Error>>()?;
     let rows = found.iter().map(|diagram| diagram.canvas.rows()).max().unwrap_or(0);
     let (mut columns, mut panels) = (Vec::new(), Vec::new());
     let (mut places, mut predictions) = (Vec::new(), Vec::new());

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use self::entries::{ENTRIES, Entry, Setup};
-use super::study::Value;
+use super::progress::Progress;
+use super::study::{Study, Value};
 use super::{fig7a, fig7b, fig7c};
 use crate::error::Error;
 
@@ -50,13 +51,18 @@ impl Contribution {
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
-pub fn budget() -> Result<Vec<Contribution>, Error> {
+pub fn budget(progress: &dyn Progress) -> Result<Vec<Contribution>, Error> {
     let pairs: Vec<(&Entry, &BudgetScene)> =
         ENTRIES.iter().flat_map(|entry| BUDGET_SCENES.iter().map(move |scene| (entry, scene))).collect();
-    let effects = pairs.into_par_iter().map(|(entry, scene)| contribution(entry, scene));
+    progress.more(pairs.len());
+    let effects = pairs.into_par_iter().map(|(entry, scene)| {
+        let effect = contribution(entry, scene);
+        progress.done();
+        effect
+    });
     let mut rows = effects.collect::<Result<Vec<Contribution>, Error>>()?;
     rows.extend(BUDGET_SCENES.iter().map(|scene| combined(&rows, scene)).collect::<Vec<_>>());
-    rows.extend(paper()?);
+    rows.extend(paper(progress)?);
     let first = |row: &Contribution| {
         let same = |other: &&Contribution| (other.kind, &other.quantity) == (row.kind, &row.quantity);
         rows.iter().find(same).map_or(0.0, Contribution::size)
@@ -110,9 +116,10 @@ fn combined(rows: &[Contribution], scene: &BudgetScene) -> Contribution {
 }
 
 /// Comparisons of the exact model with the measurements that the paper prints.
-fn paper() -> Result<Vec<Contribution>, Error> {
-    let figures =
-        [fig7a, fig7b, fig7c].par_iter().map(|figure| figure()).collect::<Result<Vec<_>, Error>>()?;
+fn paper(progress: &dyn Progress) -> Result<Vec<Contribution>, Error> {
+    type Figure = fn(&dyn Progress) -> Result<Study, Error>;
+    let figures: [Figure; 3] = [|_| fig7a(), fig7b, |_| fig7c()];
+    let figures = figures.par_iter().map(|figure| figure(progress)).collect::<Result<Vec<_>, Error>>()?;
     let rows = figures.iter().flat_map(|figure| &figure.comparison);
     let measured = rows.filter_map(|row| {
         let shown = entries::MEASURED.iter().find(|(quantity, _)| row.quantity.starts_with(quantity))?;

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::hysteresis;
+use super::progress::Progress;
 use super::study::{Column, Comparison, Panel, Series, Stroke, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
@@ -58,10 +59,11 @@ struct Walked {
 ///
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
-pub fn communication_step() -> Result<Study, Error> {
+pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
     let ways = ways()?;
     let walks: Vec<(usize, u32)> = (0..ways.len()).flat_map(|way| STEPS.map(|steps| (way, steps))).collect();
-    let walked = walks.par_iter().map(|&(way, steps)| ways[way].walked(steps));
+    progress.more(walks.iter().map(|(_, steps)| *steps as usize).sum());
+    let walked = walks.par_iter().map(|&(way, steps)| ways[way].walked(steps, progress));
     let walked = walked.collect::<Result<Vec<Walked>, Error>>()?;
     let mut columns = vec![Column::new("steps", STEPS.iter().map(|&steps| f64::from(steps)).collect())];
     let (mut series, mut comparison) = (Vec::new(), Vec::new());
@@ -116,7 +118,7 @@ pub fn communication_step() -> Result<Study, Error> {
 
 impl Way {
     /// Follows the path in the given number of steps.
-    fn walked(&self, steps: u32) -> Result<Walked, Error> {
+    fn walked(&self, steps: u32, progress: &dyn Progress) -> Result<Walked, Error> {
         let mut manipulator = self.manipulator.clone();
         let before = manipulator.outputs().snaps;
         let mut magnet = (self.inputs)(0.0).magnet.position;
@@ -126,6 +128,7 @@ impl Way {
             step = step.max(1e3 * (inputs.magnet.position - magnet).norm());
             magnet = inputs.magnet.position;
             refused += u32::from(manipulator.solve(&inputs)?.status == Status::NotSolved);
+            progress.done();
         }
         let outputs = manipulator.outputs();
         Ok(Walked { step, snaps: outputs.snaps - before, refused, tip: outputs.tip.position })

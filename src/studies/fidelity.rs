@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use serde::Serialize;
 
+use super::progress::Progress;
 use super::scenes::{PAIR, later};
 use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Interaction, Settings};
@@ -51,25 +52,18 @@ pub struct Fidelity {
     pub angle_deg: f64,
 }
 
-/// All models along all paths; calls `done` after each scene. The scenes run one after the other, so that they do not
+/// All models along all paths. The scenes run one after the other, so that they do not
 /// disturb each other's times.
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
-pub fn fidelity(done: impl Fn()) -> Result<Vec<Fidelity>, Error> {
+pub fn fidelity(progress: &dyn Progress) -> Result<Vec<Fidelity>, Error> {
     let mut out = Vec::new();
     for (name, segments, field) in SCENES {
         let text = format!("{field}\n[design]\nsegments = {segments}\n[model]\nbending_stop = true");
-        out.extend(Walk::new(name, &Scene::parse(&text, name)?)?.models()?);
-        done();
+        out.extend(Walk::new(name, &Scene::parse(&text, name)?)?.models(progress)?);
     }
     Ok(out)
-}
-
-/// Number of times that [`fidelity`] calls `done`.
-#[must_use]
-pub fn fidelity_scenes() -> usize {
-    SCENES.len()
 }
 
 /// A scene with the inputs of each step of its path.
@@ -93,7 +87,7 @@ impl Walk {
         Ok(Self { name, scene: scene.clone(), length: scene.design()?.length(), path })
     }
 
-    fn models(&self) -> Result<Vec<Fidelity>, Error> {
+    fn models(&self, progress: &dyn Progress) -> Result<Vec<Fidelity>, Error> {
         let base = self.scene.settings;
         let models = models_of_auto(&base, true);
         let mut rows = Vec::new();
@@ -109,9 +103,14 @@ impl Walk {
             rows.push(("auto".to_owned(), Some(tolerance), settings));
         }
         let richest = models.last().copied().unwrap_or(base).as_discretised();
+        progress.more(rows.len());
         let shown: Vec<Shown> = rows
             .iter()
-            .map(|row| self.go(&self.with(row.2), &self.with(richest.refined())))
+            .map(|row| {
+                let shown = self.go(&self.with(row.2), &self.with(richest.refined()));
+                progress.done();
+                shown
+            })
             .collect::<Result<_, Error>>()?;
         let whole = shown.get(models.len() - 1).map_or(f64::NAN, |shown| shown.time);
         let row = |((model, tolerance, _), shown): ((String, Option<f64>, Settings), Shown)| Fidelity {

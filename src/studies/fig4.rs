@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::progress::Progress;
 use super::study::{Column, Comparison, Mark, Panel, Study, Value};
 use crate::design::{Design, Helix, HelixGeometry, RingMagnet, Segmented, Specification, SpiralVolume};
 use crate::equilibrium::{Inputs, Interaction, Settings};
@@ -73,11 +74,13 @@ struct Scored {
 ///
 /// # Errors
 /// None for the paper's design; those of the solver's settings are passed on.
-pub fn fig4() -> Result<Study, Error> {
+pub fn fig4(progress: &dyn Progress) -> Result<Study, Error> {
     let grid: Vec<Candidate> = LENGTHS
         .flat_map(|tenths| ANGLES.map(move |degrees| Candidate::new(tenths, degrees)))
         .collect::<Result<_, _>>()?;
-    let solved = MODELS.iter().map(|model| solve(&grid, *model)).collect::<Result<Vec<_>, Error>>()?;
+    progress.more(MODELS.len() * grid.len());
+    let solved =
+        MODELS.iter().map(|model| solve(&grid, *model, progress)).collect::<Result<Vec<_>, Error>>()?;
     let scored: Vec<_> = solved.iter().map(|solved| score(&grid, solved)).collect();
     let on_coarse = |solved: &Vec<Option<(f64, f64)>>| {
         let kept: Vec<_> =
@@ -169,9 +172,13 @@ impl Candidate {
 fn solve(
     grid: &[Candidate],
     (level, volume): (Interaction, SpiralVolume),
+    progress: &dyn Progress,
 ) -> Result<Vec<Option<(f64, f64)>>, Error> {
-    let allowed =
-        |candidate: &Candidate| candidate.is_allowed().then(|| candidate.solve(level, volume)).transpose();
+    let allowed = |candidate: &Candidate| {
+        let solved = candidate.is_allowed().then(|| candidate.solve(level, volume)).transpose();
+        progress.done();
+        solved
+    };
     grid.par_iter().map(allowed).collect()
 }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::bending::{Bent, Device};
 use super::experiment::solid_cylinder;
+use super::progress::Progress;
 use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
@@ -39,13 +40,14 @@ const DEVICES: [Drawn; 6] = [
 ///
 /// # Errors
 /// None for the paper's designs; those of the solves are passed on.
-pub fn fig7b() -> Result<Study, Error> {
+pub fn fig7b(progress: &dyn Progress) -> Result<Study, Error> {
     let parts = (0..=ROWS).map(|row| f64::from(row) / f64::from(ROWS));
     let fields: Vec<f64> = parts.clone().map(|part| 1e3 * FIELD * part).collect();
     let turns: Vec<f64> = parts.map(|part| LAST_TURN * part).collect();
     let devices = devices()?;
-    let grown = bend(&devices, |device| device.bend(across, &fields))?;
-    let turned = bend(&devices, |device| device.bend(turning, &turns))?;
+    progress.more(2 * devices.len());
+    let grown = bend(&devices, progress, |device| device.bend(across, &fields))?;
+    let turned = bend(&devices, progress, |device| device.bend(turning, &turns))?;
     let comparison = comparison(&devices, &grown, &turned)?;
     let mut columns = vec![Column::new("field_mt", fields), Column::new("turn_deg", turns)];
     let mut panels = Vec::new();
@@ -108,9 +110,15 @@ fn devices() -> Result<Vec<Device>, Error> {
 
 fn bend(
     devices: &[Device],
+    progress: &dyn Progress,
     along: impl Fn(&Device) -> Result<Bent, Error> + Send + Sync,
 ) -> Result<Vec<Bent>, Error> {
-    devices.par_iter().map(along).collect()
+    let bend = |device| {
+        let bent = along(device);
+        progress.done();
+        bent
+    };
+    devices.par_iter().map(bend).collect()
 }
 
 /// Magnitude (T) and direction (deg) of a perpendicular field of `millitesla`.

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::experiment::{SEGMENTS, magnet_pair};
+use super::progress::Progress;
 use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
@@ -23,13 +24,15 @@ const STEPS: u32 = 40;
 ///
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
-pub fn hysteresis() -> Result<Study, Error> {
+pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
     let step = (LAST - FIRST) / f64::from(STEPS);
     let places: Vec<f64> = (0..=STEPS).map(|i| FIRST + step * f64::from(i)).collect();
     let mut branch = Branch::new(manipulator()?, |place| Ok(inputs(place)), LAST - FIRST, step)?;
+    progress.more(2 * places.len());
     let mut walk = |places: &mut dyn Iterator<Item = &f64>| {
         let at = |&place: &f64| {
             let outputs = branch.to(place)?;
+            progress.done();
             Ok((outputs.tip_angle.to_degrees(), 1e3 * outputs.tip.position.y))
         };
         places.map(at).collect::<Result<(Vec<f64>, Vec<f64>), Error>>()

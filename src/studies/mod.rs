@@ -1,6 +1,6 @@
 //! The paper's figures and further studies, computed: data to plot, and their comparison with the paper.
 //!
-//! Most studies are functions without arguments that return a [`Study`]. [`accuracy()`], [`fidelity()`],
+//! Most studies are functions that return a [`Study`]; those that take long tell their [`Progress`]. [`accuracy()`], [`fidelity()`],
 //! [`omissions()`] and [`budget()`] return rows, most of which have a function such as [`accuracy_picture`] for their
 //! chart; [`bifurcation()`] returns tables beside its diagrams. The map of failures takes minutes: [`stability_rays`]
 //! lists its parts, [`Ray::attempts`] computes one, [`stability_picture`] makes the chart. Nothing is printed or
@@ -23,15 +23,16 @@ mod fig7d;
 mod fig8;
 mod hysteresis;
 mod omissions;
+mod progress;
 mod scenes;
 mod stability;
 mod study;
 
-pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_cases, accuracy_picture, front};
+pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_picture, front};
 pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use budget::{BUDGET_SCENES, BudgetKind, BudgetScene, Contribution, budget, budget_picture};
 pub use communication_step::communication_step;
-pub use fidelity::{Fidelity, fidelity, fidelity_picture, fidelity_scenes};
+pub use fidelity::{Fidelity, fidelity, fidelity_picture};
 pub use field_ring::field_ring;
 pub use fig4::fig4;
 pub use fig5::fig5;
@@ -42,6 +43,7 @@ pub use fig7d::fig7d;
 pub use fig8::fig8;
 pub use hysteresis::hysteresis;
 pub use omissions::{Omission, omissions};
+pub use progress::Progress;
 pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
 pub use study::{
     AtlasRow, Bar, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value,

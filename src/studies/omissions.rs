@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::fidelity::{SCENES, Walk};
+use super::progress::Progress;
 use crate::design::{Specification, SpiralKind};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -69,7 +70,8 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
 ///
 /// # Errors
 /// None for these scenes; those of the solves are passed on.
-pub fn omissions() -> Result<Vec<Omission>, Error> {
+pub fn omissions(progress: &dyn Progress) -> Result<Vec<Omission>, Error> {
+    progress.more(SCENES.len() * SIMPLIFICATIONS.len());
     let mut out = Vec::new();
     for (name, segments, field) in SCENES {
         let mut exact = Scene::parse(&format!("{field}\n[design]\nsegments = {segments}"), name)?;
@@ -80,6 +82,7 @@ pub fn omissions() -> Result<Vec<Omission>, Error> {
             let mut scene = exact.clone();
             simplify(&mut scene)?;
             let shown = walk.go(&scene, &exact)?;
+            progress.done();
             whole = if whole.is_nan() { shown.time } else { whole };
             out.push(Omission {
                 scene: name,

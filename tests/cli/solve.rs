@@ -266,3 +266,33 @@ fn at_a_fold_there_is_a_note_instead_of_a_jacobian() {
     let note = answer["jacobian_note"].as_str().unwrap();
     assert!(note.starts_with("no derivatives: the shape is at a fold"), "{note}");
 }
+
+#[test]
+fn a_slow_solve_says_what_it_is_doing_and_a_quick_one_is_silent() {
+    // Far from done when its three seconds of processor time are over.
+    let slow = "[design]\nsegments = 64\n[field]\nuniform_mt = [0, 20, -5]\n[model]\ninteraction = \"full\"\ntime_budget_s = 3\n";
+    let (_, output) = with_scene("slow", slow, &["solve", "scene.toml"]);
+    assert_status(&output, 2);
+    let said = stderr(&output);
+    let expected = "solving at level full, which may take 3 s of processor time (model.time_budget_s) ...\n";
+    assert!(said.starts_with(expected), "{said}");
+    let (_, output) = with_scene("quick", ONE_SEGMENT, &["solve", "scene.toml"]);
+    assert_eq!(stderr(&output), "");
+}
+
+/// `mcm solve scene.toml | head -1` ends with the status of the solve.
+#[test]
+#[cfg(unix)]
+fn a_reader_that_goes_early_is_no_bad_input() {
+    let rows = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 5, 0]\n[model]\ninteraction = \"none\"\n";
+    let folder = super::folder("closed pipe");
+    std::fs::write(folder.join("scene.toml"), rows).unwrap();
+    for (arguments, expected) in
+        [("solve scene.toml --json --shape-points 20000", "0"), ("--help", "0"), ("study", "1")]
+    {
+        let line = format!("({} {arguments}; echo $? > status) | true", env!("CARGO_BIN_EXE_mcm"));
+        let run = std::process::Command::new("sh").current_dir(&folder).args(["-c", &line]).output().unwrap();
+        assert!(!String::from_utf8_lossy(&run.stderr).contains("pipe"), "{arguments}");
+        assert_eq!(std::fs::read_to_string(folder.join("status")).unwrap().trim(), expected, "{arguments}");
+    }
+}

@@ -6,10 +6,15 @@ use mcm::design::{Segmented, Specification, gent_modulus};
 use mcm::manipulator::{Scene, Status};
 use mcm::studies::{BUDGET_SCENES, BudgetKind, Contribution, Panel, budget, budget_picture, fig7b};
 
-use super::{number, row as compared};
+use super::{Counted, number, row as compared};
 use crate::tolerance::{BUDGET_POINTS, BUDGET_SOLVES, BY_RECOIL};
 
-static ROWS: LazyLock<Vec<Contribution>> = LazyLock::new(|| budget().unwrap());
+static ROWS: LazyLock<Vec<Contribution>> = LazyLock::new(|| {
+    let parts = Counted::default();
+    let rows = budget(&parts).unwrap();
+    parts.assert_complete(20);
+    rows
+});
 
 const ONE: &str = BUDGET_SCENES[0].name;
 
@@ -220,7 +225,7 @@ fn tolerances_add_by_squares() {
 fn the_papers_measurements_stand_beside() {
     let paper: Vec<&Contribution> = ROWS.iter().filter(|row| row.kind == BudgetKind::Paper).collect();
     assert_eq!(paper.len(), 3);
-    let study = fig7b().unwrap();
+    let study = fig7b(&()).unwrap();
     let cylinder = 100.0 * (number(&compared(&study, "solid cylinder").exact) / 16.0 - 1.0);
     let found = paper.iter().find(|row| row.quantity.contains("solid cylinder")).unwrap();
     assert!((found.least_percent.unwrap() - cylinder).abs() < 1e-9, "{cylinder}");

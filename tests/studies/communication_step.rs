@@ -2,7 +2,7 @@
 
 use mcm::studies::communication_step;
 
-use super::{column, number, row};
+use super::{Counted, column, number, row};
 use crate::tolerance::SAME_TIP_MM;
 
 /// Ways, the longest steps (mm) up to which they must not depend on the steps, and snaps.
@@ -11,7 +11,9 @@ const WAYS: [(&str, f64, f64); 4] =
 
 #[test]
 fn what_depends_on_the_step_is_told() {
-    let study = communication_step().unwrap();
+    let parts = Counted::default();
+    let study = communication_step(&parts).unwrap();
+    parts.assert_complete(1000);
     let mut told = 0;
     for (way, limit, snaps) in WAYS {
         let key = way.replace(' ', "_");

@@ -4,10 +4,15 @@ use std::sync::LazyLock;
 
 use mcm::studies::{Study, Value, fig4};
 
-use super::{column, number, row};
+use super::{Counted, column, number, row};
 use crate::tolerance::{ROUNDING, TWO_DECIMALS_DEG};
 
-static STUDY: LazyLock<Study> = LazyLock::new(|| fig4().unwrap());
+static STUDY: LazyLock<Study> = LazyLock::new(|| {
+    let parts = Counted::default();
+    let study = fig4(&parts).unwrap();
+    parts.assert_complete(100);
+    study
+});
 
 const LEVELS: [&str; 4] = ["none", "preceding", "rings", "full"];
 

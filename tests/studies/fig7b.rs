@@ -4,13 +4,15 @@ use core::f64::consts::PI;
 
 use mcm::studies::{Mark, Panel, fig7b};
 
-use super::column;
+use super::{Counted, column};
 use crate::equilibrium::rows;
 use crate::tolerance::{COLLAPSE_MT, FOLD_ANGLE_DEG, PAPER_STOP_DEG, TWO_DECIMALS_DEG};
 
 #[test]
 fn branches_end_where_the_independent_model_loses_them() {
-    let study = fig7b().unwrap();
+    let parts = Counted::default();
+    let study = fig7b(&parts).unwrap();
+    parts.assert_complete(12);
     let ends = |panel: usize, name: &str| {
         let Panel::Curves { marks, .. } = &study.panels[panel] else { panic!("no curves") };
         let ends = marks.iter().filter_map(|mark| match mark {
@@ -47,7 +49,7 @@ fn branches_end_where_the_independent_model_loses_them() {
 /// by shooting with RK4 here.
 #[test]
 fn the_cylinder_bends_as_a_hard_magnetic_elastica() {
-    let study = fig7b().unwrap();
+    let study = fig7b(&()).unwrap();
     let (length, radius, fraction) = (16e-3, 2e-3_f64, 0.2_f64);
     let young = 0.0981e6 * (56.0 + 7.66 * 33.0) / (0.137_505 * (254.0 - 2.54 * 33.0))
         * (2.5 * fraction / (1.0 - 1.35 * fraction)).exp();

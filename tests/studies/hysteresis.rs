@@ -2,12 +2,14 @@
 
 use mcm::studies::hysteresis;
 
-use super::{column, number, row};
+use super::{Counted, column, number, row};
 use crate::tolerance::TWO_DECIMALS_DEG;
 
 #[test]
 fn the_ways_part_between_their_snaps_and_nowhere_else() {
-    let study = hysteresis().unwrap();
+    let parts = Counted::default();
+    let study = hysteresis(&parts).unwrap();
+    parts.assert_complete(80);
     let snap = |way: &str| {
         let quantity = format!("place of the magnet at which nine segments snap over, {way}");
         number(&row(&study, &quantity).exact)

@@ -14,9 +14,38 @@ mod fig8;
 mod hysteresis;
 mod stability;
 
-use mcm::studies::{Comparison, Study, Value};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use mcm::studies::{Comparison, Progress, Study, Value};
 
 use crate::tolerance::ROUNDING;
+
+/// Counts the parts of a study.
+#[derive(Default)]
+struct Counted {
+    announced: AtomicUsize,
+    done: AtomicUsize,
+}
+
+impl Progress for Counted {
+    fn more(&self, parts: usize) {
+        self.announced.fetch_add(parts, Ordering::Relaxed);
+    }
+
+    fn done(&self) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        assert!(done <= self.announced.load(Ordering::Relaxed), "more is done than was announced");
+    }
+}
+
+impl Counted {
+    /// Asserts that at least this many parts were announced, and all of them done.
+    fn assert_complete(&self, least: usize) {
+        let [announced, done] = [&self.announced, &self.done].map(|count| count.load(Ordering::Relaxed));
+        assert_eq!(announced, done);
+        assert!(done >= least, "only {done} parts");
+    }
+}
 
 /// A column of a study.
 fn column<'a>(study: &'a Study, name: &str) -> &'a [f64] {

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{PEERS, Point, Series, Stroke, accuracy, accuracy_cases, accuracy_picture, front};
+use mcm::studies::{PEERS, Point, Series, Stroke, accuracy, accuracy_picture, front};
 use serde::Deserialize;
 
 use super::failure::Failure;
 use super::files::{bad_table, open_table};
-use super::study_files::{leave, progress_bar};
+use super::study_files::{Parts, leave};
 
 const HEADER: &str = "\
 | field | segments | level | start | method | resolution | time (us) | tip error over length | angle (deg) | force and torque |
@@ -32,9 +32,9 @@ const DASHED: [&str; 2] = ["cold", "with gradient"];
 /// Measures and writes accuracy.csv, accuracy.md and accuracy.png to `out`; prints the fronts as well.
 pub(super) fn run(out: &Path, peers: Option<&Path>) -> Result<ExitCode, Failure> {
     let peers = peers.map(read_peers).transpose()?.unwrap_or_default();
-    let bar = progress_bar(accuracy_cases() as u64, "scenes");
-    let points = accuracy(|| bar.inc(1))?;
-    bar.finish_and_clear();
+    let scenes = Parts::of("scenes");
+    let points = accuracy(&scenes)?;
+    scenes.0.finish_and_clear();
     leave(out, "accuracy", &points, &accuracy_picture(&points, peers), &fronts(&points))
 }
 

@@ -7,11 +7,13 @@ use std::process::ExitCode;
 use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 
 use super::failure::Failure;
-use super::study_files::{leave_drawn, tell};
+use super::study_files::{Parts, leave_drawn, tell};
 
 /// Writes bifurcation.csv, bifurcation.png and bifurcation.md to `out`; prints the Markdown tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
-    let Bifurcation { study, places, predictions } = bifurcation()?;
+    let diagrams = Parts::of("branches");
+    let Bifurcation { study, places, predictions } = bifurcation(&diagrams)?;
+    diagrams.0.finish_and_clear();
     leave_drawn(out, "bifurcation", &study)?;
     tell(out, "bifurcation", &format!("{}\n{}", table_of_places(&places), table_of_predictions(&predictions)))
 }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use mcm::studies::{Contribution, budget, budget_picture};
 
 use super::failure::Failure;
-use super::study_files::leave;
+use super::study_files::{Parts, leave};
 
 const HEADER: &str = "\
 | kind | quantity | change | scene | tip angle (deg) | least change (%) | largest change (%) |
@@ -15,7 +15,9 @@ const HEADER: &str = "\
 
 /// Computes and writes budget.csv, budget.md and budget.png to `out`; prints the table as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
-    let rows = budget()?;
+    let changes = Parts::of("changes");
+    let rows = budget(&changes)?;
+    changes.0.finish_and_clear();
     let table = rows.iter().map(row).collect::<String>();
     leave(out, "budget", &rows, &budget_picture(&rows), &format!("{HEADER}{table}"))
 }

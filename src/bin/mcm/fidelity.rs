@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, fidelity_scenes, omissions};
+use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, omissions};
 
 use super::failure::Failure;
-use super::study_files::{leave, progress_bar};
+use super::study_files::{Parts, leave};
 
 const HEADER: &str = "\
 | scene | model | tolerance over length | time (us) | over the richest | tip error over length | angle (deg) |
@@ -20,11 +20,11 @@ const LEFT_OUT: &str = "\
 
 /// Measures and writes fidelity.csv, fidelity.md and fidelity.png to `out`; prints the tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
-    let bar = progress_bar(fidelity_scenes() as u64, "scenes");
-    let rows = fidelity(|| bar.inc(1))?;
-    bar.finish_and_clear();
+    let walks = Parts::of("models along a path");
+    let rows = fidelity(&walks)?;
     let table = rows.iter().map(row).collect::<String>();
-    let left_out = omissions()?.iter().map(left_out).collect::<String>();
+    let left_out = omissions(&walks)?.iter().map(left_out).collect::<String>();
+    walks.0.finish_and_clear();
     let tables = format!("{HEADER}{table}\n{LEFT_OUT}{left_out}");
     leave(out, "fidelity", &rows, &fidelity_picture(&rows), &tables)
 }

@@ -5,12 +5,13 @@ use std::process::ExitCode;
 
 use clap::ValueEnum;
 use mcm::error::Error;
-use mcm::studies;
+use mcm::studies::{self, Progress};
 use rayon::prelude::*;
 
 use super::failure::Failure;
+use super::files::refuse_same;
 use super::output::print;
-use super::study_files::{leave_drawn, progress_bar, tell};
+use super::study_files::{Parts, leave_drawn, tell};
 use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
@@ -74,16 +75,16 @@ enum Name {
 
 impl Name {
     /// The study of this name; `None` for all, and for those with their own tables.
-    fn study(self) -> Option<fn() -> Result<studies::Study, Error>> {
+    fn study(self) -> Option<fn(&dyn Progress) -> Result<studies::Study, Error>> {
         match self {
-            Self::FieldRing => Some(studies::field_ring),
+            Self::FieldRing => Some(|_| studies::field_ring()),
             Self::Fig4 => Some(studies::fig4),
-            Self::Fig5 => Some(studies::fig5),
-            Self::Fig7a => Some(studies::fig7a),
+            Self::Fig5 => Some(|_| studies::fig5()),
+            Self::Fig7a => Some(|_| studies::fig7a()),
             Self::Fig7b => Some(studies::fig7b),
-            Self::Fig7c => Some(studies::fig7c),
-            Self::Fig7d => Some(studies::fig7d),
-            Self::Fig8 => Some(studies::fig8),
+            Self::Fig7c => Some(|_| studies::fig7c()),
+            Self::Fig7d => Some(|_| studies::fig7d()),
+            Self::Fig8 => Some(|_| studies::fig8()),
             Self::Hysteresis => Some(studies::hysteresis),
             Self::CommunicationStep => Some(studies::communication_step),
             Self::Accuracy
@@ -106,6 +107,13 @@ impl Study {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         std::fs::create_dir_all(&self.out)
             .map_err(|error| Failure(format!("cannot create {}: {error}", self.out.display())))?;
+        // Tried before the work, which may take long.
+        tempfile::tempfile_in(&self.out)
+            .map_err(|error| Failure::writing(format!("in {}", self.out.display()), error.kind()))?;
+        if let Some(peers) = &self.peers {
+            let written = ["csv", "md", "png"].map(|ending| self.out.join("accuracy").with_extension(ending));
+            refuse_same(&[peers], &written.each_ref().map(PathBuf::as_path))?;
+        }
         match self.name {
             Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
             Name::Budget => return budget::run(&self.out),
@@ -120,18 +128,19 @@ impl Study {
             .filter(|name| wanted(name))
             .filter_map(|name| Some((name.typed(), name.study()?)))
             .collect();
-        let bar = progress_bar(chosen.len() as u64, "studies, {msg}");
+        let parts = Parts::of("parts of {msg}");
+        parts.more(chosen.len());
         let computed = chosen
             .into_par_iter()
             .map(|(name, study)| {
-                bar.set_message(name.clone());
-                let study = study()?;
+                parts.0.set_message(name.clone());
+                let study = study(&parts)?;
                 leave_drawn(&self.out, &name, &study)?;
-                bar.inc(1);
+                parts.done();
                 Ok((name, study))
             })
             .collect::<Result<Vec<_>, Failure>>()?;
-        bar.finish_and_clear();
+        parts.0.finish_and_clear();
         let table = comparison::table(computed.iter().map(|(name, study)| (name.as_str(), study)));
         if self.name == Name::All {
             return tell(&self.out, "comparison", &table);

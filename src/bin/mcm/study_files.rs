@@ -50,6 +50,26 @@ fn file(out: &Path, name: &str, ending: &str) -> PathBuf {
     out.join(name).with_extension(ending)
 }
 
+/// The progress of a study as a bar.
+pub(super) struct Parts(pub(super) ProgressBar);
+
+impl studies::Progress for Parts {
+    fn more(&self, parts: usize) {
+        self.0.inc_length(parts as u64);
+    }
+
+    fn done(&self) {
+        self.0.inc(1);
+    }
+}
+
+impl Parts {
+    /// The bar of a study with its parts counted as `what`.
+    pub(super) fn of(what: &str) -> Self {
+        Self(progress_bar(0, what))
+    }
+}
+
 /// Progress bar on standard error; hidden where that is not a terminal.
 pub(super) fn progress_bar(count: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(count);

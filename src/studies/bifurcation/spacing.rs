@@ -9,6 +9,7 @@ use super::canvas::Drawing;
 use super::{Found, POINTS, POINTS_OF_THREE, pulled};
 use crate::design::{Helix, Segmented, Specification};
 use crate::error::Error;
+use crate::studies::progress::Progress;
 use crate::studies::study::Mark;
 
 /// Gaps whose branches are plotted, mm, and descriptions of their folds in the table.
@@ -50,7 +51,7 @@ pub(super) fn branches() -> Result<Found, Error> {
 }
 
 /// The field at which the branches of one and of three segments fold, by the gap.
-pub(super) fn critical() -> Result<Found, Error> {
+pub(super) fn critical(progress: &dyn Progress) -> Result<Found, Error> {
     let mut found = Found::new(Drawing {
         name: "critical",
         title: "full; field that pulls shut, by gap",
@@ -62,9 +63,12 @@ pub(super) fn critical() -> Result<Found, Error> {
     let [first, last] = TRACED;
     let gaps = (0..COUNT).map(|i| first + (last - first) * f64::from(i) / f64::from(COUNT - 1));
     let gaps: Vec<f64> = gaps.collect();
-    for (branch, segments) in [1, 3].into_iter().enumerate() {
+    let chains = [1, 3];
+    progress.more(chains.len() * gaps.len());
+    for (branch, segments) in chains.into_iter().enumerate() {
         let folds = gaps.par_iter().map(|&gap| {
             let diagram = pulled(spaced(segments, gap), [0.0, LARGEST], POINTS_OF_THREE)?.trace(0.0)?;
+            progress.done();
             Ok([gap, diagram.folds().next().map_or(f64::NAN, |shape| shape.value)])
         });
         for place in folds.collect::<Result<Vec<_>, Error>>()? {
