@@ -5,6 +5,7 @@ mod range;
 mod rows;
 mod summary;
 mod walk;
+mod way;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;

@@ -12,7 +12,7 @@ use mcm::manipulator::{Fold, PathSnapshot};
 use serde::{Deserialize, Serialize};
 
 use super::rows::Row;
-use super::walk::Way;
+use super::way::Way;
 use crate::failure::Failure;
 use crate::output::warn;
 

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use mcm::manipulator::Outputs;
 use nalgebra::Vector3;
 
-use super::walk::Way;
+use super::way::Way;
 use crate::verdict;
 
 /// Tip distance up to which two shapes count as equal, mm: ten thousand times the error that a solve leaves.

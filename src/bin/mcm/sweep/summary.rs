@@ -5,7 +5,8 @@ use std::fmt::Write;
 use mcm::manipulator::Fold;
 
 use super::rows::Row;
-use super::walk::{Walk, Way};
+use super::walk::Walk;
+use super::way::Way;
 use crate::failure::Failure;
 use crate::output::Table;
 

@@ -7,11 +7,11 @@ use indicatif::ProgressBar;
 use mcm::error::Error;
 use mcm::manipulator::{Branch, Fold, Inputs, Scene, SceneFile};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 use super::journal::{Identity, Journal, Kept, Stage, State};
 use super::range::Range;
 use super::rows::{Row, header};
+use super::way::Way;
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -21,23 +21,6 @@ const LONGEST_STEP: f64 = 0.01;
 
 /// How often the state of a walk is written: what a sweep that is killed computes again.
 const BETWEEN_STATES: Duration = Duration::from_secs(1);
-
-/// Direction in which the first key varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Way {
-    Forth,
-    Back,
-}
-
-impl Way {
-    pub(super) fn name(self) -> &'static str {
-        if self == Self::Forth { "forth" } else { "back" }
-    }
-
-    pub(super) fn named(name: &str) -> Option<Self> {
-        [Self::Forth, Self::Back].into_iter().find(|way| way.name() == name)
-    }
-}
 
 /// Results for one combination of the other keys.
 pub(super) struct Walk {

@@ -1,0 +1,20 @@
+//! The direction of a walk.
+
+use serde::{Deserialize, Serialize};
+
+/// Direction in which the first key varies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Way {
+    Forth,
+    Back,
+}
+
+impl Way {
+    pub(super) fn name(self) -> &'static str {
+        if self == Self::Forth { "forth" } else { "back" }
+    }
+
+    pub(super) fn named(name: &str) -> Option<Self> {
+        [Self::Forth, Self::Back].into_iter().find(|way| way.name() == name)
+    }
+}
