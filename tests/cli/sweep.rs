@@ -101,7 +101,11 @@ fn a_sweep_that_was_cut_short_ends_with_the_same_table() {
         assert!(!here.join("cut.csv").exists(), "nothing half written");
         if number != 1 {
             assert_status(&ended, 130);
-            assert!(stderr(&ended).contains("its rows so far are in cut.csv.part"), "{}", stderr(&ended));
+            assert!(
+                stderr(&ended).contains("stopped; the rows so far are in cut.csv.part, and --resume goes on"),
+                "{}",
+                stderr(&ended)
+            );
         }
         assert!(rows_in(&part) >= rows, "finished rows are kept");
         let again = mcm(&here, &asked(&["--out", "cut.csv"]));

@@ -16,7 +16,7 @@ use super::failure::{Failure, NOT_CONVERGED, STOPPED};
 use super::files::{read_scene, refuse_same};
 use super::interrupt;
 use super::output::{Table, print, warn};
-use journal::Journal;
+use journal::{Journal, Kept};
 use range::{MOST_VALUES, Range};
 use rows::header;
 use walk::{Plan, Walk};
@@ -69,37 +69,54 @@ impl Sweep {
         let checking = progress_bar(total, "values checked");
         let plan = Plan::new(file, self.vary.split_at(1), self.back, || checking.inc(1))?;
         checking.finish_and_clear();
-        // Both are tried before the first solve.
-        let mut table = Table::at(&self.out)?;
-        let folds = self.folds.as_deref().map(Table::at).transpose()?;
+        // All outputs are tried before the first solve.
+        let outputs = (Table::at(&self.out)?, self.folds.as_deref().map(Table::at).transpose()?);
         let (journal, kept) = match &part {
             Some(part) => plan.journal(part, self.resume).map(|(journal, kept)| (Some(journal), kept))?,
             None => (None, plan.nothing_kept()),
         };
         interrupt::listen()?;
+        let filled = self.fill(&plan, outputs, journal.as_ref(), kept);
+        let left = journal.as_ref().map_or_else(String::new, |journal| {
+            format!("; the rows so far are in {}, and --resume goes on", journal.path().display())
+        });
+        match filled {
+            Ok(Some(walks)) => {
+                journal.map_or(Ok(()), Journal::remove)?;
+                self.report(&walks)
+            }
+            Ok(None) => {
+                warn(&format!("stopped{left}"));
+                Ok(STOPPED.into())
+            }
+            Err(failure) => Err(Failure(failure.0 + &left)),
+        }
+    }
+
+    /// Walks all walks and writes their tables; `None` if they were stopped before the end.
+    fn fill(
+        &self,
+        plan: &Plan,
+        (mut table, folds): (Table, Option<Table>),
+        journal: Option<&Journal>,
+        kept: Vec<Kept>,
+    ) -> Result<Option<Vec<Walk>>, Failure> {
         let [_, rows] = plan.rows();
         let bar = progress_bar(rows as u64, "rows");
-        let walks =
-            plan.run(journal.as_ref(), kept, &bar).map_err(|failure| unfinished(failure, &journal))?;
+        let walks = plan.run(journal, kept, &bar)?;
         bar.finish_and_clear();
-        let Some(walks) = walks else {
-            let there = journal.map_or_else(String::new, |journal| {
-                format!(": its rows so far are in {}, and --resume goes on", journal.path().display())
-            });
-            warn(&format!("stopped{there}"));
-            return Ok(STOPPED.into());
-        };
-        let keys: Vec<&str> = self.vary.iter().map(|range| range.key.as_str()).collect();
-        table.header(header(keys.iter().copied()))?;
-        walks.iter().flat_map(|walk| &walk.rows).try_for_each(|row| table.row(row.cells()))?;
-        if let Some(folds) = folds {
-            summary::write_folds(folds, &keys, &walks)?;
+        if let Some(walks) = &walks {
+            let keys = self.keys();
+            table.header(header(keys.iter().copied()))?;
+            walks.iter().flat_map(|walk| &walk.rows).try_for_each(|row| table.row(row.cells()))?;
+            folds.map_or(Ok(()), |folds| summary::write_folds(folds, &keys, walks))?;
+            table.complete()?;
         }
-        table.complete()?;
-        if let Some(journal) = journal {
-            journal.remove()?;
-        }
-        self.report(&keys, &walks)
+        Ok(walks)
+    }
+
+    fn keys(&self) -> Vec<&str> {
+        self.vary.iter().map(|range| range.key.as_str()).collect()
     }
 
     /// Number of combinations of all values. A key may occur once only.
@@ -118,10 +135,11 @@ impl Sweep {
     }
 
     /// Prints a summary and returns the exit status.
-    fn report(&self, keys: &[&str], walks: &[Walk]) -> Result<ExitCode, Failure> {
+    fn report(&self, walks: &[Walk]) -> Result<ExitCode, Failure> {
+        let keys = self.keys();
         let rows = || walks.iter().flat_map(|walk| &walk.rows);
         let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
-        let told: String = walks.iter().map(|walk| summary::describe(keys, walk)).collect();
+        let told: String = walks.iter().map(|walk| summary::describe(&keys, walk)).collect();
         print(format!("{}: {} rows, folds met: {folds}\n{told}", self.out.display(), rows().count()))?;
         let lost = rows().filter(|row| !row.converged());
         let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
@@ -143,18 +161,6 @@ fn part_of(out: &Path) -> Option<PathBuf> {
     let special = std::fs::metadata(&place).is_ok_and(|old| !old.is_file());
     let name = format!("{}.part", out.file_name()?.to_string_lossy());
     (!special).then(|| out.with_file_name(name))
-}
-
-/// The failure of a sweep, with what is left of it.
-fn unfinished(failure: Failure, journal: &Option<Journal>) -> Failure {
-    match journal {
-        Some(journal) => Failure(format!(
-            "{}; the rows so far are in {}, and --resume goes on",
-            failure.0,
-            journal.path().display()
-        )),
-        None => failure,
-    }
 }
 
 /// Progress bar on standard error; hidden where that is not a terminal.
