@@ -23,6 +23,7 @@ mod fig7d;
 mod fig8;
 mod hysteresis;
 mod omissions;
+mod rest;
 mod scenes;
 mod stability;
 mod study;
@@ -42,6 +43,7 @@ pub use fig7d::fig7d;
 pub use fig8::fig8;
 pub use hysteresis::hysteresis;
 pub use omissions::{Omission, omissions};
+pub use rest::rest;
 pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
 pub use study::{
     AtlasRow, Bar, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value,

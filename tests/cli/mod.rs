@@ -74,10 +74,7 @@ fn the_version_tells_the_instructions_in_use() {
     let version = format!("mcm {}", env!("CARGO_PKG_VERSION"));
     assert_eq!(stdout(&mcm(&here, &["--version"])).trim(), version);
     let told = stdout(&mcm(&here, &["--version", "--verbose"]));
-    assert!(
-        told.starts_with(&version) && told.contains("instructions for fields and products: "),
-        "{told}"
-    );
+    assert!(told.starts_with(&version) && told.contains("instructions for fields and products: "), "{told}");
     let forced = Command::new(env!("CARGO_BIN_EXE_mcm"))
         .args(["--version", "--verbose"])
         .env("MCM_PORTABLE", "1")

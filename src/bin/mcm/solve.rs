@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::manipulator::{Jacobian, Outputs, Status};
+use mcm::manipulator::{Inputs, Jacobian, Outputs, Status};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
@@ -36,6 +36,9 @@ pub(crate) struct Solve {
     shape_points: usize,
 }
 
+/// Tip angle above which an unloaded shape is explained, rad.
+const REST_ANGLE: f64 = core::f64::consts::PI / 180.0;
+
 impl Solve {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
@@ -50,7 +53,7 @@ impl Solve {
             serde_json::to_writer_pretty(&mut stdout, &answer)?;
             writeln!(stdout)?;
         } else {
-            write!(stdout, "{}", as_table(outputs))?;
+            write!(stdout, "{}{}", as_table(outputs), rest_note(&scene.inputs, outputs))?;
         }
         stdout.flush()?;
         exit_status(outputs)
@@ -110,6 +113,16 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
     ];
     let shape = shape.map(|(key, value)| (key, if converged { value } else { Value::Null }));
     shape.into_iter().chain(search).map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// Why the manipulator is bent although nothing acts on it; empty where something does or it is nearly straight.
+fn rest_note(inputs: &Inputs, outputs: &Outputs) -> &'static str {
+    let loaded = *inputs != inputs.without_loads();
+    if loaded || !verdict::converged(outputs) || outputs.tip_angle <= REST_ANGLE {
+        return "";
+    }
+    "\nnote: bent at rest, without any load, because its spirals lie on one side of the rings, which attract them; \
+     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that the bends cancel\n"
 }
 
 /// A matrix as a list of its rows.

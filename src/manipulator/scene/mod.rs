@@ -2,6 +2,7 @@
 
 mod file;
 mod resolve;
+mod spiral_start;
 mod text;
 
 pub use file::SceneFile;
