@@ -19,10 +19,9 @@ const HELICAL: Arrangement = ("helical", "helical: all alike", |_| ());
 const ALTERNATING: Arrangement = ("alternating", "alternating: every second one mirrored", |chain| {
     chain.spiral = SpiralKind::Alternating;
 });
-const TURNED: Arrangement =
-    ("turned", "turned: by 0, 240, 120 deg, what remains in pairs of 0, 180 deg", |chain| {
-        chain.spiral_start = SpiralStart::Each(turned(chain.segments));
-    });
+const TURNED: Arrangement = ("turned", "turned: by 0, 240, 120 deg; what remains by 0, 180 deg", |chain| {
+    chain.spiral_start = SpiralStart::Each(turned(chain.segments));
+});
 
 /// Tip angle of manipulators of Table 1 with 1 to 12 segments without any load, at the level `full`.
 ///
@@ -51,7 +50,7 @@ pub fn rest() -> Result<Study, Error> {
         title: "Rest shape: tip angle of a manipulator with S segments without any load",
         columns,
         panels: vec![Panel::Curves {
-            title: "level full; spirals as arranged".into(),
+            title: "level full; spirals turned about the axis or mirrored".into(),
             x: ("number of segments S".into(), "segments".into()),
             y: "tip angle (deg)".into(),
             curves,
@@ -67,7 +66,7 @@ fn comparison((name, angle): (&str, f64)) -> Comparison {
         "alternating" => {
             "the bend of one segment is left where their number is odd, nothing where it is even"
         }
-        _ => "three directions at 120 deg; the helices are those of Table 1, glued on turned",
+        _ => "by 0, 240, 120, 0, ... deg: the same helices, turned before they are joined",
     };
     Comparison {
         quantity: format!("tip angle of nine segments without any load, {name} (deg)"),
