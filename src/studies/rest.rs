@@ -25,9 +25,9 @@ const TURNED: Arrangement = ("turned", "turned: by 0, 240, 120 deg; what remains
 
 /// Tip angle of manipulators of Table 1 with 1 to 12 segments without any load, at the level `full`.
 ///
-/// The rings attract the sectors of the spirals beside them and bend each core towards the sector's side. Three
-/// arrangements: all spirals alike, every second one mirrored ([`SpiralKind::Alternating`]), and right-handed ones turned
-/// about the axis so that their sectors beside the rings point in opposite directions, or in three at 120 deg.
+/// The rings attract the spirals beside them, which are not symmetric about the axis, and bend each core to a side that turns
+/// with its spiral. Three arrangements: all spirals alike, every second one mirrored ([`SpiralKind::Alternating`]), and
+/// right-handed ones turned about the axis so that the cores bend in opposite directions, or in three at 120 deg.
 ///
 /// # Errors
 /// None for the paper's design; those of the solves are passed on.
@@ -62,7 +62,7 @@ pub fn rest() -> Result<Study, Error> {
 
 fn comparison((name, angle): (&str, f64)) -> Comparison {
     let remark = match name {
-        "helical" => "all spirals lie on the same side of the rings; no such experiment is in the paper",
+        "helical" => "all cores bend to the same side; no such experiment is in the paper",
         "alternating" => {
             "the bend of one segment is left where their number is odd, nothing where it is even"
         }

@@ -121,8 +121,8 @@ fn rest_note(inputs: &Inputs, outputs: &Outputs) -> &'static str {
     if loaded || !verdict::converged(outputs) || outputs.tip_angle <= REST_ANGLE {
         return "";
     }
-    "\nnote: bent at rest, without any load, because its spirals lie on one side of the rings, which attract them; \
-     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that the bends cancel\n"
+    "\nnote: bent at rest, without any load: rings attract the spirals beside them off the axis, and the bends of the segments add up; \
+     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that they cancel\n"
 }
 
 /// A matrix as a list of its rows.
