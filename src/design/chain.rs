@@ -1,10 +1,12 @@
 //! The chain of bodies from base to tip, validated once.
 
+use core::f64::consts::PI;
+
 use super::helix::annulus_area;
 use super::limits;
 use super::material::{ELASTOMER_DENSITY, Moduli, composite_density};
-use super::section::{Ring, Span, SpanKind, Spiral, Stiffness};
-use super::specification::{Backbone, Cylinder, CylinderMaterial, Segmented, Specification};
+use super::section::{Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
+use super::specification::{Backbone, Cylinder, CylinderMaterial, Segmented, Specification, SpiralKind};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
@@ -124,18 +126,37 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         outer_radius: helix.radius,
         sector_angle: geometry.sector_angle,
         windings: helix.windings,
-        kind: chain.spiral,
+        kind: SectorKind::Axisymmetric,
+        start: 0.0,
         boundary_angle: helix.boundary_angle,
         closed_bending: disc.stiffness.bending,
     };
-    let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, Some(spiral));
-    let segments = (1..=chain.segments)
-        .map(|index| Segment {
-            spans: vec![disc.clone(), core.clone(), disc.clone()],
-            ring: (index < chain.segments || chain.tip_magnet).then_some(ring),
+    let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, None);
+    let segments = (0..chain.segments)
+        .map(|index| {
+            let (kind, start) = sector(chain, index);
+            let core = Span { spiral: Some(Spiral { kind, start, ..spiral }), ..core.clone() };
+            Segment {
+                spans: vec![disc.clone(), core, disc.clone()],
+                ring: (index + 1 < chain.segments || chain.tip_magnet).then_some(ring),
+            }
         })
         .collect();
     Ok((chain.base_magnet.then_some(ring), segments))
+}
+
+/// How the sector of the spiral of segment number `index` (from 0) lies, and where it begins (rad).
+fn sector(chain: &Segmented, index: usize) -> (SectorKind, f64) {
+    let start = chain.spiral_start.of(index);
+    match chain.spiral {
+        // The same for all segments, so that they remain alike.
+        SpiralKind::Axisymmetric => (SectorKind::Axisymmetric, 0.0),
+        // Opposite to the end of the previous spiral, whole turns left out.
+        SpiralKind::Alternating if index % 2 == 1 => {
+            (SectorKind::LeftHanded, start + PI * (1.0 + 2.0 * chain.helix.windings.fract()))
+        }
+        SpiralKind::Helical | SpiralKind::Alternating => (SectorKind::RightHanded, start),
+    }
 }
 
 /// The one segment of a plain cylinder.

@@ -1,9 +1,11 @@
 //! The allowed range of every quantity of a specification.
 
-use core::f64::consts::PI;
+use core::f64::consts::{PI, TAU};
 
 use super::material::DENSEST_PACKING;
-use super::specification::{Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented};
+use super::specification::{
+    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
+};
 use crate::error::{Error, check};
 
 /// Largest number of segments of a manipulator.
@@ -86,7 +88,27 @@ pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
     )?;
     helix(&chain.helix)?;
     ring(&chain.ring)?;
+    spiral_start(&chain.spiral_start, chain.segments)?;
     chain.backbone.map_or(Ok(()), |tube| backbone(&tube, chain.helix.core_inner_radius))
+}
+
+/// Checks the angles by which the spirals of so many segments are turned.
+fn spiral_start(start: &SpiralStart, segments: usize) -> Result<(), Error> {
+    let angle = |quantity: &str, value: f64| {
+        let turn = TAU * (1.0 + FIT);
+        check(quantity, value, |v| v.abs() <= turn, "from -2 pi to 2 pi").map(|_| ())
+    };
+    match start {
+        SpiralStart::Same(value) => angle("start angle of the spirals (rad)", *value),
+        SpiralStart::Each(values) if values.len() != segments => Err(Error::Count {
+            quantity: "start angles of the spirals".into(),
+            given: values.len(),
+            expected: format!("{segments}, one for each segment"),
+        }),
+        SpiralStart::Each(values) => (1..).zip(values).try_for_each(|(index, value)| {
+            angle(&format!("start angle of the spiral of segment {index} (rad)"), *value)
+        }),
+    }
 }
 
 /// Checks a plain magnetised rod.

@@ -19,7 +19,8 @@ pub use material::{
     gent_hardness, gent_modulus, shear_modulus,
 };
 pub use moment::RelativeMoment;
-pub use section::{Ring, Span, SpanKind, Spiral, Stiffness};
+pub use section::{Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
 pub use specification::{
     Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind,
+    SpiralStart,
 };

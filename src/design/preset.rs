@@ -1,7 +1,9 @@
 //! The devices of Richter et al. as specifications.
 
 use super::material::PARTICLE_DENSITY;
-use super::specification::{Backbone, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind};
+use super::specification::{
+    Backbone, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind, SpiralStart,
+};
 
 impl Helix {
     /// The helix of Table 1.
@@ -40,6 +42,7 @@ impl Segmented {
             base_magnet: true,
             tip_magnet: true,
             spiral: SpiralKind::Helical,
+            spiral_start: SpiralStart::Same(0.0),
             helix: Helix::paper(),
             ring: RingMagnet::paper(),
             backbone: None,

@@ -5,7 +5,6 @@ use core::ops::Add;
 
 use super::helix::annulus_area;
 use super::material::Moduli;
-use super::specification::SpiralKind;
 use crate::constants::VACUUM_PERMEABILITY;
 
 /// Stiffness of a span's section, the diagonals of `K_bt` and `K_se` (Eq. 12).
@@ -49,8 +48,19 @@ impl Add for Stiffness {
     }
 }
 
-/// The spiral on a core: at arc length `s` a sector between the angles `beta` and `beta + sector_angle`
-/// from `d1`, with `beta = 2 pi windings s / length`.
+/// How the sector of a spiral lies in the section.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectorKind {
+    /// It turns with arc length, right-handed about `d3`.
+    RightHanded,
+    /// It turns with arc length, left-handed about `d3`.
+    LeftHanded,
+    /// Its area is spread evenly over the circle.
+    Axisymmetric,
+}
+
+/// The spiral on a core: at arc length `s` a sector between the angles `beta` and `beta + sector_angle` from `d1`, with
+/// `beta = start + 2 pi windings s / length`; left-handed, `beta = start - 2 pi windings s / length`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spiral {
     /// Inner radius of the sector (the core's outer radius), m.
@@ -61,8 +71,10 @@ pub struct Spiral {
     pub sector_angle: f64,
     /// Windings over the whole core.
     pub windings: f64,
-    /// Helical or axisymmetric.
-    pub kind: SpiralKind,
+    /// Right-handed, left-handed or axisymmetric.
+    pub kind: SectorKind,
+    /// Angle from `d1` at which the sector begins at the span's start, rad.
+    pub start: f64,
     /// Angle `Theta` by which the core bends until adjacent windings touch, rad.
     pub boundary_angle: f64,
     /// Bending stiffness of the section whose windings touch (annulus `r_ic` to `R`), N m2.
@@ -120,6 +132,18 @@ pub struct Ring {
 }
 
 impl Spiral {
+    /// Angles from `d1` between which the sector lies at arc length `s` from the start of a span of `length` (m), rad; those of a
+    /// right-handed spiral where it is spread over the circle.
+    #[must_use]
+    pub fn sector(&self, s: f64, length: f64) -> [f64; 2] {
+        let turned = 2.0 * PI * self.windings * s / length;
+        let from = match self.kind {
+            SectorKind::LeftHanded => self.start - turned,
+            SectorKind::RightHanded | SectorKind::Axisymmetric => self.start + turned,
+        };
+        [from, from + self.sector_angle]
+    }
+
     /// Area of the sector, m2.
     #[must_use]
     pub fn area(&self) -> f64 {

@@ -9,13 +9,61 @@ pub enum Modulus {
     Elastic(f64),
 }
 
-/// Arrangement of the spiral's sector in the section.
+/// Arrangement of the spirals along the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SpiralKind {
-    /// The sector rotates with arc length, as built.
+    /// All spirals are right-handed, as built.
     Helical,
     /// The sector's area is spread evenly over the circle.
     Axisymmetric,
+    /// Every second spiral is left-handed and starts opposite to where the previous one ends: neighbouring segments are point
+    /// reflections of each other through the centre of the ring between them.
+    ///
+    /// Without loads a chain with an even number of segments, and with both or none of its end rings, is then its own
+    /// point reflection, so that tip and base are parallel. With an odd number the bend of one segment remains.
+    Alternating,
+}
+
+/// Angles, right-handed about `d3`, by which the spirals are turned about the axis, rad.
+///
+/// At 0 the sector of a right-handed spiral begins at `d1` at the core's proximal end and extends towards `d2`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SpiralStart {
+    /// The same angle for all segments.
+    Same(f64),
+    /// One angle for each segment, base to tip.
+    Each(Vec<f64>),
+}
+
+impl SpiralStart {
+    /// The angle of segment number `index`, from 0; 0 where the list is too short.
+    #[must_use]
+    pub fn of(&self, index: usize) -> f64 {
+        match self {
+            Self::Same(angle) => *angle,
+            Self::Each(angles) => angles.get(index).copied().unwrap_or_default(),
+        }
+    }
+
+    /// Sets the angle of segment number `index` (from 0) of `segments`.
+    ///
+    /// ```
+    /// use mcm::design::SpiralStart;
+    /// let mut start = SpiralStart::Same(0.0);
+    /// start.set(1, 3, 0.5);
+    /// assert_eq!(start, SpiralStart::Each(vec![0.0, 0.5, 0.0]));
+    /// ```
+    pub fn set(&mut self, index: usize, segments: usize, angle: f64) {
+        // One angle for all stays one as long as it says the same: equal designs remain equal.
+        if self.of(index).to_bits() == angle.to_bits() {
+            return;
+        }
+        let mut angles: Vec<f64> = (0..segments).map(|k| self.of(k)).collect();
+        if let Some(own) = angles.get_mut(index) {
+            *own = angle;
+        }
+        *self = Self::Each(angles);
+    }
 }
 
 /// The magnetic soft helix of a segment (Table 1).
@@ -83,8 +131,10 @@ pub struct Segmented {
     pub base_magnet: bool,
     /// Whether the chain ends with a ring.
     pub tip_magnet: bool,
-    /// How the spiral is modelled.
+    /// How the spirals are arranged.
     pub spiral: SpiralKind,
+    /// Angles by which the spirals are turned about the axis; they mean nothing for [`SpiralKind::Axisymmetric`].
+    pub spiral_start: SpiralStart,
     /// The helix of every segment.
     pub helix: Helix,
     /// The ring magnets.

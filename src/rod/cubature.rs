@@ -13,7 +13,7 @@ use super::fine_points::{Fine, fine_points};
 use super::moments::SectionMoments;
 use super::piece::Piece;
 use super::source_geometry::SourceGeometry;
-use crate::design::{SpanKind, Spiral, SpiralKind};
+use crate::design::{SectorKind, SpanKind, Spiral};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
 /// A point of a section with its share of the volume.
@@ -121,11 +121,13 @@ impl Section<'_> {
             let sector = [spiral.inner_radius, spiral.outer_radius];
             let radial = geometry.radial(distance, sector);
             match spiral.kind {
-                SpiralKind::Axisymmetric => {
+                SectorKind::Axisymmetric => {
                     self.add_circle(&mut out, sector, spiral.sector_angle, radial, harmonics);
                 }
                 // The odd harmonics are not polynomials of the squared radius.
-                SpiralKind::Helical => self.add_spiral(&mut out, spiral, radial.max(2), harmonics),
+                SectorKind::RightHanded | SectorKind::LeftHanded => {
+                    self.add_spiral(&mut out, spiral, radial.max(2), harmonics);
+                }
             }
         }
         out
@@ -191,9 +193,9 @@ impl Section<'_> {
     fn shares(&self, spiral: &Spiral, points: usize) -> Vec<f64> {
         let (mut whole, mut harmonics) = (0.0, vec![Complex::<f64>::ZERO; points / 2]);
         self.along(|s, weight| {
-            let from = TAU * spiral.windings * s / self.piece.span.length;
             whole += weight * spiral.sector_angle;
-            let ends = [from, from + spiral.sector_angle].map(|angle| Complex::from_polar(1.0, angle));
+            let sector = spiral.sector(s, self.piece.span.length);
+            let ends = sector.map(|angle| Complex::from_polar(1.0, angle));
             let mut powers = ends;
             for (m, harmonic) in (1..).zip(&mut harmonics) {
                 *harmonic += (powers[1] - powers[0]) * (weight / f64::from(m));

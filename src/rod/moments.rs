@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::{Matrix2, Vector2};
 
-use crate::design::{Span, SpiralKind};
+use crate::design::{SectorKind, Span};
 
 /// Moments of some material about the centreline, over its section and a weighted length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,10 +30,9 @@ impl SectionMoments {
         let Some(spiral) = &span.spiral else { return };
         let (inner, outer, angle) = (spiral.inner_radius, spiral.outer_radius, spiral.sector_angle);
         match spiral.kind {
-            SpiralKind::Axisymmetric => self.add_circle(inner, outer, angle, weight),
-            SpiralKind::Helical => {
-                let from = 2.0 * PI * spiral.windings * s / span.length;
-                let to = from + angle;
+            SectorKind::Axisymmetric => self.add_circle(inner, outer, angle, weight),
+            SectorKind::RightHanded | SectorKind::LeftHanded => {
+                let [from, to] = spiral.sector(s, span.length);
                 let third = weight * (outer.powi(3) - inner.powi(3)) / 3.0;
                 let fourth = weight * (outer.powi(4) - inner.powi(4)) / 4.0;
                 self.volume += weight * 0.5 * (outer.powi(2) - inner.powi(2)) * angle;

@@ -1,7 +1,5 @@
 //! The paper's force experiment: the magnet pair, and devices held straight in a rigid holder.
 
-use core::f64::consts::TAU;
-
 use nalgebra::Vector3;
 
 use crate::constants::VACUUM_PERMEABILITY;
@@ -121,9 +119,8 @@ fn force_on_spiral(
     let squares = [spiral.inner_radius.powi(2), spiral.outer_radius.powi(2)];
     let mut force = Vector3::zeros();
     for (s, length) in between(&along, [0.0, span.length]) {
-        let from = TAU * spiral.windings * s / span.length;
         for (square, area) in between(&across, squares) {
-            for (angle, sector) in between(&around, [from, from + spiral.sector_angle]) {
+            for (angle, sector) in between(&around, spiral.sector(s, span.length)) {
                 let arm = Vector3::new(angle.cos(), angle.sin(), 0.0) * square.sqrt();
                 let point = base.position + axis * s + base.rotation * arm;
                 let (_, gradient) = magnet.field_gradient(&point)?;

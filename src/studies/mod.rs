@@ -24,6 +24,7 @@ mod fig8;
 mod hysteresis;
 mod omissions;
 mod progress;
+mod rest;
 mod scenes;
 mod stability;
 mod study;
@@ -44,6 +45,7 @@ pub use fig8::fig8;
 pub use hysteresis::hysteresis;
 pub use omissions::{Omission, omissions};
 pub use progress::Progress;
+pub use rest::rest;
 pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
 pub use study::{
     AtlasRow, Bar, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value,

@@ -6,7 +6,7 @@ use mcm::methods::Method;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-use super::{assert_status, stderr, with_scene};
+use super::{assert_status, stderr, stdout, with_scene};
 use crate::equilibrium::critical::{is_stable, last_true};
 use crate::tolerance::{
     DIFFERENCE, METHOD_ARCS, METHOD_COARSE, NEUTRAL_SHAPE, TWO_DECIMALS_DEG, assert_close,
@@ -295,4 +295,32 @@ fn a_reader_that_goes_early_is_no_bad_input() {
         assert!(!String::from_utf8_lossy(&run.stderr).contains("pipe"), "{arguments}");
         assert_eq!(std::fs::read_to_string(folder.join("status")).unwrap().trim(), expected, "{arguments}");
     }
+}
+
+#[test]
+fn a_bent_shape_without_load_is_explained() {
+    let told = |test: &str, scene: &str| {
+        let (_, output) = with_scene(test, scene, &["solve", "scene.toml"]);
+        assert_status(&output, 0);
+        let lines: Vec<String> = stdout(&output).lines().map(str::to_owned).collect();
+        lines.into_iter().filter(|line| line.starts_with("note: ")).collect::<Vec<_>>()
+    };
+    let notes = told("rest", "[design]\nsegments = 3\n[base]\nturn_deg = 30");
+    let [note] = &notes[..] else { panic!("{notes:?}") };
+    for part in ["bent at rest", "spirals", "design.spiral_start_deg", "design.spiral = \"alternating\""] {
+        assert!(note.contains(part), "{note}");
+    }
+    for (test, scene) in [
+        ("rest loaded", "[design]\nsegments = 3\n[field]\nuniform_mt = [0, 1, 0]"),
+        ("rest weight", "[design]\nsegments = 3\n[gravity]\nacceleration_m_s2 = [0, -9.81, 0]"),
+        ("rest magnet", "[design]\nsegments = 3\n[magnet]\nposition_mm = [0, -200, 0]"),
+        ("rest ring", "[design]\nsegments = 1\n[load]\nring_force_n = [[0, 0, 0], [0, 0.001, 0]]"),
+        ("rest short", "[design]\nsegments = 1"),
+        ("rest alternating", "[design]\nsegments = 3\nspiral = \"alternating\""),
+        ("rest turned", "[design]\nsegments = 3\nspiral_start_deg = [0, 240, 120]"),
+    ] {
+        assert!(told(test, scene).is_empty(), "{test}");
+    }
+    let answer = json("rest json", "[design]\nsegments = 3", 0);
+    assert!(answer.as_object().unwrap().keys().all(|key| !key.contains("note") || key == "jacobian_note"));
 }

@@ -219,3 +219,16 @@ fn a_full_disk_keeps_what_was_there() {
         stderr(&output)
     );
 }
+
+#[test]
+fn the_spiral_of_one_segment_is_turned() {
+    const SCENE: &str = "[design]\nsegments = 2\n[model]\ninteraction = \"full\"\n";
+    let arguments =
+        ["sweep", "scene.toml", "--vary", "design.spiral_start_deg[2]=0:180:3", "--out", "sweep.csv"];
+    let (here, output) = with_scene("spirals", SCENE, &arguments);
+    assert_status(&output, 0);
+    let rows = table(&here.join("sweep.csv"));
+    let angle = |row: usize| rows[row]["alpha_deg"].parse::<f64>().unwrap();
+    assert!((angle(0) - 2.11).abs() <= TWO_DECIMALS_DEG && (angle(2) - 0.07).abs() <= TWO_DECIMALS_DEG);
+    assert!(angle(0) > angle(1) && angle(1) > angle(2));
+}

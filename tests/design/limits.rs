@@ -2,6 +2,7 @@
 
 use mcm::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
+    SpiralStart,
 };
 use mcm::error::Error;
 
@@ -145,4 +146,27 @@ fn cylinders_out_of_range() {
         particle_remanence: 1.0,
     };
     refused(&Specification::Cylinder(Cylinder { material: composite, ..rod }), "volume fraction");
+}
+
+#[test]
+fn start_angles_of_spirals_are_one_for_each_segment_and_within_a_turn() {
+    let design = |spiral_start| Design::new(Specification::Segmented(Segmented { spiral_start, ..paper() }));
+    for angle in [f64::NAN, f64::INFINITY, 6.3, -6.3, 90.0] {
+        for (start, named) in
+            [(SpiralStart::Same(angle), "spirals"), (SpiralStart::Each(vec![0.0, angle]), "segment 2")]
+        {
+            refused(&Specification::Segmented(Segmented { spiral_start: start, ..paper() }), named);
+        }
+    }
+    for angle in [360.0_f64, -360.0].map(f64::to_radians) {
+        assert!(design(SpiralStart::Same(angle)).is_ok());
+        assert!(design(SpiralStart::Each(vec![angle, 0.0])).is_ok());
+    }
+    for angles in [vec![], vec![0.0], vec![0.0; 3]] {
+        let count = angles.len();
+        let message = design(SpiralStart::Each(angles)).unwrap_err().to_string();
+        let expected =
+            format!("start angles of the spirals has {count} entries, expected 2, one for each segment");
+        assert_eq!(message, expected);
+    }
 }

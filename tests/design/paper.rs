@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use mcm::constants::VACUUM_PERMEABILITY;
 use mcm::design::{
-    Backbone, Cylinder, CylinderMaterial, Design, Helix, RingMagnet, Segmented, SpanKind, Specification,
-    SpiralKind, SpiralVolume, composite_shear_modulus, gent_modulus,
+    Backbone, Cylinder, CylinderMaterial, Design, Helix, RingMagnet, SectorKind, Segmented, SpanKind,
+    Specification, SpiralKind, SpiralVolume, composite_shear_modulus, gent_modulus,
 };
 use serde_json::Value;
 
@@ -114,7 +114,7 @@ fn the_chain_has_the_bodies_it_should() {
         assert_eq!(device.segments()[2].ring.is_some(), tip_magnet);
     }
     let spread = design(Segmented { spiral: SpiralKind::Axisymmetric, ..paper(1) });
-    assert_eq!(spread.segments()[0].spans[1].spiral.map(|s| s.kind), Some(SpiralKind::Axisymmetric));
+    assert_eq!(spread.segments()[0].spans[1].spiral.map(|s| s.kind), Some(SectorKind::Axisymmetric));
 }
 
 #[test]

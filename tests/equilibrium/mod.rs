@@ -14,6 +14,7 @@ mod moments;
 mod neglected;
 mod reciprocity;
 mod reference;
+mod rest;
 mod robustness;
 pub(crate) mod rows;
 mod scaling;

@@ -8,7 +8,7 @@ use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
 
 use super::{BENT, instance, last};
-use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, assert_close};
+use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, TWO_DECIMALS_DEG, assert_close};
 
 pub(super) fn reference(table: &Table, name: &str) -> u32 {
     table.reference(name).unwrap_or_else(|| panic!("{name}"))
@@ -285,4 +285,30 @@ fn a_step_that_ends_nowhere_is_refused() {
     }
     assert_eq!(instance.time().to_bits(), 0);
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+}
+
+#[test]
+fn spirals_are_turned_by_parameters() {
+    const SCENE: &str = "[design]\nsegments = 2\n[magnet]\nstrength = 0.0\n[model]\ninteraction = \"full\"\n";
+    let start = |turn: f64| {
+        let (mut instance, package, told) = instance(SCENE);
+        let table = package.table().clone();
+        assert_eq!(instance.setup_experiment(0.0, None), Ending::Ok);
+        assert_eq!(set(&mut instance, &table, "design.spiral_start[2]", turn), Ending::Ok, "{}", last(&told));
+        assert_eq!(instance.enter_initialization(), Ending::Ok);
+        let ending = instance.exit_initialization();
+        (instance, table, told, ending)
+    };
+    let angle = |turn: f64| {
+        let (mut instance, table, told, ending) = start(turn);
+        assert_eq!(ending, Ending::Ok, "{}", last(&told));
+        get(&mut instance, &table, "tip.angle").to_degrees()
+    };
+    let (aligned, opposite) = (angle(0.0), angle(core::f64::consts::PI));
+    assert!((aligned - 2.11).abs() <= TWO_DECIMALS_DEG, "{aligned} deg");
+    assert!((opposite - 0.07).abs() <= TWO_DECIMALS_DEG, "{opposite} deg");
+    let (_, _, told, ending) = start(7.0);
+    assert_eq!(ending, Ending::Error);
+    let message = last(&told);
+    assert!(message.contains("spiral of segment 2 (rad) = 7 is not allowed"), "{message}");
 }

@@ -52,6 +52,7 @@ fn the_names_that_users_rely_on_are_there() {
         "gravity[3]",
         "model.interaction",
         "design.ring.recoil_permeability",
+        "design.spiral_start[9]",
         "magnet.design.cylinder[2].remanence",
         "tip.angle",
         "tip.position[3]",

@@ -1,7 +1,7 @@
 //! The scene file: units, defaults, refusals.
 #![allow(clippy::float_cmp, reason = "what a file states arrives unrounded")]
 
-use mcm::design::{CylinderMaterial, Modulus, Specification, SpiralKind};
+use mcm::design::{CylinderMaterial, Modulus, Specification, SpiralKind, SpiralStart};
 use mcm::equilibrium::Interaction;
 use mcm::manipulator::{Scene, SceneFile};
 use proptest::prelude::*;
@@ -159,6 +159,31 @@ fn refusals_name_line_path_and_remedy() {
             "[design]\nlength_mm = 4",
             "test, line 2: design.length_mm belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and \
              design.ring",
+        ),
+        (
+            "[design]\nsegments = 3\nspiral_start_deg = [0, 90]",
+            "test, line 3: design.spiral_start_deg has 2 entries, expected 3, one for each segment",
+        ),
+        (
+            "[design]\nspiral_start_deg = -360.5",
+            "test, line 2: design.spiral_start_deg = -360.5 is not allowed: it must be from -360 to 360",
+        ),
+        (
+            "[design]\nsegments = 2\nspiral_start_deg = [0, 400]",
+            "test, line 3: design.spiral_start_deg[2] = 400 is not allowed: it must be from -360 to 360",
+        ),
+        (
+            "[design]\nsegments = 2\nspiral_start_deg = [0, nan]",
+            "test, line 3: design.spiral_start_deg[2] = NaN is not allowed: it must be finite",
+        ),
+        (
+            "[design]\nspiral_start_deg = \"east\"",
+            "test, line 2: `design.spiral_start_deg`: invalid type: string \"east\", expected a number, or a list with one \
+             number for each segment",
+        ),
+        (
+            "[design]\nkind = \"cylinder\"\nspiral_start_deg = 90",
+            "test, line 3: design.spiral_start_deg belongs to kind = \"segments\"",
         ),
         (
             "[design]\nkind = \"cylinder\"\nsegments = 2",
@@ -332,6 +357,45 @@ fn one_number_is_replaced_by_its_path() {
     ] {
         assert_eq!(file.with(key, value).unwrap_err().to_string(), expected);
     }
+}
+
+#[test]
+fn spirals_are_turned_by_one_angle_or_a_list() {
+    let start = |file: &SceneFile| match file.scene().unwrap().specification {
+        Specification::Segmented(chain) => (chain.spiral, chain.spiral_start),
+        Specification::Cylinder(_) => panic!("segments"),
+    };
+    let radians = |angles: &[f64]| SpiralStart::Each(angles.iter().map(|angle| angle.to_radians()).collect());
+    let parse = |rows: &str| SceneFile::parse(&format!("[design]\nsegments = 3\n{rows}"), "test").unwrap();
+    let plain = parse("");
+    assert_eq!(start(&plain), (SpiralKind::Helical, SpiralStart::Same(0.0)));
+    let one = parse("spiral = \"alternating\"\nspiral_start_deg = 90");
+    assert_eq!(start(&one), (SpiralKind::Alternating, SpiralStart::Same(90_f64.to_radians())));
+    let list = parse("spiral_start_deg = [0, 240.0, -120]");
+    assert_eq!(start(&list).1, radians(&[0.0, 240.0, -120.0]));
+    for file in [&plain, &one, &list] {
+        assert_eq!(&SceneFile::parse(&file.to_toml().unwrap(), "again").unwrap(), file);
+    }
+    // A number of the list is replaced; one number for all becomes a list when one of it is named.
+    assert_eq!(
+        start(&list.with("design.spiral_start_deg[2]", 60.0).unwrap()).1,
+        radians(&[0.0, 60.0, -120.0])
+    );
+    assert_eq!(start(&one.with("design.spiral_start_deg[3]", 60.0).unwrap()).1, radians(&[90.0, 90.0, 60.0]));
+    let turned = start(&plain.with("design.spiral_start_deg", 60.0).unwrap()).1;
+    assert_eq!(turned, SpiralStart::Same(60_f64.to_radians()));
+    for (file, key, expected) in [
+        (
+            &plain,
+            "design.spiral_start_deg[4]",
+            "no entry `design.spiral_start_deg[4]`: indices go from 1 to 3 there",
+        ),
+        (&list, "design.spiral_start_deg", "`design.spiral_start_deg` holds no number"),
+    ] {
+        assert_eq!(file.with(key, 1.0).unwrap_err().to_string(), expected);
+    }
+    let refused = list.with("design.segments", 4.0).unwrap().scene().unwrap_err().to_string();
+    assert_eq!(refused, "design.spiral_start_deg has 3 entries, expected 4, one for each segment");
 }
 
 #[test]

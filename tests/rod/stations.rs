@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use mcm::design::{Design, Segmented, Span, Specification, SpiralKind};
-use mcm::rod::{Element, Piece, Resolution, SourceGeometry};
+use mcm::design::{Design, Helix, SectorKind, Segmented, Span, Specification, SpiralKind};
+use mcm::rod::{Element, Piece, Resolution, SectionMaterial, SourceGeometry};
 use nalgebra::{Matrix2, Vector2};
 
 use crate::tolerance::{BRUTE_FORCE, FIRST_MOMENT, LAW, assert_close};
@@ -93,6 +93,27 @@ fn four_points_carry_the_moments() {
             let second: Matrix2<f64> = points.iter().map(|point| point * point.transpose() * quarter).sum();
             assert!((first - moments.first).norm() <= LAW * moments.volume * 1e-3, "{kind:?}: {first}");
             assert_close(kind, second.as_slice(), moments.second.as_slice(), LAW);
+        }
+    }
+}
+
+/// Of two alternating segments each section is the point reflection of the one as far from the ring between them.
+#[test]
+fn alternating_spirals_are_point_reflections() {
+    let Specification::Segmented(paper) = Specification::paper(3) else { unreachable!() };
+    let helix = Helix { windings: 2.3, ..paper.helix };
+    let chain = Segmented { spiral: SpiralKind::Alternating, helix, ..paper };
+    let design = Design::new(Specification::Segmented(chain)).expect("allowed");
+    let cores: Vec<&Span> = design.segments().iter().map(|segment| &segment.spans[1]).collect();
+    let kinds: Vec<_> = cores.iter().map(|core| core.spiral.map(|spiral| spiral.kind)).collect();
+    assert_eq!(kinds, [SectorKind::RightHanded, SectorKind::LeftHanded, SectorKind::RightHanded].map(Some));
+    for pair in cores.windows(2) {
+        for s in [0.0, 0.3e-3, 1.1e-3, 2.6e-3] {
+            let own = SectionMaterial::section(pair[0], pair[0].length - s).moments;
+            let other = SectionMaterial::section(pair[1], s).moments;
+            assert!(own.first.norm() > 0.1 * own.volume * helix.radius, "off the centreline at {s} m");
+            assert_close(s, (-other.first).as_slice(), own.first.as_slice(), LAW);
+            assert_close(s, other.second.as_slice(), own.second.as_slice(), LAW);
         }
     }
 }

@@ -12,6 +12,7 @@ mod fig7c;
 mod fig7d;
 mod fig8;
 mod hysteresis;
+mod rest;
 mod stability;
 
 use std::sync::atomic::{AtomicUsize, Ordering};

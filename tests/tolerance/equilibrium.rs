@@ -242,3 +242,10 @@ pub(crate) const CHATTER: f64 = 10.0;
 
 /// The same for the stability margin, absolute: it is told anew when loads or shape have changed by a tenth of it.
 pub(crate) const MARGIN_CHATTER: f64 = 0.1;
+
+/// Shapes of spirals turned about the axis beside the shape turned, relative to what bends it: the points that stand for the
+/// spirals in the rings' fields do not turn with them (reached: 3e-5).
+pub(crate) const TURNED_SPIRALS: f64 = 1e-4;
+
+/// Tip angle of a shape that is its own point reflection, deg, by the default accuracies (reached: 5e-5, S = 12).
+pub(crate) const REFLECTED_DEG: f64 = 1e-4;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::manipulator::{Jacobian, Outputs, Status};
+use mcm::manipulator::{Inputs, Jacobian, Outputs, Status};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
@@ -37,6 +37,9 @@ pub(crate) struct Solve {
     shape_points: usize,
 }
 
+/// Tip angle above which an unloaded shape is explained, rad.
+const REST_ANGLE: f64 = core::f64::consts::PI / 180.0;
+
 impl Solve {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
@@ -56,7 +59,7 @@ impl Solve {
         print(if self.json {
             format!("{:#}\n", as_json(outputs, &jacobian, scene.magnets.is_some()))
         } else {
-            as_table(outputs)
+            as_table(outputs) + &rest_note(&scene.inputs, outputs)
         })?;
         Ok(exit_status(outputs))
     }
@@ -115,6 +118,16 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
     ];
     let shape = shape.map(|(key, value)| (key, if converged { value } else { Value::Null }));
     shape.into_iter().chain(search).map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// Why the manipulator is bent although nothing acts on it; empty where something does or it is nearly straight.
+fn rest_note(inputs: &Inputs, outputs: &Outputs) -> &'static str {
+    let loaded = *inputs != inputs.without_loads();
+    if loaded || !verdict::converged(outputs) || outputs.tip_angle <= REST_ANGLE {
+        return "";
+    }
+    "\nnote: bent at rest, without any load: rings attract the spirals beside them off the axis, and the bends of the segments add up; \
+     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that they cancel\n"
 }
 
 /// A matrix as a list of its rows.

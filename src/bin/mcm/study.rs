@@ -56,6 +56,8 @@ enum Name {
     Fig8,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
+    /// Tip angle without any load, over the number of segments, by arrangement of the spirals
+    Rest,
     /// The same path of the magnet in few communication steps and in many
     #[value(name = "communication-step")]
     CommunicationStep,
@@ -86,6 +88,7 @@ impl Name {
             Self::Fig7d => Some(|_| studies::fig7d()),
             Self::Fig8 => Some(|_| studies::fig8()),
             Self::Hysteresis => Some(studies::hysteresis),
+            Self::Rest => Some(|_| studies::rest()),
             Self::CommunicationStep => Some(studies::communication_step),
             Self::Accuracy
             | Self::Budget

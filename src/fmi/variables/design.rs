@@ -1,5 +1,7 @@
 //! Parameters and constants of the design.
 
+use core::f64::consts::TAU;
+
 use super::super::dependency::Known;
 use super::super::host_values::HostValues;
 use super::super::units::{ANGLE, DENSITY, HARDNESS, LENGTH, MODULUS, RATIO, REMANENCE};
@@ -11,13 +13,14 @@ use crate::design::CylinderMaterial::{self, Bulk, Composite};
 use crate::design::Specification::{Cylinder, Segmented};
 use crate::design::{self, DENSEST_PACKING, MOST_PERMEABLE, Modulus, SpiralKind};
 
-/// How the spiral's sector lies in the section.
+/// How the spirals are arranged.
 static SPIRAL: Enumeration = Enumeration {
     name: "Spiral",
-    description: "How the spiral's sector lies in the section",
+    description: "How the spirals are arranged",
     items: &[
-        Item { name: "helical", value: 0, description: "The sector turns with arc length, as built" },
+        Item { name: "helical", value: 0, description: "All are right-handed, as built" },
         Item { name: "axisymmetric", value: 1, description: "The sector's area is spread over the circle" },
+        Item { name: "alternating", value: 2, description: "Every second spiral is mirrored: left-handed" },
     ],
 };
 
@@ -59,9 +62,9 @@ macro_rules! density_access {
 impl Rows {
     pub(super) fn design_parameters(&mut self, start: &HostValues) {
         match &start.specification {
-            Segmented(_) => {
+            Segmented(segmented) => {
                 self.helix();
-                self.spiral();
+                self.spiral(segmented.segments);
                 self.ring();
                 self.backbone(&start.backbone.modulus);
             }
@@ -116,10 +119,14 @@ impl Rows {
         self.scalar(density("design.helix.density", description, composite));
     }
 
-    fn spiral(&mut self) {
+    fn spiral(&mut self, segments: usize) {
         let spiral = Access::Enumeration {
             get: |values| match &values.specification {
-                Segmented(s) => i32::from(s.spiral == SpiralKind::Axisymmetric),
+                Segmented(s) => match s.spiral {
+                    SpiralKind::Helical => 0,
+                    SpiralKind::Axisymmetric => 1,
+                    SpiralKind::Alternating => 2,
+                },
                 Cylinder(_) => 0,
             },
             set: |values, number| {
@@ -127,6 +134,7 @@ impl Rows {
                     s.spiral = match number {
                         0 => SpiralKind::Helical,
                         1 => SpiralKind::Axisymmetric,
+                        2 => SpiralKind::Alternating,
                         _ => s.spiral,
                     };
                 }
@@ -134,6 +142,21 @@ impl Rows {
         };
         let data_type = DataType::Enumeration(&SPIRAL);
         self.scalar(Draft::parameter("design.spiral", data_type, SPIRAL.description, spiral));
+        let start = Access::Real {
+            get: |values, index| match &values.specification {
+                Segmented(s) => s.spiral_start.of(index.component),
+                Cylinder(_) => f64::NAN,
+            },
+            set: |values, index, value| {
+                if let Segmented(s) = &mut values.specification {
+                    s.spiral_start.set(index.component, s.segments, value);
+                }
+            },
+        };
+        let description =
+            "Angle by which the spiral of each segment is turned about the axis; 0: its sector begins at d1";
+        let draft = Draft::parameter("design.spiral_start", ANGLE, description, start);
+        self.array(segments, &draft.min(-TAU).max(TAU));
     }
 
     fn ring(&mut self) {

@@ -3,6 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::spiral_start::SpiralStartEntry;
 use crate::equilibrium::{Interaction, Settings};
 use crate::methods::Method;
 
@@ -35,6 +36,7 @@ pub(super) enum DesignKind {
 pub(super) enum SpiralName {
     Helical,
     Axisymmetric,
+    Alternating,
 }
 
 /// Table `[design]`: which keys may be present depends on `kind`.
@@ -50,6 +52,8 @@ pub(super) struct DesignEntries {
     pub(super) tip_magnet: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spiral: Option<SpiralName>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spiral_start_deg: Option<SpiralStartEntry>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) length_mm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -4,6 +4,7 @@ mod faults;
 mod file;
 mod names;
 mod resolve;
+mod spiral_start;
 mod text;
 
 pub use file::SceneFile;

@@ -7,10 +7,11 @@ use super::file::{
     BackboneEntries, DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries,
     RingEntries, SceneFile, SpiralName,
 };
+use super::spiral_start::SpiralStartEntry;
 use super::{Scene, names};
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
-    SpiralKind,
+    SpiralKind, SpiralStart,
 };
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
@@ -96,6 +97,11 @@ impl SceneFile {
             && key.starts_with("magnet.position_mm")
         {
             magnet.position_mm = Some(beside(&design()?).map(|x| x * MM_PER_M));
+        } else if let Some(SpiralStartEntry::Same(degrees)) = self.design.spiral_start_deg
+            && key.starts_with("design.spiral_start_deg[")
+        {
+            let segments = design()?.segments().len();
+            self.design.spiral_start_deg = Some(SpiralStartEntry::Each(vec![degrees; segments]));
         }
         Ok(())
     }
@@ -148,6 +154,7 @@ impl DesignEntries {
             self.base_magnet.get_or_insert(true);
             self.tip_magnet.get_or_insert(true);
             self.spiral.get_or_insert(SpiralName::Helical);
+            self.spiral_start_deg.get_or_insert(SpiralStartEntry::Same(0.0));
             self.helix.get_or_insert_default();
             self.ring.get_or_insert_default();
         } else {
@@ -157,14 +164,20 @@ impl DesignEntries {
 
     fn specification(&self) -> Result<Specification, Error> {
         self.refuse_keys_of_other_kind()?;
+        let segments = self.segments.unwrap_or(Self::SEGMENTS);
         Ok(match self.kind {
             DesignKind::Segments => Specification::Segmented(Segmented {
-                segments: self.segments.unwrap_or(Self::SEGMENTS),
+                segments,
                 base_magnet: self.base_magnet.unwrap_or(true),
                 tip_magnet: self.tip_magnet.unwrap_or(true),
                 spiral: match self.spiral {
                     Some(SpiralName::Axisymmetric) => SpiralKind::Axisymmetric,
+                    Some(SpiralName::Alternating) => SpiralKind::Alternating,
                     Some(SpiralName::Helical) | None => SpiralKind::Helical,
+                },
+                spiral_start: match &self.spiral_start_deg {
+                    Some(start) => start.si(segments)?,
+                    None => SpiralStart::Same(0.0),
                 },
                 helix: self.helix.unwrap_or_default().si(),
                 ring: self.ring.unwrap_or_default().si(),
@@ -214,6 +227,7 @@ impl DesignEntries {
             ("base_magnet", self.base_magnet.is_some()),
             ("tip_magnet", self.tip_magnet.is_some()),
             ("spiral", self.spiral.is_some()),
+            ("spiral_start_deg", self.spiral_start_deg.is_some()),
             ("helix", self.helix.is_some()),
             ("ring", self.ring.is_some()),
             ("backbone", self.backbone.is_some()),
