@@ -6,6 +6,7 @@ mod estimate;
 
 mod jacobian;
 
+mod refusals;
 mod scene;
 
 mod snapshot;

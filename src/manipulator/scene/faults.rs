@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use toml::{Spanned, Value};
 
 use super::SceneFile;
-use super::text::{entry, suggestion};
+use super::path::{entry, suggestion};
 use crate::error::Error;
 
 /// Largest number of faults that are told of one text.

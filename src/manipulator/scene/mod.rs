@@ -3,9 +3,11 @@
 mod faults;
 mod file;
 mod names;
+mod path;
 mod resolve;
 mod spiral_start;
 mod text;
+mod units;
 
 pub use file::SceneFile;
 

@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use toml::Value;
 
-use super::resolve::{MM_PER_M, PA_PER_MPA};
-use super::text::entry;
+use super::path::entry;
+use super::units::{MM_PER_M, PA_PER_MPA};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 

@@ -8,6 +8,7 @@ use super::file::{
     RingEntries, SceneFile, SpiralName,
 };
 use super::spiral_start::SpiralStartEntry;
+use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
 use super::{Scene, names};
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
@@ -19,10 +20,6 @@ use crate::geometry::{Pose, RotationVector};
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Inputs;
 use crate::methods;
-
-pub(super) const MM_PER_M: f64 = 1e3;
-const MT_PER_T: f64 = 1e3;
-pub(super) const PA_PER_MPA: f64 = 1e6;
 
 /// Largest turn, deg: a hundred times round. Of a larger one too few digits would be left.
 const LARGEST_TURN: f64 = 36_000.0;
