@@ -89,11 +89,12 @@ fn main() -> ExitCode {
 
 /// Prints the version; `verbose` adds how fields at many points are evaluated, and on how many threads scenes are solved.
 fn version(verbose: bool) -> Result<ExitCode, Failure> {
-    let mut text = format!("mcm {}\n", env!("CARGO_PKG_VERSION"));
-    if verbose {
-        text += &format!("instructions for fields and products: {}\n", Instructions::in_use());
-        text += &format!("threads: {}\n", rayon::current_num_threads());
-    }
-    print(text)?;
+    let more = if verbose {
+        let (instructions, threads) = (Instructions::in_use(), rayon::current_num_threads());
+        format!("instructions for fields and products: {instructions}\nthreads: {threads}\n")
+    } else {
+        String::new()
+    };
+    print(format!("mcm {}\n{more}", env!("CARGO_PKG_VERSION")))?;
     Ok(ExitCode::SUCCESS)
 }

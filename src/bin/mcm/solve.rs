@@ -59,7 +59,7 @@ impl Solve {
         print(if self.json {
             format!("{:#}\n", as_json(outputs, &jacobian, scene.magnets.is_some()))
         } else {
-            as_table(outputs) + &rest_note(&scene.inputs, outputs)
+            as_table(outputs) + rest_note(&scene.inputs, outputs)
         })?;
         Ok(exit_status(outputs))
     }

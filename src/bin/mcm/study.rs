@@ -75,9 +75,12 @@ enum Name {
     All,
 }
 
+/// A study, computed while its progress is told.
+type Computed = fn(&dyn Progress) -> Result<studies::Study, Error>;
+
 impl Name {
     /// The study of this name; `None` for all, and for those with their own tables.
-    fn study(self) -> Option<fn(&dyn Progress) -> Result<studies::Study, Error>> {
+    fn study(self) -> Option<Computed> {
         match self {
             Self::FieldRing => Some(|_| studies::field_ring()),
             Self::Fig4 => Some(studies::fig4),

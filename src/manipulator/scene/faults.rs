@@ -20,7 +20,7 @@ pub(super) fn read(text: &str, what: &str) -> Result<SceneFile, Error> {
     let mut faults = Faults { text, what, found: Vec::new() };
     let (root, broken) = DeTable::parse_recoverable(text);
     for error in &broken {
-        faults.add(error.span(), error.message().replace('\n', ", "));
+        faults.add(error.span().map(|span| span.start), error.message().replace('\n', ", "));
     }
     if !broken.is_empty() {
         return Err(faults.all());
@@ -40,8 +40,9 @@ struct Faults<'a> {
 }
 
 impl Faults<'_> {
-    fn add(&mut self, span: Option<Range<usize>>, reason: String) {
-        let start = span.as_ref().map_or(usize::MAX, |span| span.start);
+    /// Adds the fault that begins at `start`; `None` for one that is nowhere in the text.
+    fn add(&mut self, start: Option<usize>, reason: String) {
+        let start = start.unwrap_or(usize::MAX);
         let line = self.text.get(..start).map(|before| before.matches('\n').count() + 1);
         let line = line.map_or_else(String::new, |line| format!(", line {line}"));
         self.found.push((start, Error::Syntax { what: format!("{}{line}", self.what), reason }));
@@ -66,7 +67,7 @@ impl Faults<'_> {
             let span = error.span().unwrap_or(0..0);
             let path = entries(root.get_ref()).into_iter().rfind(|entry| entry.is_at(&span));
             let path = path.map(|entry| entry.path);
-            self.add(Some(span.clone()), explained(error.message().trim_end(), path.as_deref()));
+            self.add(Some(span.start), explained(error.message().trim_end(), path.as_deref()));
             if !remove(kept.get_mut(), &span) || self.found.len() == MOST {
                 return None;
             }
@@ -78,7 +79,10 @@ impl Faults<'_> {
                 && let Ok(Value::Array(kept)) = entry(&mut written, &path)
                 && given.len() > kept.len()
             {
-                self.add(Some(span), format!("{path} has {} entries, expected {}", given.len(), kept.len()));
+                self.add(
+                    Some(span.start),
+                    format!("{path} has {} entries, expected {}", given.len(), kept.len()),
+                );
             }
         }
         Some(file)
@@ -88,7 +92,7 @@ impl Faults<'_> {
     fn values(&mut self, root: &DeTable<'_>, file: &SceneFile) -> Result<(), Error> {
         let mut table = Value::Table(file.table()?);
         for (path, number) in infinite(&table, "") {
-            self.add(span_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
+            self.add(start_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
             forget(&mut table, &path);
         }
         let mut told: Vec<String> = Vec::new();
@@ -107,7 +111,7 @@ impl Faults<'_> {
             let key = words.into_iter().find(|word| entry(&mut table.clone(), word).is_ok());
             let path = key.unwrap_or("design").to_owned();
             if !told.contains(&path) {
-                self.add(span_of(root, &path), reason);
+                self.add(start_of(root, &path), reason);
                 told.push(path.clone());
             }
             if !forget(&mut table, &path) {
@@ -175,12 +179,12 @@ fn entries<'a>(root: &'a DeTable<'a>) -> Vec<Entry<'a>> {
 }
 
 /// Where the text gives a key, or the nearest table around it.
-fn span_of(root: &DeTable<'_>, path: &str) -> Option<Range<usize>> {
+fn start_of(root: &DeTable<'_>, path: &str) -> Option<usize> {
     let known = entries(root);
     let mut path = path;
     loop {
         if let Some(entry) = known.iter().find(|entry| entry.path == path) {
-            return Some(entry.span.clone());
+            return Some(entry.span.start);
         }
         path = &path[..path.rfind(['.', '['])?];
     }

@@ -104,7 +104,7 @@ pub(super) fn as_written(error: Error, file: &Value) -> Error {
         cylinders.map(move |cylinder| (key.replace('*', &cylinder.to_string()), *unit))
     });
     for (key, unit) in candidates {
-        if let Some(number) = written(&key).filter(|number| unit.si(*number) == *value) {
+        if let Some(number) = written(&key).filter(|number| unit.si(*number).total_cmp(value).is_eq()) {
             return Error::range(key, number, unit.range(allowed));
         }
     }

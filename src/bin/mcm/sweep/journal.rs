@@ -48,7 +48,7 @@ pub(super) struct State {
 #[derive(Serialize, Deserialize)]
 pub(super) enum Stage {
     /// To this state of its branch.
-    UnderWay(PathSnapshot),
+    UnderWay(Box<PathSnapshot>),
     /// To its end, past these folds.
     Complete(Vec<Fold>),
 }
@@ -141,7 +141,7 @@ impl Identity<'_> {
     /// The length of what is whole, bytes, and what it says of each walk; `None` for the file of another sweep.
     fn read(&self, text: &str) -> Option<(u64, Vec<Kept>)> {
         // What was cut off has no end of line.
-        let whole = &text[..text.rfind('\n')? + 1];
+        let whole = &text[..=text.rfind('\n')?];
         let lines = whole.strip_prefix(&self.title())?;
         let mut kept = self.nothing();
         let table =

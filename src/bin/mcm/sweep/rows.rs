@@ -94,17 +94,23 @@ impl Row {
 
     /// The row with these cells and this number of keys; `None` for anything else.
     pub(super) fn read<'a>(mut cells: impl Iterator<Item = &'a str>, keys: usize) -> Option<Self> {
-        fn some<T: FromStr>(cell: &str) -> Option<Option<T>> {
-            if cell.is_empty() { Some(None) } else { cell.parse().ok().map(Some) }
+        // An empty cell is a missing value.
+        fn some<T: FromStr>(cell: &str) -> Result<Option<T>, T::Err> {
+            if cell.is_empty() { Ok(None) } else { cell.parse().map(Some) }
         }
         let mut next = || cells.next();
         Some(Self {
             varied: (0..keys).map(|_| next()?.parse().ok()).collect::<Option<_>>()?,
             way: Way::named(next()?)?,
-            numbers: NUMBERS.iter().map(|_| some(next()?)).collect::<Option<Vec<_>>>()?.into_iter().collect(),
-            predicted_fold: some(next()?)?,
-            stable: some(next()?)?,
-            stability: some(next()?)?,
+            numbers: NUMBERS
+                .iter()
+                .map(|_| some(next()?).ok())
+                .collect::<Option<Vec<_>>>()?
+                .into_iter()
+                .collect(),
+            predicted_fold: some(next()?).ok()?,
+            stable: some(next()?).ok()?,
+            stability: some(next()?).ok()?,
             snaps: next()?.parse().ok()?,
             outcome: {
                 next()?; // whether it converged
@@ -113,7 +119,7 @@ impl Row {
             progress: next()?.parse().ok()?,
             iterations: next()?.parse().ok()?,
             residual: next()?.parse().ok()?,
-            reason: some(next()?)?,
+            reason: some(next()?).ok()?,
         })
     }
 

@@ -156,7 +156,7 @@ impl Steps<'_> {
             self.bar.inc(rows.len() as u64);
             ways = state.ways;
             match state.stage {
-                Stage::UnderWay(snapshot) => branch.restore(snapshot)?,
+                Stage::UnderWay(snapshot) => branch.restore(*snapshot)?,
                 Stage::Complete(folds) => {
                     let folds = folds.into_iter().zip(ways).collect();
                     return Ok(Some(Walk { others: others.clone(), rows, folds }));
@@ -233,7 +233,7 @@ impl Steps<'_> {
             Stage::Complete(branch.folds().to_vec())
         } else {
             let Some(snapshot) = branch.snapshot() else { return Ok(()) };
-            Stage::UnderWay(snapshot)
+            Stage::UnderWay(Box::new(snapshot))
         };
         journal.state(self.number, &State { rows, ways: ways.to_vec(), stage })
     }
