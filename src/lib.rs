@@ -23,6 +23,8 @@ pub mod numerics; // quadrature, dense linear algebra, trust region: knows no ph
 
 pub mod geometry; // rotations and poses
 
+pub mod vessel; // the vessel around it: distance to its wall
+
 pub mod design; // what is built: materials, sections, the chain of bodies
 
 pub mod magnetics; // fields, exact and cheaper; wrench on a body; pairs of rings

@@ -5,11 +5,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms in order, and what each may use; what those may use is allowed too.
-const ROOMS: [(&str, &[&str]); 13] = [
+const ROOMS: [(&str, &[&str]); 14] = [
     ("constants", &[]),
     ("error", &[]),
     ("numerics", &["constants", "error"]),
     ("geometry", &["numerics"]),
+    ("vessel", &["geometry"]),
     ("design", &["geometry"]),
     ("magnetics", &["design"]),
     ("rod", &["design"]),

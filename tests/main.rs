@@ -21,6 +21,8 @@ mod numerics;
 
 mod geometry;
 
+mod vessel;
+
 mod design;
 
 mod magnetics;

@@ -13,4 +13,5 @@ pub mod newton;
 pub mod processor;
 pub mod pseudo_transient;
 pub mod quadrature;
+pub mod spline;
 pub mod trust_region;

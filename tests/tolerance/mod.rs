@@ -3,12 +3,14 @@
 mod equilibrium;
 mod magnetics;
 mod numerics;
+mod vessel;
 
 use core::fmt::Debug;
 
 pub(crate) use equilibrium::*;
 pub(crate) use magnetics::*;
 pub(crate) use numerics::*;
+pub(crate) use vessel::*;
 
 /// Whether `got` is within `tolerance` of `expected`, relative to the Euclidean norm of `expected`; never for NaN.
 pub(crate) fn is_close(got: &[f64], expected: &[f64], tolerance: f64) -> bool {
