@@ -19,7 +19,7 @@ from pathlib import Path
 import fmpy.simulation
 import matplotlib as mpl
 import numpy as np
-from fmpy import simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 
 INPUTS = Path(__file__).parent / "magnet_pass.csv"
@@ -54,6 +54,10 @@ def run(fmu: Path, inputs: Path, *, interpolate: bool = False) -> np.ndarray:
     step = times[1] - times[0]
     if not np.allclose(np.diff(times), step):
         raise SystemExit(f"{inputs}: the times are not evenly spaced")
+    known = {variable.name for variable in read_model_description(str(fmu)).modelVariables}
+    if unknown := set(signals.dtype.names) - {"time"} - known:
+        # fmpy itself leaves such a column aside without a word.
+        raise SystemExit(f"{inputs}: the FMU has no input {', '.join(sorted(unknown))}")
     if interpolate:
         fmpy.simulation.Input = InterpolatedInput
     rows = simulate_fmu(

@@ -131,6 +131,11 @@ impl Chain {
         })
     }
 
+    /// What it was made from.
+    pub(super) fn made_from(&self) -> &impl core::fmt::Debug {
+        &self.made_from
+    }
+
     /// Whether it is what [`Self::new`] makes of this.
     pub(super) fn is_of(&self, design: &Design, settings: &Settings) -> bool {
         self.made_from.1 == discretisation(settings) && self.made_from.0 == *design

@@ -77,13 +77,13 @@ impl fmt::Display for Outcome {
             ),
             Self::BranchEnds => write!(
                 out,
-                "the branch ends at a fold and no stable shape was found beyond it; go back, take another way, or allow \
-                 the windings to touch (bending_stop)"
+                "the branch ends at a fold and no stable shape was found beyond it; go back or take another way; where \
+                 bending_stop is off, touching windings may end it later"
             ),
             Self::Contact(contact) => write!(out, "bodies touch: {contact}; keep them apart"),
             Self::OutOfBudget => write!(
                 out,
-                "the iterations or the processor time allowed were used up (model.time_budget_s); allow more, or take \
+                "the iterations or the processor time allowed were used up; allow more (the model's time budget), or take \
                  shorter steps"
             ),
         }

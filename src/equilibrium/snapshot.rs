@@ -6,11 +6,14 @@ use super::factorisation::Origin;
 use super::history::{History, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
+use crate::magnetics::Assembly;
 use crate::numerics::trust_region::Objective;
 
 /// Stored state of a branch, from which another equilibrium of the same design continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BranchSnapshot {
+    /// What tells the equilibria of one design, discretisation and magnet from others.
+    device: u32,
     branch: History,
     /// Shape and inputs of the Hessian whose factorisation the next solve starts with.
     origin: Option<Origin>,
@@ -23,20 +26,22 @@ impl Equilibrium {
     #[must_use]
     pub fn snapshot(&self) -> BranchSnapshot {
         BranchSnapshot {
+            device: self.mark(),
             branch: self.branch.clone(),
             origin: self.work.factorisation.as_ref().map(|last| last.origin().clone()),
             rules: self.rules.chosen().collect(),
         }
     }
 
-    /// Restores the snapshot of another equilibrium of the same design and settings.
+    /// Restores the snapshot of another equilibrium of the same design, discretisation and magnet.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for a snapshot of another design; the branch is then forgotten.
     pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
-        let BranchSnapshot { branch, origin, rules } = snapshot;
-        let fits = branch.fits(self.chain.freedoms())
+        let BranchSnapshot { device, branch, origin, rules } = snapshot;
+        let fits = *device == self.mark()
+            && branch.fits(self.chain.freedoms())
             && origin.as_ref().is_none_or(|origin| are_finite(&origin.unknowns, self.chain.freedoms()));
         let foreign = || Error::Unsupported("the snapshot is not of this design".into());
         if !fits || !self.rules.restore(rules) {
@@ -54,6 +59,12 @@ impl Equilibrium {
         }
         self.branch = branch.clone();
         Ok(())
+    }
+
+    /// A number that equilibria of one design, discretisation and magnet have in common: a checksum of all their numbers.
+    fn mark(&self) -> u32 {
+        let magnets = self.magnet.as_ref().map(Assembly::magnets);
+        crc32fast::hash(format!("{:?} {magnets:?}", self.chain.made_from()).as_bytes())
     }
 
     /// Computes and factorises the Hessian of `origin` again.

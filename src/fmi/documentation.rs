@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use quick_xml::escape::escape;
 
 use super::host_values::HostValues;
-use super::value::{DataType, Value};
+use super::value::{DataType, Item, Value};
 use super::variables::Table;
 
 /// The page above the table of variables.
@@ -21,10 +21,14 @@ pub fn page(table: &Table, start: &HostValues) -> String {
     for variable in table.variables() {
         let causality = variable.causality_in_words();
         let unit = match variable.data_type {
-            DataType::Real(quantity) => quantity.unit,
-            DataType::Integer => "integer",
-            DataType::Boolean => "true or false",
-            DataType::Enumeration(enumeration) => enumeration.name,
+            DataType::Real(quantity) => quantity.unit.to_owned(),
+            DataType::Integer => "integer".to_owned(),
+            DataType::Boolean => "true or false".to_owned(),
+            // Hosts show and set the number.
+            DataType::Enumeration(enumeration) => {
+                let item = |item: &Item| format!("{} {}", item.value, item.name);
+                enumeration.items.iter().map(item).collect::<Vec<_>>().join(", ")
+            }
         };
         let start = match variable.host_value(start) {
             Some(Value::Real(value)) => format!("{value:?}"),

@@ -253,7 +253,11 @@ impl Instance {
         let counts = self.package.table().counts();
         let mut manipulator = match now.manipulator.take() {
             Some(manipulator) => manipulator,
-            None => now.host_values.manipulator(counts.shape_points)?,
+            None => {
+                let values = &now.host_values;
+                let made = values.manipulator(counts.shape_points);
+                made.map_err(|error| self.package.table().named(error, values))?
+            }
         };
         if now.state == State::Initialization {
             manipulator.reset(); // the first equilibrium must not depend on what was read before

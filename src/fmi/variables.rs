@@ -12,7 +12,8 @@ mod parameters;
 mod rows;
 
 use super::host_values::HostValues;
-use super::variable::Variable;
+use super::value::Value;
+use super::variable::{Causality, Variable};
 use crate::design::SpanKind;
 use crate::error::Error;
 use rows::Rows;
@@ -103,6 +104,24 @@ impl Table {
     #[must_use]
     pub fn find(&self, reference: u32) -> Option<&Variable> {
         self.variables.get(usize::try_from(reference).ok()?)
+    }
+
+    /// The same error with the name of the parameter at fault, as far as its value tells which one that is.
+    #[must_use]
+    pub fn named(&self, error: Error, values: &HostValues) -> Error {
+        let Error::Range { quantity, value, allowed } = &error else { return error };
+        let at_fault = |variable: &&Variable| {
+            variable.causality == Causality::Parameter
+                && variable
+                    .host_value(values)
+                    .and_then(Value::real)
+                    .is_some_and(|own| own.total_cmp(value).is_eq())
+        };
+        let mut found = self.variables.iter().filter(at_fault);
+        match (found.next(), found.next()) {
+            (Some(only), None) => Error::range(format!("{} ({quantity})", only.name), *value, allowed),
+            _ => error,
+        }
     }
 
     /// The value reference of the variable with this name.

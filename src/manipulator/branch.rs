@@ -160,10 +160,11 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     ///
     /// # Errors
     /// As [`Manipulator::restore`](super::Manipulator::restore).
-    pub fn restore(&mut self, snapshot: PathSnapshot) -> Result<(), Error> {
+    pub fn restore(&mut self, snapshot: &PathSnapshot) -> Result<(), Error> {
         let PathSnapshot { manipulator, here, lost, folds, margins } = snapshot;
-        self.manipulator.restore(&manipulator)?;
-        (self.here, self.lost, self.folds, self.margins) = (here, lost, folds, margins);
+        self.manipulator.restore(manipulator)?;
+        (self.here, self.lost) = (*here, *lost);
+        (self.folds, self.margins) = (folds.clone(), margins.clone());
         Ok(())
     }
 

@@ -88,7 +88,7 @@ fn without_a_magnet_bad_points_are_refused_all_the_same_and_an_older_table_stays
     for (out, expected) in [
         ("field.csv", "is not a finite number"),
         ("points.csv", "points.csv would be written over points.csv, which is read"),
-        ("./scene.toml", "which is read"),
+        ("./scene.toml", "is called like a scene"),
     ] {
         let output = mcm(&here, &[&arguments[..], &[out]].concat());
         assert_status(&output, 1);

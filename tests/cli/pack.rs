@@ -9,7 +9,11 @@ use super::{assert_status, folder, mcm, stderr};
 
 /// Files that begin as libraries of the platforms do.
 const LIBRARIES: [(&str, &[u8]); 4] = [
-    ("linux.so", b"\x7fELF\x02 linux"),
+    ("linux.so", &{
+        let mut header = [0; 64];
+        [header[0], header[1], header[2], header[3], header[4], ..] = *b"\x7fELF\x02";
+        header
+    }),
     ("windows.dll", b"MZ windows"),
     ("mac.dylib", b"\xcf\xfa\xed\xfe mac"),
     ("text.dll", b"no library"),
@@ -160,7 +164,8 @@ fn an_archive_is_not_written_over_what_is_read_and_an_older_one_stays_until_it_i
         ];
         let output = mcm(&folder, &arguments);
         assert_status(&output, 1);
-        assert!(stderr(&output).contains("which is read"), "{out}: {}", stderr(&output));
+        let reason = if out == "scene.toml" { "is called like a scene" } else { "which is read" };
+        assert!(stderr(&output).contains(reason), "{out}: {}", stderr(&output));
     }
     fs::write(folder.join("old.fmu"), "an older one").unwrap();
     assert_status(&mcm(&folder, &["pack", "--library", "text.dll", "--out", "old.fmu"]), 1);
@@ -184,4 +189,27 @@ fn an_installed_program_finds_its_library() {
     let output = output.unwrap();
     assert_status(&output, 0);
     assert!(binaries(&folder.join("a.fmu")).iter().any(|(_, bytes)| bytes.len() > 100_000));
+}
+
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn a_library_that_is_cut_short_is_refused() {
+    let folder = folder("pack short");
+    let own = Path::new(env!("CARGO_BIN_EXE_mcm")).with_file_name("libmcm.so");
+    let whole = fs::read(own)
+        .or_else(|_| fs::read(Path::new(env!("CARGO_BIN_EXE_mcm")).with_file_name("deps/libmcm.so")));
+    let whole = whole.unwrap();
+    for (length, reason) in
+        [(whole.len(), ""), (whole.len() - 1, "is cut short"), (100_000, "is cut short"), (40, "short")]
+    {
+        fs::write(folder.join("own.so"), &whole[..length]).unwrap();
+        let output = mcm(&folder, &["pack", "--out", "mcm.fmu", "--library", "own.so"]);
+        assert_status(&output, i32::from(!reason.is_empty()));
+        assert!(stderr(&output).contains(reason), "{length}: {}", stderr(&output));
+    }
+    assert!(
+        stderr(&mcm(&folder, &["pack", "--out", "a.fmu", "--library", "/dev/zero"]))
+            .contains("is not a file")
+    );
+    assert!(stderr(&mcm(&folder, &["solve", "/dev/zero"])).contains("is no scene"));
 }

@@ -186,13 +186,14 @@ fn what_cannot_be_swept_is_said_before_the_first_solve() {
         (&["--vary", "field.turn_deg=0:1e6:2", "--out", "a.csv"], "field.turn_deg = 1000000 is not allowed"),
         (&["--vary", "magnet.turn_deg=0:1:2", "--out", "a.csv"], "this scene has no table [magnet]"),
         (
-            &["--vary", field, "--out", "scene.toml"],
-            "scene.toml would be written over scene.toml, which is read",
+            &["--vary", field, "--out", "a.csv", "--folds", "a.csv.part"],
+            "a.csv.part and a.csv.part would be the same file",
         ),
         (
             &["--vary", field, "--out", "a.csv", "--folds", "./a.csv"],
             "a.csv and ./a.csv would be the same file",
         ),
+        (&["--vary", field, "--out", "other.toml"], "other.toml is called like a scene"),
         (&["--vary", field, "--out", "no/a.csv"], "cannot write no/a.csv: there is no folder no"),
         (&["--vary", field, "--out", "."], "cannot write .: it is a folder"),
         (&["--vary", field, "--out", "a.csv", "--folds", "no/f.csv"], "cannot write no/f.csv"),
@@ -231,4 +232,38 @@ fn the_spiral_of_one_segment_is_turned() {
     let angle = |row: usize| rows[row]["alpha_deg"].parse::<f64>().unwrap();
     assert!((angle(0) - 2.11).abs() <= TWO_DECIMALS_DEG && (angle(2) - 0.07).abs() <= TWO_DECIMALS_DEG);
     assert!(angle(0) > angle(1) && angle(1) > angle(2));
+}
+
+#[test]
+fn a_file_in_the_way_of_the_rows_is_not_taken_for_a_sweep() {
+    let arguments = ["sweep", "scene.toml", "--vary", "field.uniform_mt[2]=0:1:2", "--out", "a.csv"];
+    let (here, _) = with_scene("in the way", SCENE, &["--version"]);
+    for notes in [&b"my notes"[..], b"# mcm 0.0.0 sweep 01234567, unfinished\nrow\n", b"# mcm \xff\xfe"] {
+        std::fs::write(here.join("a.csv.part"), notes).unwrap();
+        for resume in [&[][..], &["--resume"]] {
+            let output = mcm(&here, &[&arguments, resume].concat());
+            assert_status(&output, 1);
+            assert!(stderr(&output).contains("a.csv.part"), "{}", stderr(&output));
+            assert_eq!(std::fs::read(here.join("a.csv.part")).unwrap(), notes, "kept");
+        }
+    }
+    std::fs::write(here.join("a.csv.part"), "").unwrap();
+    let file = std::fs::File::open(here.join("a.csv.part")).unwrap();
+    file.lock().unwrap();
+    let output = mcm(&here, &arguments);
+    assert!(stderr(&output).contains("is being written by another sweep"), "{}", stderr(&output));
+    drop(file);
+    assert_status(&mcm(&here, &arguments), 0);
+}
+
+#[test]
+fn what_the_level_auto_leaves_open_is_no_hysteresis() {
+    let scene = "[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, -120.0, 23.0]\n";
+    let arguments =
+        ["sweep", "scene.toml", "--vary", "magnet.position_mm[3]=-60:60:61", "--back", "--out", "a.csv"];
+    let (here, output) = with_scene("auto and back", scene, &arguments);
+    assert_status(&output, 0);
+    assert!(stdout(&output).contains("no hysteresis"), "{}", stdout(&output));
+    let rows = table(&here.join("a.csv"));
+    assert!(rows.iter().all(|row| ["none", "rings", "full"].contains(&row["interaction"].as_str())));
 }

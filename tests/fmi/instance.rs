@@ -166,6 +166,23 @@ fn the_level_decides_about_the_bending_stop_until_it_is_set() {
 }
 
 #[test]
+fn a_refused_design_names_the_parameter() {
+    for (name, value) in [
+        ("design.helix.shore_a", -5.0),
+        ("design.helix.length", 4.5),
+        ("model.time_budget", 0.0),
+        ("design.spiral_start[2]", 7.0),
+    ] {
+        let (mut instance, package, told) = instance("[design]\nsegments = 2");
+        let table = package.table();
+        assert_eq!(set(&mut instance, table, name, value), Ending::Ok);
+        instance.enter_initialization();
+        assert_eq!(instance.exit_initialization(), Ending::Error);
+        assert!(last(&told).contains(name), "{}", last(&told));
+    }
+}
+
+#[test]
 fn setting_a_variable_copies_nothing_else() {
     let (mut instance, table, _) = initialised(BENT);
     let (strength, ring) = (reference(&table, "magnet.strength"), reference(&table, "ring[1].load_force[1]"));

@@ -141,6 +141,16 @@ bending_stop = 1
             "test, line 17: `model.bending_stop`: invalid type: integer `1`, expected a boolean",
         ]
     );
+    let cascade = "[design]\nspiral = \"alternatng\"\nspiral_start_deg = [0, 240]\nsegments = 3\n[design.helix]\nlength_mm = 1.0\n[base]\norientation_wxyz = [0, 0, 0, 0]";
+    let refused = refusal(cascade);
+    let lines: Vec<&str> = refused.lines().collect();
+    assert_eq!(
+        lines[0],
+        "test, line 2: `design.spiral`: \"alternatng\" is not known here: choose one of helical, axisymmetric, alternating"
+    );
+    assert!(lines[1].starts_with("test, line 5: design.helix: winding height h (m) = "), "{refused}");
+    assert!(lines[2].starts_with("test, line 8: norm of base.orientation_wxyz = 0"), "{refused}");
+    assert!(refusal("[design]\nsegments = 3\nsegments = 4").contains("line 3: duplicate key `segments`"));
     assert!(refusal("[field]\nuniform_mt = [1, 2,, 3]\n[gravity\n").lines().count() >= 2);
 }
 

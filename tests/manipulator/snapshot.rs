@@ -75,6 +75,30 @@ fn a_snapshot_of_another_design_is_refused() {
 }
 
 #[test]
+fn a_snapshot_of_another_material_magnet_or_discretisation_is_refused() {
+    let own = "[design]\nsegments = 1\n[magnet]\nposition_mm = [0, -90, 3]\n[model]\ninteraction = \"rings\"";
+    let scene = Scene::parse(own, "own").unwrap();
+    let mut first = scene.manipulator(3).unwrap();
+    first.solve(&scene.inputs).unwrap();
+    let mut same = scene.manipulator(3).unwrap();
+    assert!(same.restore(&first.snapshot()).is_ok());
+    for change in [
+        "[design.helix]\nshore_a = 33.5",
+        "[design.ring]\nremanence_t = 1.3",
+        "[design.helix]\nradius_mm = 1.99",
+    ] {
+        let other = Scene::parse(&format!("{own}\n{change}"), change).unwrap();
+        assert!(other.manipulator(3).unwrap().restore(&first.snapshot()).is_err(), "{change}");
+    }
+    let mut stronger = scene.clone();
+    stronger.magnets.as_mut().unwrap()[0].remanence = 1.36;
+    assert!(stronger.manipulator(3).unwrap().restore(&first.snapshot()).is_err(), "another magnet");
+    let mut finer = scene.clone();
+    finer.settings.degree += 1;
+    assert!(finer.manipulator(3).unwrap().restore(&first.snapshot()).is_err(), "another discretisation");
+}
+
+#[test]
 fn a_path_ends_where_its_points_lead() {
     let (scene, mut by_points) = started(SCENES[1]);
     let (_, mut by_path) = started(SCENES[1]);

@@ -1,12 +1,16 @@
 //! Reading scenes and tables.
 
 use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use mcm::manipulator::SceneFile;
 
 use super::failure::Failure;
 use super::output::folder;
+
+/// Largest length of a scene, bytes.
+const LONGEST_TEXT: u64 = 10_000_000;
 
 /// Smallest similarity (1: equal) at which another file's name is suggested as a correction.
 const PLAUSIBLE: f64 = 0.5;
@@ -16,9 +20,18 @@ pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
     Ok(SceneFile::parse(&read_text(path)?, &path.display().to_string())?)
 }
 
-/// Reads a text file.
+/// Reads a text file, or as much from a pipe.
 pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
-    fs::read_to_string(path).map_err(|error| unreadable(path, &error))
+    let mut text = String::new();
+    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    file.take(LONGEST_TEXT + 1).read_to_string(&mut text).map_err(|error| unreadable(path, &error))?;
+    if text.len() as u64 > LONGEST_TEXT {
+        return Err(Failure(format!(
+            "{} is no scene: it has more than {LONGEST_TEXT} bytes",
+            path.display()
+        )));
+    }
+    Ok(text)
 }
 
 /// Opens a table; lines that start with `#` are comments.
@@ -30,6 +43,9 @@ pub(crate) fn open_table(path: &Path) -> Result<csv::Reader<File>, Failure> {
 /// Refuses to write over what is read, and to write two outputs into one file.
 pub(crate) fn refuse_same(read: &[&Path], written: &[&Path]) -> Result<(), Failure> {
     for (number, out) in written.iter().enumerate() {
+        if out.extension().is_some_and(|ending| ending == "toml") {
+            return Err(Failure(format!("{} is called like a scene: choose another name", out.display())));
+        }
         let place = place(out);
         if let Some(input) = read.iter().find(|input| self::place(input) == place) {
             return Err(Failure(format!(

@@ -74,6 +74,9 @@ fn main() -> ExitCode {
             return if message.use_stderr() { failure::BAD_INPUT.into() } else { ExitCode::SUCCESS };
         }
     };
+    if let Err(failure) = interrupt::listen() {
+        return failure.report();
+    }
     let outcome = match arguments.command {
         _ if arguments.version => version(arguments.verbose),
         Some(Command::Solve(command)) => command.run(),

@@ -3,11 +3,23 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
-use tempfile::NamedTempFile;
+use tempfile::TempPath;
 
 use super::failure::Failure;
+
+/// Files beside their places, which a signal would leave there.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Removes what has been begun: the program ends now.
+pub(crate) fn remove_unfinished() {
+    for path in UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        // One that has been completed is no longer there.
+        drop(fs::remove_file(path));
+    }
+}
 
 /// A file that is being written. Unless it is completed, nothing is left of it, and an older file stays as it was.
 pub(crate) struct Output {
@@ -18,7 +30,7 @@ pub(crate) struct Output {
 /// Where the bytes go.
 enum Place {
     /// To a file beside `target`, which it replaces when it is complete.
-    Beside { target: PathBuf, file: BufWriter<NamedTempFile> },
+    Beside { target: PathBuf, file: BufWriter<File>, place: TempPath },
     /// To a device or a pipe, which cannot be replaced.
     There(BufWriter<File>),
 }
@@ -35,10 +47,9 @@ impl Output {
         let Self { name, file } = self;
         let done = match file {
             Place::There(mut file) => file.flush(),
-            Place::Beside { target, file } => file
-                .into_inner()
-                .map_err(io::IntoInnerError::into_error)
-                .and_then(|file| file.persist(target).map(drop).map_err(|error| error.error)),
+            Place::Beside { target, mut file, place } => {
+                file.flush().and_then(|()| place.persist(target).map_err(|error| error.error))
+            }
         };
         done.map_err(|error| Failure::writing(name.display(), error))
     }
@@ -66,15 +77,6 @@ impl Write for Output {
     }
 }
 
-impl io::Seek for Output {
-    fn seek(&mut self, to: io::SeekFrom) -> io::Result<u64> {
-        match &mut self.file {
-            Place::Beside { file, .. } => file.seek(to),
-            Place::There(file) => file.seek(to),
-        }
-    }
-}
-
 fn place(path: &Path) -> io::Result<Place> {
     // A link stays a link; the file that it names is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -92,11 +94,12 @@ fn place(path: &Path) -> io::Result<Place> {
     let usual = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
     beside.permissions(usual);
-    let file = beside.tempfile_in(folder(&target))?;
+    let (file, place) = beside.tempfile_in(folder(&target))?.into_parts();
     if let Some(old) = old {
-        file.as_file().set_permissions(old.permissions())?;
+        file.set_permissions(old.permissions())?;
     }
-    Ok(Place::Beside { target, file: BufWriter::new(file) })
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).push(place.to_path_buf());
+    Ok(Place::Beside { target, file: BufWriter::new(file), place })
 }
 
 /// The folder of a file.

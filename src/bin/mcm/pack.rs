@@ -2,7 +2,7 @@
 
 mod binary;
 
-use std::io::Write;
+use std::io::{Cursor, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -65,24 +65,23 @@ impl Pack {
         for (name, text) in package.resources()? {
             files.push((format!("resources/{name}"), text.into()));
         }
-        write_archive(out, &files)
-            .map_err(|reason| Failure::writing(self.out.display(), reason))?
-            .complete()?;
+        let bytes = archive(&files).map_err(|reason| Failure::writing(self.out.display(), reason))?;
+        out.fill(&bytes)?;
         print(format!("{} {}\n", self.out.display(), package.guid()))?;
         Ok(ExitCode::SUCCESS)
     }
 }
 
-/// Writes the archive as FMI 2.0 allows: Deflate only, forward slashes, no links. The same files give the same bytes.
-fn write_archive(out: Output, files: &[(String, Vec<u8>)]) -> Result<Output, String> {
-    let mut archive = ZipWriter::new(out);
+/// The archive as FMI 2.0 allows it: Deflate only, forward slashes, no links. The same files give the same bytes.
+fn archive(files: &[(String, Vec<u8>)]) -> Result<Vec<u8>, String> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let plain = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
     for (name, content) in files {
         let mode = if name.starts_with("binaries/") { 0o755 } else { 0o644 };
         archive.start_file(name, plain.unix_permissions(mode)).map_err(|error| error.to_string())?;
         archive.write_all(content).map_err(|error| error.to_string())?;
     }
-    archive.finish().map_err(|error| error.to_string())
+    archive.finish().map(Cursor::into_inner).map_err(|error| error.to_string())
 }
 
 /// The current time in UTC, in the format of FMI 2.0; `SOURCE_DATE_EPOCH` makes builds reproducible.

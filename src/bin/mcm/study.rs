@@ -111,12 +111,18 @@ impl Name {
 impl Study {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        if self.out.is_file() {
+            return Err(Failure(format!("{} is a file: --out names a folder", self.out.display())));
+        }
         std::fs::create_dir_all(&self.out)
             .map_err(|error| Failure(format!("cannot create {}: {error}", self.out.display())))?;
         // Tried before the work, which may take long.
         tempfile::tempfile_in(&self.out)
             .map_err(|error| Failure::writing(format!("in {}", self.out.display()), error.kind()))?;
         if let Some(peers) = &self.peers {
+            if self.name != Name::Accuracy {
+                return Err(Failure("--peers belongs to the study accuracy".into()));
+            }
             let written = ["csv", "md", "png"].map(|ending| self.out.join("accuracy").with_extension(ending));
             refuse_same(&[peers], &written.each_ref().map(PathBuf::as_path))?;
         }
@@ -135,6 +141,7 @@ impl Study {
             .filter_map(|name| Some((name.typed(), name.study()?)))
             .collect();
         let parts = Parts::of("parts of {msg}");
+        parts.0.set_message(self.name.typed());
         parts.more(chosen.len());
         let computed = chosen
             .into_par_iter()

@@ -75,7 +75,7 @@ impl Sweep {
             Some(part) => plan.journal(part, self.resume).map(|(journal, kept)| (Some(journal), kept))?,
             None => (None, plan.nothing_kept()),
         };
-        interrupt::listen()?;
+        interrupt::ask();
         let filled = self.fill(&plan, outputs, journal.as_ref(), kept);
         let left = journal.as_ref().map_or_else(String::new, |journal| {
             format!("; the rows so far are in {}, and --resume goes on", journal.path().display())
@@ -166,7 +166,7 @@ fn part_of(out: &Path) -> Option<PathBuf> {
 /// Progress bar on standard error; hidden where that is not a terminal.
 fn progress_bar(count: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(count);
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{eta}} left");
+    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");
     if let Ok(style) = ProgressStyle::with_template(&template) {
         bar.set_style(style);
     }

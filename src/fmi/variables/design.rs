@@ -267,7 +267,7 @@ fn modulus(name: &str, access: Access) -> Draft {
 }
 
 fn poisson(name: &str, access: Access) -> Draft {
-    Draft::parameter(name, RATIO, "Poisson's ratio", access).min(-1.0).max(0.5)
+    Draft::parameter(name, RATIO, "Poisson's ratio", access).min(0.0).max(0.5)
 }
 
 fn volume_fraction(name: &str, access: Access) -> Draft {

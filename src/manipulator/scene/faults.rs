@@ -20,7 +20,11 @@ pub(super) fn read(text: &str, what: &str) -> Result<SceneFile, Error> {
     let mut faults = Faults { text, what, found: Vec::new() };
     let (root, broken) = DeTable::parse_recoverable(text);
     for error in &broken {
-        faults.add(error.span().map(|span| span.start), error.message().replace('\n', ", "));
+        let span = error.span().unwrap_or(0..0);
+        let reason = error.message().replace('\n', ", ");
+        let key = text.get(span.clone()).filter(|_| reason == "duplicate key").unwrap_or_default();
+        let key = if key.is_empty() { String::new() } else { format!(" `{key}`") };
+        faults.add(Some(span.start), reason + &key);
     }
     if !broken.is_empty() {
         return Err(faults.all());
@@ -74,7 +78,7 @@ impl Faults<'_> {
         };
         file.design.complete();
         let mut written = Value::Table(file.table().ok()?);
-        for Entry { path, span, value, .. } in entries(root.get_ref()) {
+        for Entry { path, span, value, .. } in entries(kept.get_ref()) {
             if let DeValue::Array(given) = value
                 && let Ok(Value::Array(kept)) = entry(&mut written, &path)
                 && given.len() > kept.len()
@@ -102,15 +106,19 @@ impl Faults<'_> {
             })?;
             rest.design.complete();
             let Err(error) = rest.scene() else { return Ok(()) };
-            // A combination proves nothing once a part of it has been left out.
-            if !self.found.is_empty() && !matches!(error, Error::Range { .. }) {
-                return Ok(());
-            }
+            // A combination proves nothing once a part of it has been left out, nor a count where the design is not known.
+            let proves = match error {
+                Error::Range { .. } => true,
+                Error::Count { .. } => {
+                    !self.found.iter().any(|(_, fault)| fault.to_string().contains("`design."))
+                }
+                _ => self.found.is_empty(),
+            };
             let reason = error.to_string();
             let words = reason.split(' ').map(|word| word.trim_end_matches(':'));
             let key = words.into_iter().find(|word| entry(&mut table.clone(), word).is_ok());
             let path = key.unwrap_or("design").to_owned();
-            if !told.contains(&path) {
+            if proves && !told.contains(&path) {
                 self.add(start_of(root, &path), reason);
                 told.push(path.clone());
             }
@@ -132,9 +140,20 @@ fn explained(message: &str, path: Option<&str>) -> String {
             let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
             format!("unknown key `{}`{}", path.unwrap_or(key), suggestion(key, &known))
         }
-        (None, Some(path)) => format!("`{path}`: {message}"),
+        (None, Some(path)) => format!("`{path}`: {}", in_words(message)),
         (None, None) => message.replace('\n', ", "),
     }
+}
+
+/// What serde says, in words of the file.
+fn in_words(message: &str) -> String {
+    let Some(rest) = message.strip_prefix("unknown variant `") else {
+        return message.replace("expected usize", "expected a whole number from 0");
+    };
+    let mut quoted = rest.split('`').step_by(2);
+    let given = quoted.next().unwrap_or_default();
+    let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
+    format!("\"{given}\" is not known here: choose one of {}", known.join(", "))
 }
 
 /// A key or an entry of an array.

@@ -51,6 +51,17 @@ const FUNCTIONS: [&str; 16] = [
     "fmi2DoStep",
 ];
 
+/// Whether the end of a 64-bit ELF library is missing, where its table of sections stands (ELF-64 Object File Format 1.5,
+/// section 2: offset, size and number of its entries in the header).
+fn is_cut_short(library: &[u8]) -> bool {
+    let number = |at: usize, length: usize| {
+        let bytes = library.get(at..at + length)?;
+        Some(bytes.iter().rev().fold(0_u64, |number, byte| (number << 8) | u64::from(*byte)))
+    };
+    let end = || number(0x28, 8)?.checked_add(number(0x3a, 2)? * number(0x3c, 2)?);
+    library.starts_with(b"\x7fELF\x02") && end().is_none_or(|end| end > library.len() as u64)
+}
+
 /// The first of [`FUNCTIONS`] whose name, as the tables of symbols of all platforms hold it, is not in a library.
 fn missing_function(library: &[u8]) -> Option<&'static str> {
     let starts = library.windows(PREFIX.len()).enumerate().filter(|(_, bytes)| *bytes == PREFIX);
@@ -89,10 +100,16 @@ impl Binary {
     fn entry(&self) -> Result<(String, Vec<u8>), Failure> {
         let Self { platform: Platform { name, ending, beginnings }, library } = self;
         let shown = library.display();
+        if fs::metadata(library).is_ok_and(|found| !found.is_file()) {
+            return Err(Failure(format!("the library {shown} is not a file")));
+        }
         let bytes = fs::read(library)
             .map_err(|error| Failure(format!("cannot read the library {shown}: {error}")))?;
         if !beginnings.iter().any(|beginning| bytes.starts_with(beginning)) {
             return Err(Failure(format!("{shown} is not a library for {name}")));
+        }
+        if is_cut_short(&bytes) {
+            return Err(Failure(format!("{shown} is cut short: its table of sections is beyond its end")));
         }
         if let Some(missing) = missing_function(&bytes) {
             return Err(Failure(format!(

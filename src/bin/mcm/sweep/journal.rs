@@ -4,7 +4,7 @@
 //! `# at WALK STATE` holds what a walk needs to go on from its last row.
 
 use std::fs::{self, File};
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -15,6 +15,9 @@ use super::rows::Row;
 use super::way::Way;
 use crate::failure::Failure;
 use crate::output::warn;
+
+/// What the file begins with.
+const TITLE: &str = "# mcm";
 
 /// What the comments with states begin with.
 const AT: &str = "# at ";
@@ -68,7 +71,23 @@ impl Journal {
     /// Begins the file at `path`, or takes up the one that is there. Returns what is known of each walk.
     pub(super) fn open(path: &Path, resume: bool, sweep: &Identity) -> Result<(Self, Vec<Kept>), Failure> {
         let name = path.display();
-        let old = fs::read_to_string(path).ok().filter(|text| !text.is_empty());
+        let foreign =
+            || Failure(format!("{name} is of no sweep, or damaged: delete it, or choose another --out"));
+        let old = match fs::read(path) {
+            Ok(bytes) => {
+                Some(String::from_utf8(bytes).map_err(|_| foreign())?).filter(|text| !text.is_empty())
+            }
+            Err(error) if error.kind() == ErrorKind::NotFound => None,
+            Err(error) => return Err(Failure(format!("cannot read {name}: {error}"))),
+        };
+        if old.as_ref().is_some_and(|text| !text.starts_with(TITLE)) {
+            return Err(foreign());
+        }
+        let failure = |error| Failure::writing(path.display(), error);
+        let file = File::options().create(true).append(true).open(path).map_err(failure)?;
+        if file.try_lock().is_err() {
+            return Err(Failure(format!("{name} is being written by another sweep")));
+        }
         if old.is_some() && !resume {
             return Err(Failure(format!(
                 "{name} holds the rows of an unfinished sweep: go on with --resume, or delete it"
@@ -83,8 +102,6 @@ impl Journal {
             })?,
             None => (0, sweep.nothing()),
         };
-        let failure = |error| Failure::writing(path.display(), error);
-        let file = File::options().create(true).append(true).open(path).map_err(failure)?;
         file.set_len(length).map_err(failure)?;
         let journal = Self { path: path.to_owned(), file: Mutex::new(file) };
         if length == 0 {
@@ -131,7 +148,11 @@ impl Journal {
 
 impl Identity<'_> {
     fn title(&self) -> String {
-        format!("# mcm {} sweep {:08x}, unfinished: --resume goes on", env!("CARGO_PKG_VERSION"), self.stamp)
+        format!(
+            "{TITLE} {} sweep {:08x}, unfinished: --resume goes on",
+            env!("CARGO_PKG_VERSION"),
+            self.stamp
+        )
     }
 
     fn nothing(&self) -> Vec<Kept> {

@@ -41,8 +41,13 @@ impl FromStr for Range {
             // A whole number of steps between whole numbers gives whole numbers.
             i => (start * (last - i) + stop * i) / last,
         };
-        Ok(Self { key: key.trim().into(), values: (0..count).map(value).collect() })
+        Ok(Self { key: key.trim().into(), values: (0..count).map(value).map(tidy).collect() })
     }
+}
+
+/// The nearest number with fifteen digits: what a step of 0.1 means, without the rounding of its sum.
+fn tidy(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
 }
 
 impl Range {

@@ -8,8 +8,11 @@ use nalgebra::Vector3;
 use super::way::Way;
 use crate::verdict;
 
-/// Tip distance up to which two shapes count as equal, mm: ten thousand times the error that a solve leaves.
+/// Tip distance up to which two shapes count as equal, mm, beside the errors that are told of them: ten thousand times the
+/// error that a solve leaves.
 const SAME_TIP: f64 = 1e-4;
+
+const MM_PER_M: f64 = 1e3;
 
 /// Columns of the shape, which are empty in a row that did not converge.
 const NUMBERS: [&str; 29] = [
@@ -45,7 +48,7 @@ const NUMBERS: [&str; 29] = [
 ];
 
 /// Columns of the solve.
-const SEARCH: [&str; 10] = [
+const SEARCH: [&str; 11] = [
     "predicted_fold",
     "stable",
     "stability",
@@ -55,6 +58,7 @@ const SEARCH: [&str; 10] = [
     "progress",
     "iterations",
     "residual",
+    "interaction",
     "reason",
 ];
 
@@ -72,6 +76,8 @@ pub(super) struct Row {
     progress: f64,
     iterations: u32,
     residual: f64,
+    /// The level that answered.
+    interaction: String,
     /// Why it did not converge, or is neutral.
     reason: Option<String>,
 }
@@ -88,7 +94,15 @@ impl Row {
         let number = |index| self.numbers.as_ref().map(|numbers| numbers[index]);
         let numbers: Vec<Option<f64>> = (0..NUMBERS.len()).map(number).collect();
         let verdict = (self.predicted_fold, self.stable, &self.stability, self.snaps);
-        let search = (converged, &self.outcome, self.progress, self.iterations, self.residual, &self.reason);
+        let search = (
+            converged,
+            &self.outcome,
+            self.progress,
+            self.iterations,
+            self.residual,
+            &self.interaction,
+            &self.reason,
+        );
         (&self.varied, self.way.name(), numbers, verdict, search)
     }
 
@@ -119,12 +133,12 @@ impl Row {
             progress: next()?.parse().ok()?,
             iterations: next()?.parse().ok()?,
             residual: next()?.parse().ok()?,
+            interaction: next()?.into(),
             reason: some(next()?).ok()?,
         })
     }
 
     pub(super) fn new(varied: Vec<f64>, way: Way, outputs: &Outputs, predicted_fold: Option<f64>) -> Self {
-        const MM_PER_M: f64 = 1e3;
         const MT_PER_T: f64 = 1e3;
         let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
         let mut numbers = vec![outputs.tip_angle.to_degrees()];
@@ -154,6 +168,7 @@ impl Row {
             progress: outputs.progress,
             iterations: outputs.iterations,
             residual: outputs.residual,
+            interaction: outputs.interaction.name().into(),
             reason: verdict::reason(outputs),
         }
     }
@@ -181,12 +196,13 @@ impl Row {
         self.numbers.is_some()
     }
 
-    /// Whether the tip positions differ, or only one of the two rows converged.
+    /// Whether the tip positions differ by more than their errors, or only one of the two rows converged.
     pub(super) fn differs(&self, other: &Self) -> bool {
-        let tip = |row: &Self| row.numbers.as_ref().map(|numbers| Vector3::from_row_slice(&numbers[1..4]));
-        match (tip(self), tip(other)) {
-            (Some(own), Some(other)) => (own - other).norm() > SAME_TIP,
-            (own, other) => own.is_some() != other.is_some(),
-        }
+        let (Some(own), Some(other)) = (&self.numbers, &other.numbers) else {
+            return self.converged() != other.converged();
+        };
+        let tip = |numbers: &[f64]| Vector3::from_row_slice(&numbers[1..4]);
+        let error = |numbers: &[f64]| numbers[NUMBERS.len() - 1] * MM_PER_M;
+        (tip(own) - tip(other)).norm() > SAME_TIP + error(own) + error(other)
     }
 }

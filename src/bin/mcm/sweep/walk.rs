@@ -156,7 +156,7 @@ impl Steps<'_> {
             self.bar.inc(rows.len() as u64);
             ways = state.ways;
             match state.stage {
-                Stage::UnderWay(snapshot) => branch.restore(*snapshot)?,
+                Stage::UnderWay(snapshot) => branch.restore(&snapshot)?,
                 Stage::Complete(folds) => {
                     let folds = folds.into_iter().zip(ways).collect();
                     return Ok(Some(Walk { others: others.clone(), rows, folds }));
