@@ -251,13 +251,12 @@ impl Instance {
     fn solve(&mut self, waypoints: &[Inputs]) -> Result<Ending, Error> {
         let now = &mut self.fmu_state;
         let counts = self.package.table().counts();
-        let mut manipulator = match now.manipulator.take() {
-            Some(manipulator) => manipulator,
-            None => {
-                let values = &now.host_values;
-                let made = values.manipulator(counts.shape_points);
-                made.map_err(|error| self.package.table().named(error, values))?
-            }
+        let mut manipulator = if let Some(manipulator) = now.manipulator.take() {
+            manipulator
+        } else {
+            let values = &now.host_values;
+            let made = values.manipulator(counts.shape_points);
+            made.map_err(|error| self.package.table().named(error, values))?
         };
         if now.state == State::Initialization {
             manipulator.reset(); // the first equilibrium must not depend on what was read before
