@@ -24,33 +24,25 @@ pub(crate) fn remove_unfinished() {
 /// A file that is being written. Unless it is completed, nothing is left of it, and an older file stays as it was.
 pub(crate) struct Output {
     name: PathBuf,
-    file: Place,
-}
-
-/// Where the bytes go.
-enum Place {
-    /// To a file beside `target`, which it replaces when it is complete.
-    Beside { target: PathBuf, file: BufWriter<File>, place: TempPath },
-    /// To a device or a pipe, which cannot be replaced.
-    There(BufWriter<File>),
+    file: BufWriter<File>,
+    /// The place of the file beside its target, which it replaces when it is complete, and that target; `None` for a device or
+    /// a pipe, which is written at once.
+    beside: Option<(TempPath, PathBuf)>,
 }
 
 impl Output {
     /// Begins the file at `path`; fails at once if it cannot be written there.
     pub(crate) fn at(path: &Path) -> Result<Self, Failure> {
-        let file = place(path).map_err(|error| Failure::writing(path.display(), reason(path, &error)))?;
-        Ok(Self { name: path.to_owned(), file })
+        let (file, beside) =
+            begin(path).map_err(|error| Failure::writing(path.display(), reason(path, &error)))?;
+        Ok(Self { name: path.to_owned(), file: BufWriter::new(file), beside })
     }
 
     /// Moves the complete file to its place.
     pub(crate) fn complete(self) -> Result<(), Failure> {
-        let Self { name, file } = self;
-        let done = match file {
-            Place::There(mut file) => file.flush(),
-            Place::Beside { target, mut file, place } => {
-                file.flush().and_then(|()| place.persist(target).map_err(|error| error.error))
-            }
-        };
+        let Self { name, mut file, beside } = self;
+        let moved = |(place, target): (TempPath, PathBuf)| place.persist(target).map_err(|error| error.error);
+        let done = file.flush().and_then(|()| beside.map_or(Ok(()), moved));
         done.map_err(|error| Failure::writing(name.display(), error))
     }
 
@@ -63,26 +55,21 @@ impl Output {
 
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match &mut self.file {
-            Place::Beside { file, .. } => file.write(bytes),
-            Place::There(file) => file.write(bytes),
-        }
+        self.file.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match &mut self.file {
-            Place::Beside { file, .. } => file.flush(),
-            Place::There(file) => file.flush(),
-        }
+        self.file.flush()
     }
 }
 
-fn place(path: &Path) -> io::Result<Place> {
+/// The file to write to, and where it goes.
+fn begin(path: &Path) -> io::Result<(File, Option<(TempPath, PathBuf)>)> {
     // A link stays a link; the file that it names is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let old = fs::metadata(&target).ok();
     if old.as_ref().is_some_and(|old| !old.is_file()) {
-        return Ok(Place::There(BufWriter::new(File::options().write(true).open(&target)?)));
+        return Ok((File::options().write(true).open(&target)?, None));
     }
     // A file that may not be written is not replaced either.
     if old.is_some() {
@@ -99,7 +86,7 @@ fn place(path: &Path) -> io::Result<Place> {
         file.set_permissions(old.permissions())?;
     }
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).push(place.to_path_buf());
-    Ok(Place::Beside { target, file: BufWriter::new(file), place })
+    Ok((file, Some((place, target))))
 }
 
 /// The folder of a file.
