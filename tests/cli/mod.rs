@@ -3,6 +3,7 @@
 mod bifurcation;
 mod branches;
 mod field;
+mod init;
 mod pack;
 mod solve;
 mod study;

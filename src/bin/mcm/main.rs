@@ -9,6 +9,7 @@ mod failure;
 mod fidelity;
 mod field;
 mod files;
+mod init;
 mod interrupt;
 mod output;
 mod pack;
@@ -52,6 +53,8 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    /// Prints a scene with every key, to begin with
+    Init(init::Init),
     /// Solves one equilibrium: a table for people, or JSON
     Solve(solve::Solve),
     /// Evaluates the external field of a scene, or the field of one ring, at given points
@@ -79,6 +82,7 @@ fn main() -> ExitCode {
     }
     let outcome = match arguments.command {
         _ if arguments.version => version(arguments.verbose),
+        Some(Command::Init(command)) => command.run(),
         Some(Command::Solve(command)) => command.run(),
         Some(Command::Field(command)) => command.run(),
         Some(Command::Sweep(command)) => command.run(),
