@@ -14,7 +14,9 @@ fn keys(value: &Value, path: &str, out: &mut Vec<String>) {
             }
         }
         Value::Array(list) if list.iter().any(Value::is_table) => {
-            list.iter().for_each(|entry| keys(entry, path, out));
+            for entry in list {
+                keys(entry, path, out);
+            }
         }
         _ => out.push(path.into()),
     }

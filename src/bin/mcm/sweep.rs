@@ -144,9 +144,10 @@ impl Sweep {
         let lost = rows().filter(|row| !row.converged());
         let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
         warn(&format!(
-            "{} of {} rows did not converge and hold no shape; at {} = {}: {}",
+            "{} of {} rows did not converge and hold no shape; first {:.0} % of the step to {} = {}: {}",
             lost.count(),
             rows().count(),
+            100.0 * first.progress(),
             keys[0],
             first.value(),
             first.reason()

@@ -183,6 +183,11 @@ impl Row {
         self.reason.as_deref().unwrap_or(&self.outcome)
     }
 
+    /// How far the last step to it got, 0 to 1.
+    pub(super) fn progress(&self) -> f64 {
+        self.progress
+    }
+
     /// The tip angle, deg; `None` without a shape.
     pub(super) fn angle(&self) -> Option<f64> {
         Some(self.numbers.as_ref()?[0])
