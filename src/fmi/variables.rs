@@ -106,20 +106,23 @@ impl Table {
         self.variables.get(usize::try_from(reference).ok()?)
     }
 
-    /// The same error with the name of the parameter at fault, as far as its value tells which one that is.
+    /// The same error with the name of the parameter at fault, as far as its value and words of its name tell which one that is.
     #[must_use]
     pub fn named(&self, error: Error, values: &HostValues) -> Error {
         let Error::Range { quantity, value, allowed } = &error else { return error };
-        let at_fault = |variable: &&Variable| {
-            variable.causality == Causality::Parameter
-                && variable
-                    .host_value(values)
-                    .and_then(Value::real)
-                    .is_some_and(|own| own.total_cmp(value).is_eq())
-        };
-        let mut found = self.variables.iter().filter(at_fault);
-        match (found.next(), found.next()) {
-            (Some(only), None) => Error::range(format!("{} ({quantity})", only.name), *value, allowed),
+        let own = |variable: &Variable| variable.host_value(values).and_then(Value::real);
+        let mut found: Vec<&Variable> = (self.variables.iter())
+            .filter(|variable| variable.causality == Causality::Parameter)
+            .filter(|variable| own(variable).is_some_and(|own| own.total_cmp(value).is_eq()))
+            .collect();
+        if found.len() > 1 {
+            let said = quantity.to_lowercase();
+            let alike =
+                |name: &str| name.split(['.', '_', '[']).any(|word| word.len() > 3 && said.contains(word));
+            found.retain(|variable| alike(&variable.name));
+        }
+        match found[..] {
+            [only] => Error::range(format!("{} ({quantity})", only.name), *value, allowed),
             _ => error,
         }
     }

@@ -327,5 +327,5 @@ fn spirals_are_turned_by_parameters() {
     let (_, _, told, ending) = start(7.0);
     assert_eq!(ending, Ending::Error);
     let message = last(&told);
-    assert!(message.contains("spiral of segment 2 (rad) = 7 is not allowed"), "{message}");
+    assert!(message.contains("spiral of segment 2 (rad)) = 7 is not allowed"), "{message}");
 }
