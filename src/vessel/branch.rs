@@ -155,7 +155,9 @@ impl Branch {
         let bound = |piece: &Piece| piece.widest + piece.around - (point - piece.centre).norm();
         let hopeful = self.pieces.iter().map(|piece| (bound(piece), piece));
         let first = hopeful.clone().max_by(|a, b| a.0.total_cmp(&b.0));
-        for (bound, piece) in first.into_iter().chain(hopeful) {
+        let others =
+            hopeful.filter(|(_, piece)| first.is_none_or(|(_, first)| !core::ptr::eq(*piece, first)));
+        for (bound, piece) in first.into_iter().chain(others) {
             if best.as_ref().is_some_and(|best| bound <= best.value) {
                 continue;
             }

@@ -8,7 +8,8 @@ use serde::Deserialize;
 
 use super::failure::Failure;
 use super::files::{bad_table, open_table};
-use super::study_files::{Parts, leave};
+use super::progress::Parts;
+use super::study_files::leave;
 
 const HEADER: &str = "\
 | field | segments | level | start | method | resolution | time (us) | tip error over length | angle (deg) | force and torque |

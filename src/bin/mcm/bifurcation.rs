@@ -7,7 +7,8 @@ use std::process::ExitCode;
 use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 
 use super::failure::Failure;
-use super::study_files::{Parts, leave_drawn, tell};
+use super::progress::Parts;
+use super::study_files::{leave_drawn, tell};
 
 /// Writes bifurcation.csv, bifurcation.png and bifurcation.md to `out`; prints the Markdown tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use mcm::studies::{Contribution, budget, budget_picture};
 
 use super::failure::Failure;
-use super::study_files::{Parts, leave};
+use super::progress::Parts;
+use super::study_files::leave;
 
 const HEADER: &str = "\
 | kind | quantity | change | scene | tip angle (deg) | least change (%) | largest change (%) |

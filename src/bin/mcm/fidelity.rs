@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, omissions};
 
 use super::failure::Failure;
-use super::study_files::{Parts, leave};
+use super::progress::Parts;
+use super::study_files::leave;
 
 const HEADER: &str = "\
 | scene | model | tolerance over length | time (us) | over the richest | tip error over length | angle (deg) |

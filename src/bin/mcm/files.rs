@@ -2,12 +2,12 @@
 
 use std::fs::{self, File};
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use mcm::manipulator::SceneFile;
 
 use super::failure::Failure;
-use super::output::folder;
+use super::output::{folder, place};
 
 /// Largest length of a scene, bytes.
 const LONGEST_TEXT: u64 = 10_000_000;
@@ -46,25 +46,19 @@ pub(crate) fn refuse_same(read: &[&Path], written: &[&Path]) -> Result<(), Failu
         if out.extension().is_some_and(|ending| ending == "toml") {
             return Err(Failure(format!("{} is called like a scene: choose another name", out.display())));
         }
-        let place = place(out);
-        if let Some(input) = read.iter().find(|input| self::place(input) == place) {
+        let own = place(out);
+        if let Some(input) = read.iter().find(|input| place(input) == own) {
             return Err(Failure(format!(
                 "{} would be written over {}, which is read",
                 out.display(),
                 input.display()
             )));
         }
-        if let Some(other) = written[..number].iter().find(|other| self::place(other) == place) {
+        if let Some(other) = written[..number].iter().find(|other| place(other) == own) {
             return Err(Failure(format!("{} and {} would be the same file", other.display(), out.display())));
         }
     }
     Ok(())
-}
-
-/// Where a file is or would be, links resolved.
-fn place(path: &Path) -> PathBuf {
-    let beside = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
-    fs::canonicalize(path).ok().or_else(beside).unwrap_or_else(|| path.to_owned())
 }
 
 /// The failure of reading a table.

@@ -14,6 +14,7 @@ mod interrupt;
 mod output;
 mod pack;
 mod picture;
+mod progress;
 mod solve;
 mod stability;
 mod study;

@@ -66,11 +66,11 @@ impl Write for Output {
 /// The file to write to, and where it goes.
 fn begin(path: &Path) -> io::Result<(File, Option<(TempPath, PathBuf)>)> {
     // A link stays a link; the file that it names is replaced.
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let old = fs::metadata(&target).ok();
-    if old.as_ref().is_some_and(|old| !old.is_file()) {
+    let target = place(path);
+    if is_stream(path) {
         return Ok((File::options().write(true).open(&target)?, None));
     }
+    let old = fs::metadata(&target).ok();
     // A file that may not be written is not replaced either.
     if old.is_some() {
         File::options().append(true).open(&target)?;
@@ -87,6 +87,17 @@ fn begin(path: &Path) -> io::Result<(File, Option<(TempPath, PathBuf)>)> {
     }
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner).push(place.to_path_buf());
     Ok((file, Some((place, target))))
+}
+
+/// Where a file is or would be, links resolved.
+pub(crate) fn place(path: &Path) -> PathBuf {
+    let beside = || Some(fs::canonicalize(folder(path)).ok()?.join(path.file_name()?));
+    fs::canonicalize(path).ok().or_else(beside).unwrap_or_else(|| path.to_owned())
+}
+
+/// Whether it is there and no file that could be replaced: a device, a pipe, a folder.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|old| !old.is_file())
 }
 
 /// The folder of a file.

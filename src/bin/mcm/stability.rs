@@ -8,7 +8,8 @@ use mcm::studies::{Attempt, Verdict, stability_picture, stability_rays};
 use rayon::prelude::*;
 
 use super::failure::Failure;
-use super::study_files::{leave, progress_bar};
+use super::progress::progress_bar;
+use super::study_files::leave;
 
 /// Computes and writes stability.csv, stability.md and stability.png to `out`; prints the counts as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {

@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use super::failure::Failure;
 use super::files::refuse_same;
 use super::output::print;
-use super::study_files::{Parts, leave_drawn, tell};
+use super::progress::Parts;
+use super::study_files::{leave_drawn, tell};
 use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 
 /// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use indicatif::{ProgressBar, ProgressStyle};
 use mcm::studies;
 use serde::Serialize;
 
@@ -48,35 +47,4 @@ pub(super) fn tell(out: &Path, name: &str, markdown: &str) -> Result<ExitCode, F
 
 fn file(out: &Path, name: &str, ending: &str) -> PathBuf {
     out.join(name).with_extension(ending)
-}
-
-/// The progress of a study as a bar.
-pub(super) struct Parts(pub(super) ProgressBar);
-
-impl studies::Progress for Parts {
-    fn more(&self, parts: usize) {
-        self.0.inc_length(parts as u64);
-    }
-
-    fn done(&self) {
-        self.0.inc(1);
-    }
-}
-
-impl Parts {
-    /// The bar of a study with its parts counted as `what`.
-    pub(super) fn of(what: &str) -> Self {
-        Self(progress_bar(0, what))
-    }
-}
-
-/// Progress bar on standard error; hidden where that is not a terminal.
-pub(super) fn progress_bar(count: u64, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(count);
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");
-    if let Ok(style) = ProgressStyle::with_template(&template) {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(std::time::Duration::from_millis(100));
-    bar
 }

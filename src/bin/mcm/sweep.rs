@@ -10,12 +10,11 @@ mod way;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::failure::{Failure, NOT_CONVERGED, STOPPED};
 use super::files::{read_scene, refuse_same};
 use super::interrupt;
-use super::output::{Table, print, warn};
+use super::output::{Table, is_stream, print, warn};
+use super::progress::progress_bar;
 use journal::{Journal, Kept};
 use range::{MOST_VALUES, Range};
 use rows::header;
@@ -158,18 +157,6 @@ impl Sweep {
 
 /// Beside the table, the file that keeps its rows until all are there; `None` for a device or a pipe.
 fn part_of(out: &Path) -> Option<PathBuf> {
-    let place = std::fs::canonicalize(out).unwrap_or_else(|_| out.to_owned());
-    let special = std::fs::metadata(&place).is_ok_and(|old| !old.is_file());
     let name = format!("{}.part", out.file_name()?.to_string_lossy());
-    (!special).then(|| out.with_file_name(name))
-}
-
-/// Progress bar on standard error; hidden where that is not a terminal.
-fn progress_bar(count: u64, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(count);
-    let template = format!("{{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}");
-    if let Ok(style) = ProgressStyle::with_template(&template) {
-        bar.set_style(style);
-    }
-    bar
+    (!is_stream(out)).then(|| out.with_file_name(name))
 }

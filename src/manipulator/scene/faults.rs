@@ -95,16 +95,14 @@ impl Faults<'_> {
     /// Finds values out of their range.
     fn values(&mut self, root: &DeTable<'_>, file: &SceneFile) -> Result<(), Error> {
         let mut table = Value::Table(file.table()?);
+        let mut rest = file.clone();
         for (path, number) in infinite(&table, "") {
             self.add(start_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
             forget(&mut table, &path);
+            rest = self.reread(&table)?;
         }
         let mut told: Vec<String> = Vec::new();
         while self.found.len() < MOST {
-            let mut rest: SceneFile = table.clone().try_into().map_err(|error: toml::de::Error| {
-                Error::Syntax { what: self.what.into(), reason: error.message().into() }
-            })?;
-            rest.design.complete();
             let Err(error) = rest.scene() else { return Ok(()) };
             // A combination proves nothing once a part of it has been left out, nor a count where the design is not known.
             let proves = match error {
@@ -115,8 +113,8 @@ impl Faults<'_> {
                 _ => self.found.is_empty(),
             };
             let reason = error.to_string();
-            let words = reason.split(' ').map(|word| word.trim_end_matches(':'));
-            let key = words.into_iter().find(|word| entry(&mut table.clone(), word).is_ok());
+            let mut words = reason.split(' ').map(|word| word.trim_end_matches(':'));
+            let key = words.find(|word| entry(&mut table.clone(), word).is_ok());
             let path = key.unwrap_or("design").to_owned();
             if proves && !told.contains(&path) {
                 self.add(start_of(root, &path), reason);
@@ -125,8 +123,18 @@ impl Faults<'_> {
             if !forget(&mut table, &path) {
                 return Ok(());
             }
+            rest = self.reread(&table)?;
         }
         Ok(())
+    }
+
+    /// The file with these entries.
+    fn reread(&self, table: &Value) -> Result<SceneFile, Error> {
+        let mut file: SceneFile = table.clone().try_into().map_err(|error: toml::de::Error| {
+            Error::Syntax { what: self.what.into(), reason: error.message().into() }
+        })?;
+        file.design.complete();
+        Ok(file)
     }
 }
 
@@ -135,9 +143,7 @@ fn explained(message: &str, path: Option<&str>) -> String {
     // serde writes the key in backquotes, then the known keys.
     match (message.strip_prefix("unknown field `"), path) {
         (Some(rest), path) => {
-            let mut quoted = rest.split('`').step_by(2);
-            let key = quoted.next().unwrap_or_default();
-            let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
+            let (key, known) = given_and_known(rest);
             format!("unknown key `{}`{}", path.unwrap_or(key), suggestion(key, &known))
         }
         (None, Some(path)) => format!("`{path}`: {}", in_words(message)),
@@ -150,10 +156,14 @@ fn in_words(message: &str) -> String {
     let Some(rest) = message.strip_prefix("unknown variant `") else {
         return message.replace("expected usize", "expected a whole number from 0");
     };
-    let mut quoted = rest.split('`').step_by(2);
-    let given = quoted.next().unwrap_or_default();
-    let known: Vec<&str> = rest.split('`').skip(2).step_by(2).collect();
+    let (given, known) = given_and_known(rest);
     format!("\"{given}\" is not known here: choose one of {}", known.join(", "))
+}
+
+/// The name that serde does not know, whose first backquote is taken off already, and those that it knows, each in backquotes.
+fn given_and_known(rest: &str) -> (&str, Vec<&str>) {
+    let mut quoted = rest.split('`').step_by(2);
+    (quoted.next().unwrap_or_default(), quoted.collect())
 }
 
 /// A key or an entry of an array.

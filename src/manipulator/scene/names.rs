@@ -20,6 +20,16 @@ enum Unit {
 }
 
 impl Unit {
+    /// That of a key, which its name ends with.
+    fn of(key: &str) -> Self {
+        match key.rsplit('_').next() {
+            Some("mm") => Self::Millimetre,
+            Some("deg") => Self::Degree,
+            Some("mpa") => Self::Megapascal,
+            _ => Self::Same,
+        }
+    }
+
     /// A number of the file as the library has it.
     fn si(self, number: f64) -> f64 {
         match self {
@@ -50,46 +60,46 @@ impl Unit {
     }
 }
 
-/// Quantities as [`crate::design`] and [`crate::magnetics`] name them, the keys that may hold them, and their unit there. `*`
-/// is the number of a cylinder.
-const KEYS: [(&str, &str, Unit); 37] = [
-    ("number of segments", "design.segments", Unit::Same),
-    ("helix length L (m)", "design.helix.length_mm", Unit::Millimetre),
-    ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg", Unit::Degree),
-    ("helix radius R (m)", "design.helix.radius_mm", Unit::Millimetre),
-    ("windings W", "design.helix.windings", Unit::Same),
-    ("core outer radius r_oc (m)", "design.helix.core_outer_radius_mm", Unit::Millimetre),
-    ("core inner radius r_ic (m)", "design.helix.core_inner_radius_mm", Unit::Millimetre),
-    ("Shore A hardness", "design.helix.shore_a", Unit::Same),
-    ("Poisson's ratio", "design.helix.poisson", Unit::Same),
-    ("volume fraction Phi", "design.helix.volume_fraction", Unit::Same),
-    ("particle remanence B_r (T)", "design.helix.particle_remanence_t", Unit::Same),
-    ("density (kg/m3)", "design.helix.density_kg_m3", Unit::Same),
-    ("ring length L_mag (m)", "design.ring.length_mm", Unit::Millimetre),
-    ("ring remanence B_r (T)", "design.ring.remanence_t", Unit::Same),
-    ("ring recoil permeability mu_r", "design.ring.recoil_permeability", Unit::Same),
-    ("density (kg/m3)", "design.ring.density_kg_m3", Unit::Same),
-    ("backbone outer radius (m)", "design.backbone.outer_radius_mm", Unit::Millimetre),
-    ("backbone inner radius (m)", "design.backbone.inner_radius_mm", Unit::Millimetre),
-    ("Shore A hardness", "design.backbone.shore_a", Unit::Same),
-    ("Young's modulus (Pa)", "design.backbone.elastic_modulus_mpa", Unit::Megapascal),
-    ("Poisson's ratio", "design.backbone.poisson", Unit::Same),
-    ("density (kg/m3)", "design.backbone.density_kg_m3", Unit::Same),
-    ("cylinder length (m)", "design.length_mm", Unit::Millimetre),
-    ("cylinder radius (m)", "design.radius_mm", Unit::Millimetre),
-    ("cylinder inner radius (m)", "design.inner_radius_mm", Unit::Millimetre),
-    ("Shore A hardness", "design.shore_a", Unit::Same),
-    ("Young's modulus (Pa)", "design.elastic_modulus_mpa", Unit::Megapascal),
-    ("Poisson's ratio", "design.poisson", Unit::Same),
-    ("volume fraction Phi", "design.volume_fraction", Unit::Same),
-    ("particle remanence B_r (T)", "design.particle_remanence_t", Unit::Same),
-    ("cylinder remanence (T)", "design.remanence_t", Unit::Same),
-    ("density (kg/m3)", "design.density_kg_m3", Unit::Same),
-    ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm", Unit::Millimetre),
-    ("magnet inner radius (m)", "magnet.cylinders[*].inner_radius_mm", Unit::Millimetre),
-    ("magnet length (m)", "magnet.cylinders[*].length_mm", Unit::Millimetre),
-    ("magnet offset (m)", "magnet.cylinders[*].offset_mm", Unit::Millimetre),
-    ("magnet remanence (T)", "magnet.cylinders[*].remanence_t", Unit::Same),
+/// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
+/// cylinder.
+const KEYS: [(&str, &str); 37] = [
+    ("number of segments", "design.segments"),
+    ("helix length L (m)", "design.helix.length_mm"),
+    ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
+    ("helix radius R (m)", "design.helix.radius_mm"),
+    ("windings W", "design.helix.windings"),
+    ("core outer radius r_oc (m)", "design.helix.core_outer_radius_mm"),
+    ("core inner radius r_ic (m)", "design.helix.core_inner_radius_mm"),
+    ("Shore A hardness", "design.helix.shore_a"),
+    ("Poisson's ratio", "design.helix.poisson"),
+    ("volume fraction Phi", "design.helix.volume_fraction"),
+    ("particle remanence B_r (T)", "design.helix.particle_remanence_t"),
+    ("density (kg/m3)", "design.helix.density_kg_m3"),
+    ("ring length L_mag (m)", "design.ring.length_mm"),
+    ("ring remanence B_r (T)", "design.ring.remanence_t"),
+    ("ring recoil permeability mu_r", "design.ring.recoil_permeability"),
+    ("density (kg/m3)", "design.ring.density_kg_m3"),
+    ("backbone outer radius (m)", "design.backbone.outer_radius_mm"),
+    ("backbone inner radius (m)", "design.backbone.inner_radius_mm"),
+    ("Shore A hardness", "design.backbone.shore_a"),
+    ("Young's modulus (Pa)", "design.backbone.elastic_modulus_mpa"),
+    ("Poisson's ratio", "design.backbone.poisson"),
+    ("density (kg/m3)", "design.backbone.density_kg_m3"),
+    ("cylinder length (m)", "design.length_mm"),
+    ("cylinder radius (m)", "design.radius_mm"),
+    ("cylinder inner radius (m)", "design.inner_radius_mm"),
+    ("Shore A hardness", "design.shore_a"),
+    ("Young's modulus (Pa)", "design.elastic_modulus_mpa"),
+    ("Poisson's ratio", "design.poisson"),
+    ("volume fraction Phi", "design.volume_fraction"),
+    ("particle remanence B_r (T)", "design.particle_remanence_t"),
+    ("cylinder remanence (T)", "design.remanence_t"),
+    ("density (kg/m3)", "design.density_kg_m3"),
+    ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm"),
+    ("magnet inner radius (m)", "magnet.cylinders[*].inner_radius_mm"),
+    ("magnet length (m)", "magnet.cylinders[*].length_mm"),
+    ("magnet offset (m)", "magnet.cylinders[*].offset_mm"),
+    ("magnet remanence (T)", "magnet.cylinders[*].remanence_t"),
 ];
 
 /// What follows from several keys of the helix.
@@ -99,11 +109,12 @@ const HEIGHT: &str = "winding height h (m)";
 pub(super) fn as_written(error: Error, file: &Value) -> Error {
     let Error::Range { quantity, value, allowed } = &error else { return error };
     let written = |key: &str| entry(&mut file.clone(), key).ok().and_then(|entry| number(entry));
-    let candidates = KEYS.iter().filter(|(name, ..)| name == quantity).flat_map(|(_, key, unit)| {
+    let candidates = KEYS.iter().filter(|(name, _)| name == quantity).flat_map(|(_, key)| {
         let cylinders = if key.contains('*') { 1..=Assembly::MOST_MAGNETS } else { 1..=1 };
-        cylinders.map(move |cylinder| (key.replace('*', &cylinder.to_string()), *unit))
+        cylinders.map(|cylinder| key.replace('*', &cylinder.to_string()))
     });
-    for (key, unit) in candidates {
+    for key in candidates {
+        let unit = Unit::of(&key);
         if let Some(number) = written(&key).filter(|number| unit.si(*number).total_cmp(value).is_eq()) {
             return Error::range(key, number, unit.range(allowed));
         }

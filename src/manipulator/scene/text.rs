@@ -35,10 +35,11 @@ impl SceneFile {
         let mut file = self.clone();
         file.complete_for(key)?;
         let mut root = Value::Table(file.table()?);
-        if let Some(with) = with_optional(&root, key, value) {
-            return Ok(with);
-        }
-        let entry = entry(&mut root, key)?;
+        let entry = match entry(&mut root, key) {
+            Ok(entry) => entry,
+            // The key may be one that the file does not state.
+            Err(unknown) => return with_optional(Value::Table(file.table()?), key, value).ok_or(unknown),
+        };
         *entry = match entry {
             Value::Float(_) if value.is_finite() => Value::Float(value),
             // Exact: below 2^32 every whole f64 is an i64.
@@ -66,9 +67,8 @@ fn unwritable(error: &toml::ser::Error) -> Error {
 }
 
 /// The file with a number that it may hold but does not; `None` for any other key.
-fn with_optional(root: &Value, key: &str, value: f64) -> Option<SceneFile> {
+fn with_optional(mut root: Value, key: &str, value: f64) -> Option<SceneFile> {
     let (table, last) = key.rsplit_once('.')?;
-    let mut root = root.clone();
     let Value::Table(table) = entry(&mut root, table).ok()? else { return None };
     if table.contains_key(last) || !value.is_finite() {
         return None;

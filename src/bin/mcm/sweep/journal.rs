@@ -37,6 +37,13 @@ pub(super) struct Kept {
     pub(super) state: Option<State>,
 }
 
+impl Kept {
+    /// What is known of so many walks before the first row.
+    pub(super) fn nothing(walks: usize) -> Vec<Self> {
+        (0..walks).map(|_| Self::default()).collect()
+    }
+}
+
 /// State of a walk from which it goes on.
 #[derive(Serialize, Deserialize)]
 pub(super) struct State {
@@ -100,7 +107,7 @@ impl Journal {
             Some(text) => sweep.read(text).ok_or_else(|| {
                 Failure(format!("{name} is of another sweep or version: delete it, or choose another --out"))
             })?,
-            None => (0, sweep.nothing()),
+            None => (0, Kept::nothing(sweep.walks)),
         };
         file.set_len(length).map_err(failure)?;
         let journal = Self { path: path.to_owned(), file: Mutex::new(file) };
@@ -155,16 +162,12 @@ impl Identity<'_> {
         )
     }
 
-    fn nothing(&self) -> Vec<Kept> {
-        (0..self.walks).map(|_| Kept::default()).collect()
-    }
-
     /// The length of what is whole, bytes, and what it says of each walk; `None` for the file of another sweep.
     fn read(&self, text: &str) -> Option<(u64, Vec<Kept>)> {
         // What was cut off has no end of line.
         let whole = &text[..=text.rfind('\n')?];
         let lines = whole.strip_prefix(&self.title())?;
-        let mut kept = self.nothing();
+        let mut kept = Kept::nothing(self.walks);
         let table =
             csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(lines.as_bytes()).into_records();
         for record in table {

@@ -82,7 +82,7 @@ impl<'a> Plan<'a> {
 
     /// What is known of each walk before the first row.
     pub(super) fn nothing_kept(&self) -> Vec<Kept> {
-        self.combinations.iter().map(|_| Kept::default()).collect()
+        Kept::nothing(self.combinations.len())
     }
 
     /// Opens the file that keeps the rows until all are there.
