@@ -13,5 +13,7 @@ pub mod newton;
 pub mod processor;
 pub mod pseudo_transient;
 pub mod quadrature;
+pub mod refinement;
 pub mod spline;
+pub mod tricubic;
 pub mod trust_region;

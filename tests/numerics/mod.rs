@@ -6,4 +6,5 @@ mod dense;
 mod linear;
 mod pseudo_transient;
 mod quadrature;
+mod tricubic;
 mod trust_region;

@@ -63,3 +63,6 @@ pub(crate) const REAL_PART: f64 = 1e-9;
 
 /// The same by half as many vectors as rows, where the eigenvalue is next to zero.
 pub(crate) const REAL_PART_OF_FEW: f64 = 1e-8;
+
+/// Single precision, of numbers below 1.
+pub(crate) const SINGLE: f64 = 6e-8;
