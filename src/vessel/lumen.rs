@@ -1,9 +1,13 @@
-//! The lumen: all branches together.
+//! The lumen: all branches together, or a wall of any shape.
+
+use std::sync::Arc;
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::branch::Branch;
 use super::clearance::Clearance;
+use super::grid::DistanceGrid;
+use super::mesh::Mesh;
 use crate::error::{Error, check};
 
 /// Length over which the walls of branches merge where they meet, m. It widens a mouth by at most this times ln 2.
@@ -14,7 +18,8 @@ const NEGLIGIBLE: f64 = 1e-17;
 
 /// The space inside a vessel with its branches.
 ///
-/// Where several branches meet, their clearances are joined by a smooth maximum, `d ln(sum exp(g/d))`.
+/// It is the union of branches, or given by a grid of distances, as from a mesh. Where several branches meet, their clearances
+/// are joined by a smooth maximum, `d ln(sum exp(g/d))`.
 ///
 /// ```
 /// use mcm::vessel::{Branch, Lumen};
@@ -28,8 +33,15 @@ const NEGLIGIBLE: f64 = 1e-17;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lumen {
-    branches: Vec<Branch>,
-    merged: f64,
+    shape: Shape,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Shape {
+    /// Branches and the length over which they merge, m.
+    Branches(Vec<Branch>, f64),
+    /// Clones share it.
+    Grid(Arc<DistanceGrid>),
 }
 
 impl Lumen {
@@ -53,13 +65,38 @@ impl Lumen {
                 )));
             }
         }
-        Ok(Self { branches, merged: MERGED })
+        Ok(Self { shape: Shape::Branches(branches, MERGED) })
+    }
+
+    /// The inside of the wall to which this grid tells the clearance.
+    ///
+    /// ```
+    /// use mcm::vessel::{DistanceGrid, Lumen};
+    /// use nalgebra::Vector3;
+    /// let box_around = [Vector3::repeat(-0.01), Vector3::repeat(0.01)];
+    /// let ball = Lumen::of_grid(DistanceGrid::new(box_around, 1e-3, |point| 0.01 - point.norm())?);
+    /// let clearance = ball.clearance(&Vector3::new(0.0, 0.0, 8e-3));
+    /// assert!((clearance.value - 2e-3).abs() < 1e-6);
+    /// assert!((clearance.gradient + Vector3::z()).norm() < 1e-3);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    #[must_use]
+    pub fn of_grid(grid: DistanceGrid) -> Self {
+        Self { shape: Shape::Grid(Arc::new(grid)) }
+    }
+
+    /// The inside of a mesh; for the spacing (m) of its samples see [`Mesh::distance_grid`].
+    ///
+    /// # Errors
+    /// As [`Mesh::distance_grid`].
+    pub fn from_mesh(mesh: &Mesh, spacing: Option<f64>) -> Result<Self, Error> {
+        mesh.distance_grid(spacing).map(Self::of_grid)
     }
 
     /// The same with another length (m) over which walls merge.
     ///
     /// # Errors
-    /// [`Error::Range`] unless it is positive and at most 10 mm.
+    /// [`Error::Range`] unless it is positive and at most 10 mm, [`Error::Unsupported`] where there are no branches.
     pub fn merged_over(self, length: f64) -> Result<Self, Error> {
         let merged = check(
             "length over which vessel walls merge (m)",
@@ -67,34 +104,57 @@ impl Lumen {
             |v| v > 0.0 && v <= 0.01,
             "> 0 and <= 0.01",
         )?;
-        Ok(Self { merged, ..self })
+        match self.shape {
+            Shape::Branches(branches, _) => Ok(Self { shape: Shape::Branches(branches, merged) }),
+            Shape::Grid(_) => {
+                Err(Error::Unsupported("a vessel given by a mesh has no branches that could merge".into()))
+            }
+        }
     }
 
-    /// The branches.
+    /// The branches; none if the wall is given by a grid.
     #[must_use]
     pub fn branches(&self) -> &[Branch] {
-        &self.branches
+        match &self.shape {
+            Shape::Branches(branches, _) => branches,
+            Shape::Grid(_) => &[],
+        }
+    }
+
+    /// The grid of distances, if the wall is given by one.
+    #[must_use]
+    pub fn grid(&self) -> Option<&DistanceGrid> {
+        match &self.shape {
+            Shape::Branches(..) => None,
+            Shape::Grid(grid) => Some(grid),
+        }
     }
 
     /// Distance from `point` (m) to the wall, with exact derivatives.
     #[must_use]
     pub fn clearance(&self, point: &Vector3<f64>) -> Clearance {
-        if let [only] = &self.branches[..] {
-            return only.clearance(point);
+        match &self.shape {
+            Shape::Branches(branches, _) if branches.len() == 1 => branches[0].clearance(point),
+            Shape::Branches(branches, merged) => union(branches, *merged, point),
+            Shape::Grid(grid) => grid.clearance(point),
         }
-        let each: Vec<Clearance> = self.branches.iter().map(|branch| branch.clearance(point)).collect();
-        let largest = each.iter().map(|own| own.value).fold(f64::NEG_INFINITY, f64::max);
-        let shares = each.iter().map(|own| ((own.value - largest) / self.merged).exp());
-        let sum: f64 = shares.clone().sum();
-        let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
-        for (own, share) in each.iter().zip(shares) {
-            let share = share / sum;
-            if share > NEGLIGIBLE {
-                gradient += own.gradient * share;
-                hessian += (own.hessian + own.gradient * own.gradient.transpose() / self.merged) * share;
-            }
-        }
-        hessian -= gradient * gradient.transpose() / self.merged;
-        Clearance { value: largest + self.merged * sum.ln(), gradient, hessian }
     }
+}
+
+/// The smooth maximum of several clearances.
+fn union(branches: &[Branch], merged: f64, point: &Vector3<f64>) -> Clearance {
+    let each: Vec<Clearance> = branches.iter().map(|branch| branch.clearance(point)).collect();
+    let largest = each.iter().map(|own| own.value).fold(f64::NEG_INFINITY, f64::max);
+    let shares = each.iter().map(|own| ((own.value - largest) / merged).exp());
+    let sum: f64 = shares.clone().sum();
+    let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
+    for (own, share) in each.iter().zip(shares) {
+        let share = share / sum;
+        if share > NEGLIGIBLE {
+            gradient += own.gradient * share;
+            hessian += (own.hessian + own.gradient * own.gradient.transpose() / merged) * share;
+        }
+    }
+    hessian -= gradient * gradient.transpose() / merged;
+    Clearance { value: largest + merged * sum.ln(), gradient, hessian }
 }

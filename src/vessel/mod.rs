@@ -1,9 +1,17 @@
 //! The vessel that a manipulator is pushed through: how far a point is from its wall.
 
+mod bounding_tree;
 mod branch;
 mod clearance;
+mod grid;
 mod lumen;
+mod mesh;
+mod sampling;
+mod surface;
+mod triangle;
 
 pub use branch::Branch;
 pub use clearance::Clearance;
+pub use grid::DistanceGrid;
 pub use lumen::Lumen;
+pub use mesh::Mesh;

@@ -1,7 +1,10 @@
 //! Distance to the wall of a vessel.
 
 mod branch;
+mod grid;
 mod lumen;
+mod mesh;
+mod tube;
 
 use nalgebra::{Matrix3, Vector3};
 use rand::rngs::StdRng;
