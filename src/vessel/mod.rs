@@ -7,6 +7,8 @@ mod grid;
 mod lumen;
 mod mesh;
 mod sampling;
+#[cfg(feature = "stl")]
+mod stl;
 mod surface;
 mod triangle;
 

@@ -4,6 +4,7 @@ mod branch;
 mod grid;
 mod lumen;
 mod mesh;
+mod stl;
 mod tube;
 
 use nalgebra::{Matrix3, Vector3};
