@@ -41,6 +41,8 @@ pub(crate) struct Chain {
     pub(crate) cores: Vec<(usize, usize)>,
     /// Outer radius of each element, m: the largest of its discs and windings.
     pub(crate) radii: Vec<f64>,
+    /// Length and outer radius of each element's pieces, m.
+    pub(super) skins: Vec<Vec<[f64; 2]>>,
     /// Quadratures of the elements in the fields of the rings.
     pub(super) span_quadratures: SpanQuadratures,
     /// Rules for pairs of rings, one table for each ring; equal rings share theirs.
@@ -111,9 +113,13 @@ impl Chain {
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
         let span_quadratures = SpanQuadratures::new(&elements, &chains, &rings, settings);
-        let widest =
-            |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
-        let radii = chains.iter().map(widest).collect();
+        let skin = |piece: &Piece<'_>| {
+            let windings = piece.span.spiral.map_or(0.0, |spiral| spiral.outer_radius);
+            [piece.length, piece.span.outer_radius.max(windings)]
+        };
+        let skins: Vec<Vec<[f64; 2]>> =
+            chains.iter().map(|pieces| pieces.iter().map(skin).collect()).collect();
+        let radii = skins.iter().map(|skin| skin.iter().map(|piece| piece[1]).fold(0.0, f64::max)).collect();
         let pair_tables = pair_tables(&rings, settings.pair_accuracy);
         let made_from = (design.clone(), discretisation(settings));
         let tip_offset = offset;
@@ -125,6 +131,7 @@ impl Chain {
             metric,
             cores,
             radii,
+            skins,
             span_quadratures,
             pair_tables,
             made_from,
@@ -144,6 +151,12 @@ impl Chain {
     /// Unstrained length, m.
     pub(crate) fn length(&self) -> f64 {
         self.elements.iter().map(|element| element.offset + element.length).sum::<f64>() + self.tip_offset
+    }
+
+    /// Radius (m) of the round end of a chain that ends without a ring.
+    pub(super) fn round_end(&self) -> Option<f64> {
+        let end = self.skins.last()?.last()?;
+        (self.tip_offset == 0.0).then_some(end[1])
     }
 
     /// Number of unknowns.

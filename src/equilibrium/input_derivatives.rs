@@ -92,6 +92,8 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         tip_moment,
         ring_forces,
         gravity,
+        widening: _, // these do not change
+        softening: _,
     } = inputs;
     let base = base.position;
     let field_gradient = LinearField::new(*uniform_field, *field_gradient).gradient();

@@ -33,6 +33,10 @@ pub struct Inputs {
     pub ring_forces: Vec<Vector3<f64>>,
     /// Acceleration of gravity, m/s2.
     pub gravity: Vector3<f64>,
+    /// Uniform widening of the vessel's lumen, m: 0, but for the way from a free shape into a narrow lumen.
+    pub widening: f64,
+    /// Natural logarithm of the ratio of the wall's modulus to the one that acts: 0, but on the way to a first shape.
+    pub softening: f64,
 }
 
 impl Inputs {
@@ -49,6 +53,8 @@ impl Inputs {
             tip_moment: Vector3::zeros(),
             ring_forces: vec![Vector3::zeros(); rings],
             gravity: Vector3::zeros(),
+            widening: 0.0,
+            softening: 0.0,
         }
     }
 }
@@ -88,6 +94,8 @@ impl Inputs {
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
             ring_forces: self.ring_forces.iter().zip(&other.ring_forces).map(|(a, b)| mix(a, b)).collect(),
             gravity: mix(&self.gravity, &other.gravity),
+            widening: number(self.widening, other.widening),
+            softening: number(self.softening, other.softening),
         }
     }
 
@@ -127,6 +135,8 @@ impl Inputs {
             tip_moment,
             ring_forces,
             gravity,
+            widening,
+            softening,
         } = self;
         let named = [
             ("magnet position (m)", magnet.position.as_slice()),
@@ -139,6 +149,8 @@ impl Inputs {
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
             ("gravity (m/s2)", gravity.as_slice()),
+            ("widening of the lumen (m)", std::slice::from_ref(widening)),
+            ("softening of the wall", std::slice::from_ref(softening)),
         ];
         named.into_iter().chain(ring_forces.iter().map(|force| ("ring force (N)", force.as_slice())))
     }

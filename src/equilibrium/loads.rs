@@ -21,6 +21,7 @@ impl Potential<'_> {
         self.work.wrenches = TermWrenches::none();
         energy += self.load_stations(order)? + self.load_stops(unknowns);
         self.load_nodes(order)?;
+        energy += self.load_walls(unknowns);
         if hessian {
             self.work.node_hessian.fill(0.0);
         }

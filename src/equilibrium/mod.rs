@@ -39,7 +39,11 @@ mod solve;
 mod solver;
 mod source;
 mod span_quadrature;
+mod surface;
 mod terms;
+mod wall_forces;
+mod wall_loads;
+mod wall_search;
 mod workspace;
 
 pub(crate) use chain::{Chain, arc_lengths};
@@ -59,3 +63,4 @@ pub use snapshot::BranchSnapshot;
 pub use solution::Solution;
 pub use solver::Equilibrium;
 pub(crate) use terms::{Frame, TermWrenches, Terms, blocks};
+pub use wall_forces::WallForces;

@@ -7,6 +7,7 @@ use super::condensation::Condensation;
 use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
+use super::surface::Surface;
 use super::terms::Terms;
 use super::workspace::{PlacedLoads, Workspace};
 use crate::numerics::arnoldi::smallest_real_part;
@@ -31,6 +32,8 @@ pub(super) struct Potential<'a> {
     pub(super) inputs: &'a Inputs,
     pub(super) terms: Terms<'a>,
     pub(super) rules: &'a PairQuadrature,
+    /// The surface of the chain, where there is a vessel.
+    pub(super) surface: Option<&'a Surface>,
     pub(super) work: &'a mut Workspace,
 }
 

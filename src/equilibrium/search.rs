@@ -7,6 +7,7 @@ use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
 use super::report::Report;
 use super::settings::Settings;
+use super::surface::InVessel;
 use super::terms::Terms;
 use super::workspace::Workspace;
 use crate::magnetics::Assembly;
@@ -31,6 +32,7 @@ pub(super) struct Model<'a> {
     pub(super) chain: &'a Chain,
     pub(super) settings: &'a Settings,
     pub(super) magnet: Option<&'a Assembly>,
+    pub(super) around: Option<&'a InVessel>,
 }
 
 impl<'a> Model<'a> {
@@ -47,10 +49,12 @@ impl<'a> Model<'a> {
         rules: &'a PairQuadrature,
         work: &'a mut Workspace,
     ) -> Potential<'a> {
-        let Self { chain, settings, magnet } = *self;
-        let mut terms = Terms::new(chain, settings, magnet, inputs, rules);
+        let Self { chain, settings, magnet, around } = *self;
+        let vessel = around.map(|around| &around.vessel);
+        let mut terms = Terms::new(chain, settings, magnet, inputs, rules).in_vessel(vessel);
         terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
-        Potential { chain, settings, inputs, terms, rules, work }
+        let surface = around.map(|around| &around.surface);
+        Potential { chain, settings, inputs, terms, rules, surface, work }
     }
 }
 

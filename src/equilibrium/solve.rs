@@ -20,6 +20,18 @@ const SETTLING: f64 = 4.0;
 /// is tried: Newton's method finds no shape much farther away.
 const STRAIGHT: f64 = 2.0;
 
+/// Share of the progress of a first solve in which the vessel narrows around the chain, and in which its wall then stiffens.
+const NARROWED: f64 = 0.2;
+
+/// Share of the way from the soft to the actual wall that is tried first.
+const STIFFER: f64 = 0.125;
+
+/// Modulus (Pa) of the wall while the loads of a first solve are applied, if it is stiffer: that of a soft silicone.
+const LINING: f64 = 1e6;
+
+/// Ratio of the softened wall's modulus to bending stiffness over the fourth power of the length.
+const ALIKE: f64 = 1e3;
+
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
 
@@ -74,23 +86,64 @@ impl Search<'_> {
             return self.advance([start, target], [0.0, 1.0], 1.0, unknowns);
         }
         // The unloaded shape, under internal forces alone, is found from the straight one.
-        let unloaded = target.without_loads();
-        self.passing = unloaded != *target;
-        let found = self.correct(&unloaded, unknowns, SETTLING);
+        let softening = self.softening(LINING);
+        let (unloaded, lined) =
+            (Inputs { softening, ..target.without_loads() }, Inputs { softening, ..target.clone() });
+        let widening = self.potential(&unloaded).missing_width(unknowns);
+        let softening = if widening > 0.0 { self.softening(self.alike()) } else { softening };
+        let free = Inputs { widening, softening, ..unloaded.clone() };
+        self.passing = free != *target;
+        let found = self.correct(&free, unknowns, SETTLING);
         self.passing = false;
-        if !found && self.descend(&unloaded, unknowns, self.resting()) != Outcome::Solved {
+        if !found && self.descend(&free, unknowns, self.resting()) != Outcome::Solved {
             return Outcome::BranchEnds;
         }
+        let (mut stage, mut done) = (0.0, Outcome::Solved);
+        if widening > 0.0 {
+            // A vessel that the straight shape does not fit into narrows around it, with a soft wall that then stiffens.
+            let narrow = Inputs { softening, ..unloaded.clone() };
+            done = self.advance([&free, &narrow], [0.0, NARROWED], 0.5, unknowns);
+            if done.is_solved() {
+                done = self.advance([&narrow, &unloaded], [NARROWED, 2.0 * NARROWED], STIFFER, unknowns);
+            }
+            stage = 2.0 * NARROWED;
+        }
+        if done.is_solved() {
+            done = self.load_up([&unloaded, &lined], stage, unknowns);
+        }
+        // A wall far stiffer than those of vessels lets none of its contacts change smoothly: it becomes so last.
+        if done.is_solved() && lined != *target {
+            done = self.advance([&lined, target], [stage, 1.0], STIFFER, unknowns);
+        }
+        done
+    }
+
+    /// Applies the loads of `target` to the shape under internal forces alone.
+    fn load_up(&mut self, [unloaded, target]: [&Inputs; 2], stage: f64, unknowns: &mut [f64]) -> Outcome {
         let held = target.without_moment();
         let first = self.first_part(&held, unknowns);
         if held == *target {
-            return self.advance([&unloaded, target], [0.0, 1.0], first, unknowns);
+            return self.advance([unloaded, target], [stage, 1.0], first, unknowns);
         }
         // A non-conservative load does not select the branch: it is applied last, to the shape under all other loads.
-        match self.advance([&unloaded, &held], [0.0, 0.5], first, unknowns) {
-            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [0.5, 1.0], 1.0, unknowns),
+        let middle = 0.5 * (stage + 1.0);
+        match self.advance([unloaded, &held], [stage, middle], first, unknowns) {
+            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [middle, 1.0], 1.0, unknowns),
             lost => lost,
         }
+    }
+
+    /// Softening that leaves the wall with this modulus (Pa), unless it is as soft by itself.
+    fn softening(&self, modulus: f64) -> f64 {
+        self.model.around.map_or(0.0, |around| (around.vessel.wall.modulus() / modulus).ln().max(0.0))
+    }
+
+    /// Modulus (Pa) of a wall that is about as soft as the chain.
+    fn alike(&self) -> f64 {
+        let chain = self.model.chain;
+        let bending =
+            chain.elements.iter().map(|element| element.metric[0] * element.length).fold(0.0, f64::max);
+        ALIKE * bending / chain.length().powi(4)
     }
 
     /// Follows the branch along the straight path between two inputs; `stage` is the range of progress that this path

@@ -15,7 +15,9 @@ use super::report::Report;
 use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
+use super::surface::{InVessel, Surface};
 use super::terms::Terms;
+use super::wall_forces::WallForces;
 use super::workspace::Workspace;
 use crate::design::Design;
 use crate::error::Error;
@@ -23,6 +25,7 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
+use crate::vessel::Vessel;
 
 /// Point of the centreline at which the shape is reported.
 #[derive(Debug, Clone)]
@@ -47,6 +50,7 @@ pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
     pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
+    pub(super) around: Option<Arc<InVessel>>,
     pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: History,
     pub(super) work: Workspace,
@@ -88,6 +92,7 @@ impl Equilibrium {
         let mut out = Self {
             settings,
             magnet: magnet.cloned(),
+            around: None,
             shape: Arc::new(shape.collect()),
             branch: History::new(&chain),
             work,
@@ -97,6 +102,15 @@ impl Equilibrium {
         };
         out.reset();
         Ok(out)
+    }
+
+    /// The same manipulator, unsolved, in a vessel.
+    #[must_use]
+    pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
+        let surface = Surface::new(&self.chain);
+        self.around = Some(Arc::new(InVessel { vessel: vessel.clone(), surface }));
+        self.reset();
+        self
     }
 
     /// Whether both use the same tables of modes and quadratures in memory: all models of one design and discretisation that
@@ -153,7 +167,12 @@ impl Equilibrium {
     /// As [`Self::solve`], within a time budget that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
-        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let model = Model {
+            chain: &self.chain,
+            settings: &self.settings,
+            magnet: self.magnet.as_ref(),
+            around: self.around.as_deref(),
+        };
         let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
         let report = Report::start();
         let mut search = Search {
@@ -241,7 +260,12 @@ impl Equilibrium {
 
     /// The potential with the quadrature rules chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let model = Model {
+            chain: &self.chain,
+            settings: &self.settings,
+            magnet: self.magnet.as_ref(),
+            around: self.around.as_deref(),
+        };
         model.potential(inputs, &self.rules, &mut self.work)
     }
 
@@ -251,6 +275,7 @@ impl Equilibrium {
             chain: Arc::clone(&self.chain),
             settings: self.settings,
             magnet: self.magnet.clone(),
+            around: self.around.clone(),
             shape: Arc::clone(&self.shape),
             branch: self.branch.clone(),
             work: Workspace::new(&self.chain, &self.settings),
@@ -309,6 +334,10 @@ impl Solution for Equilibrium {
 
     fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
         self.work.wrenches.on_magnet(inputs)
+    }
+
+    fn wall(&self) -> Option<WallForces> {
+        self.wall_forces()
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {

@@ -8,6 +8,7 @@ use super::pair_loads::PairLoads;
 use super::settings::Settings;
 use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
+use super::wall_loads::WallLoads;
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
 
@@ -27,6 +28,7 @@ pub(super) struct Workspace {
     pub(super) batch: SectionBatch,
     /// Field of the external magnet at the stations.
     pub(super) fields: StationFields,
+    pub(super) walls: WallLoads,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -75,6 +77,7 @@ impl Workspace {
             pair_loads: PairLoads::new(chain),
             batch: SectionBatch::default(),
             fields: StationFields::default(),
+            walls: WallLoads::default(),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),

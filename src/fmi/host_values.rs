@@ -118,6 +118,8 @@ impl HostValues {
             tip_moment: self.tip_moment.into(),
             ring_forces: self.ring_forces.iter().map(|&force| force.into()).collect(),
             gravity: self.gravity.into(),
+            widening: 0.0,
+            softening: 0.0,
         })
     }
 

@@ -71,6 +71,8 @@ impl ErrorEstimate {
             tip_moment,
             ring_forces,
             gravity,
+            widening: _, // both are 0 at every solved shape
+            softening: _,
         } = inputs;
         let [gradient, before] = [field_gradient, &then.field_gradient].map(|g| SVector::from(*g));
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();

@@ -130,6 +130,14 @@ impl Configuration {
         FrameState { pose, left: theta.left_jacobian(), theta }
     }
 
+    /// Position (m) and its derivative with respect to arc length at a tabulated arc length, in the frame of the preceding node.
+    #[must_use]
+    pub fn curve_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+        let (_, strain) = components(element, &row.rate, amplitudes);
+        let directors = Self::rotation_at(element, row, amplitudes).matrix();
+        (self.position_at(element, row), directors * (Vector3::z() + strain))
+    }
+
     /// The rotation vector at a tabulated arc length.
     #[must_use]
     pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {

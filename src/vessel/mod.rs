@@ -3,7 +3,11 @@
 mod branch;
 mod clearance;
 mod lumen;
+mod wall;
+mod whole;
 
 pub use branch::Branch;
 pub use clearance::Clearance;
 pub use lumen::Lumen;
+pub use wall::Wall;
+pub use whole::Vessel;
