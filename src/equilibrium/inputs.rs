@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, RotationVector};
 
 /// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
@@ -23,8 +23,12 @@ pub struct Inputs {
     pub uniform_field: Vector3<f64>,
     /// Components `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
     pub field_gradient: [f64; 5],
-    /// Clamped base pose.
+    /// Clamped base pose; of a device with a shaft, the pose of the port through which that is pushed.
     pub base: Pose,
+    /// Length of shaft inside the port, m; without effect where there is no shaft.
+    pub insertion: f64,
+    /// Turn of what the base clamps, or of the shaft in its port, about its axis, rad.
+    pub roll: f64,
     /// Force on the tip, N.
     pub tip_force: Vector3<f64>,
     /// Moment on the tip, N m.
@@ -49,6 +53,8 @@ impl Inputs {
             uniform_field: Vector3::zeros(),
             field_gradient: [0.0; 5],
             base: Pose::identity(),
+            insertion: 0.0,
+            roll: 0.0,
             tip_force: Vector3::zeros(),
             tip_moment: Vector3::zeros(),
             ring_forces: vec![Vector3::zeros(); rings],
@@ -63,13 +69,24 @@ impl Inputs {
     /// The same poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
-        Self { magnet: self.magnet, base: self.base, ..Self::unloaded(self.ring_forces.len()) }
+        let Self { magnet, base, insertion, roll, .. } = *self;
+        Self { magnet, base, insertion, roll, ..Self::unloaded(self.ring_forces.len()) }
     }
 
     /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
     #[must_use]
     pub fn without_moment(&self) -> Self {
         Self { tip_moment: Vector3::zeros(), ..self.clone() }
+    }
+
+    /// Pose of what the base clamps, or of the shaft where it enters: the base, rolled about its axis.
+    #[must_use]
+    pub fn root(&self) -> Pose {
+        if self.roll == 0.0 {
+            return self.base;
+        }
+        let turn = RotationVector::new(Vector3::z() * self.roll).matrix();
+        Pose { rotation: self.base.rotation * turn, ..self.base }
     }
 
     /// Copies `other`, without allocation if it has the same number of rings.
@@ -90,6 +107,8 @@ impl Inputs {
             uniform_field: mix(&self.uniform_field, &other.uniform_field),
             field_gradient: core::array::from_fn(|i| number(self.field_gradient[i], other.field_gradient[i])),
             base: self.base.between(&other.base, t),
+            insertion: number(self.insertion, other.insertion),
+            roll: number(self.roll, other.roll),
             tip_force: mix(&self.tip_force, &other.tip_force),
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
             ring_forces: self.ring_forces.iter().zip(&other.ring_forces).map(|(a, b)| mix(a, b)).collect(),
@@ -131,6 +150,8 @@ impl Inputs {
             uniform_field,
             field_gradient,
             base,
+            insertion,
+            roll,
             tip_force,
             tip_moment,
             ring_forces,
@@ -146,6 +167,8 @@ impl Inputs {
             ("field gradient (T/m)", field_gradient),
             ("base position (m)", base.position.as_slice()),
             ("base orientation", base.rotation.as_slice()),
+            ("insertion (m)", std::slice::from_ref(insertion)),
+            ("roll (rad)", std::slice::from_ref(roll)),
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
             ("gravity (m/s2)", gravity.as_slice()),

@@ -8,6 +8,7 @@ mod correct;
 mod deadline;
 mod descend;
 mod factorisation;
+mod feed;
 mod hessian;
 mod history;
 mod input_derivatives;

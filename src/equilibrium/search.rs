@@ -30,6 +30,8 @@ pub(super) const CORRECTIONS: usize = 12;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model<'a> {
     pub(super) chain: &'a Chain,
+    /// Diagonal elastic stiffness of all unknowns.
+    pub(super) metric: &'a [f64],
     pub(super) settings: &'a Settings,
     pub(super) magnet: Option<&'a Assembly>,
     pub(super) around: Option<&'a InVessel>,
@@ -49,12 +51,12 @@ impl<'a> Model<'a> {
         rules: &'a PairQuadrature,
         work: &'a mut Workspace,
     ) -> Potential<'a> {
-        let Self { chain, settings, magnet, around } = *self;
+        let Self { chain, metric, settings, magnet, around } = *self;
         let vessel = around.map(|around| &around.vessel);
         let mut terms = Terms::new(chain, settings, magnet, inputs, rules).in_vessel(vessel);
         terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
         let surface = around.map(|around| &around.surface);
-        Potential { chain, settings, inputs, terms, rules, surface, work }
+        Potential { chain, metric, settings, inputs, terms, rules, surface, work }
     }
 }
 
@@ -108,7 +110,7 @@ impl Search<'_> {
 
     /// Chooses the quadrature rules for a shape.
     pub(super) fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
-        self.work.place(self.model.chain, &inputs.base, unknowns);
+        self.work.place(self.model.chain, inputs, unknowns);
         self.choose_rules_here();
     }
 

@@ -27,6 +27,11 @@ pub trait Solution {
     /// Force and moment (about the base position) that the clamp exerts.
     fn base_reaction(&self) -> Wrench;
 
+    /// Push (N) that holds a shaft in its port at the inputs of the last solve; `None` without a shaft.
+    fn feed_reaction(&self, _inputs: &Inputs) -> Option<f64> {
+        None
+    }
+
     /// Forces of the vessel's wall; `None` without a vessel.
     fn wall(&self) -> Option<WallForces> {
         None

@@ -7,6 +7,7 @@ use super::outcome::Outcome;
 use super::report::Report;
 use super::search::{PASSING, ROUNDING, Search};
 use crate::numerics::trust_region::Objective;
+use crate::rod::Element;
 
 /// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
 /// margin.
@@ -20,8 +21,11 @@ const SETTLING: f64 = 4.0;
 /// is tried: Newton's method finds no shape much farther away.
 const STRAIGHT: f64 = 2.0;
 
-/// Share of the progress of a first solve in which the vessel narrows around the chain, and in which its wall then stiffens.
-const NARROWED: f64 = 0.2;
+/// Share of the progress of a first solve until a shaft is pushed in.
+const BEGUN: f64 = 0.2;
+
+/// Length (m) by which a shaft is pushed in at first.
+const PUSHED: f64 = 2e-3;
 
 /// Share of the way from the soft to the actual wall that is tried first.
 const STIFFER: f64 = 0.125;
@@ -85,50 +89,76 @@ impl Search<'_> {
         if let Some(start) = from {
             return self.advance([start, target], [0.0, 1.0], 1.0, unknowns);
         }
-        // The unloaded shape, under internal forces alone, is found from the straight one.
-        let softening = self.softening(LINING);
-        let (unloaded, lined) =
-            (Inputs { softening, ..target.without_loads() }, Inputs { softening, ..target.clone() });
+        if self.model.chain.shaft == 0 || target.insertion == 0.0 {
+            return self.begin(target, [0.0, 1.0], unknowns);
+        }
+        // A shaft is pushed in under the loads of the target.
+        let outside = Inputs { insertion: 0.0, ..target.clone() };
+        let begun = self.begin(&outside, [0.0, BEGUN], unknowns);
+        if !begun.is_solved() {
+            return begun;
+        }
+        let first = (PUSHED / target.insertion).min(1.0);
+        self.advance([&outside, target], [BEGUN, 1.0], first, unknowns)
+    }
+
+    /// Finds the first shape, at `target`, from the straight one. The stage is that of [`Self::advance`].
+    fn begin(&mut self, target: &Inputs, [from, to]: [f64; 2], unknowns: &mut [f64]) -> Outcome {
+        let stages = [0.0, 0.2, 0.4, 0.8, 1.0].map(|part| from + part * (to - from));
+        // A wall far stiffer than those of vessels lets none of its contacts change smoothly: it becomes so last.
+        let lining = self.softening(LINING);
+        let (unloaded, lined) = (
+            Inputs { softening: lining, ..target.without_loads() },
+            Inputs { softening: lining, ..target.clone() },
+        );
         let widening = self.potential(&unloaded).missing_width(unknowns);
-        let softening = if widening > 0.0 { self.softening(self.alike()) } else { softening };
+        let softening = if widening > 0.0 { self.softening(self.alike(target)) } else { lining };
         let free = Inputs { widening, softening, ..unloaded.clone() };
+        // The unloaded shape, under internal forces alone, is found from the straight one.
         self.passing = free != *target;
         let found = self.correct(&free, unknowns, SETTLING);
         self.passing = false;
         if !found && self.descend(&free, unknowns, self.resting()) != Outcome::Solved {
             return Outcome::BranchEnds;
         }
-        let (mut stage, mut done) = (0.0, Outcome::Solved);
+        let mut stage = 0;
+        let mut done = Outcome::Solved;
         if widening > 0.0 {
             // A vessel that the straight shape does not fit into narrows around it, with a soft wall that then stiffens.
             let narrow = Inputs { softening, ..unloaded.clone() };
-            done = self.advance([&free, &narrow], [0.0, NARROWED], 0.5, unknowns);
+            done = self.advance([&free, &narrow], [stages[0], stages[1]], 0.5, unknowns);
             if done.is_solved() {
-                done = self.advance([&narrow, &unloaded], [NARROWED, 2.0 * NARROWED], STIFFER, unknowns);
+                done = self.advance([&narrow, &unloaded], [stages[1], stages[2]], STIFFER, unknowns);
             }
-            stage = 2.0 * NARROWED;
+            stage = 2;
         }
+        let hardens = lined != *target;
         if done.is_solved() {
-            done = self.load_up([&unloaded, &lined], stage, unknowns);
+            let end = stages[if hardens { 3 } else { 4 }];
+            done = self.load_up([&unloaded, &lined], [stages[stage], end], unknowns);
         }
-        // A wall far stiffer than those of vessels lets none of its contacts change smoothly: it becomes so last.
-        if done.is_solved() && lined != *target {
-            done = self.advance([&lined, target], [stage, 1.0], STIFFER, unknowns);
+        if done.is_solved() && hardens {
+            done = self.advance([&lined, target], [stages[3], stages[4]], STIFFER, unknowns);
         }
         done
     }
 
     /// Applies the loads of `target` to the shape under internal forces alone.
-    fn load_up(&mut self, [unloaded, target]: [&Inputs; 2], stage: f64, unknowns: &mut [f64]) -> Outcome {
+    fn load_up(
+        &mut self,
+        [unloaded, target]: [&Inputs; 2],
+        [from, to]: [f64; 2],
+        unknowns: &mut [f64],
+    ) -> Outcome {
         let held = target.without_moment();
         let first = self.first_part(&held, unknowns);
         if held == *target {
-            return self.advance([unloaded, target], [stage, 1.0], first, unknowns);
+            return self.advance([unloaded, target], [from, to], first, unknowns);
         }
         // A non-conservative load does not select the branch: it is applied last, to the shape under all other loads.
-        let middle = 0.5 * (stage + 1.0);
-        match self.advance([unloaded, &held], [stage, middle], first, unknowns) {
-            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [middle, 1.0], 1.0, unknowns),
+        let middle = 0.5 * (from + to);
+        match self.advance([unloaded, &held], [from, middle], first, unknowns) {
+            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [middle, to], 1.0, unknowns),
             lost => lost,
         }
     }
@@ -139,11 +169,11 @@ impl Search<'_> {
     }
 
     /// Modulus (Pa) of a wall that is about as soft as the chain.
-    fn alike(&self) -> f64 {
+    fn alike(&self, inputs: &Inputs) -> f64 {
         let chain = self.model.chain;
-        let bending =
-            chain.elements.iter().map(|element| element.metric[0] * element.length).fold(0.0, f64::max);
-        ALIKE * bending / chain.length().powi(4)
+        let bending = |element: &Element| element.metric[0] * element.length;
+        let length = chain.inserted(chain.growth(inputs.insertion)) + chain.length();
+        ALIKE * chain.elements.iter().map(bending).fold(0.0, f64::max) / length.powi(4)
     }
 
     /// Follows the branch along the straight path between two inputs; `stage` is the range of progress that this path
@@ -159,6 +189,8 @@ impl Search<'_> {
         let (smallest, resting) = (self.model.settings.smallest_part, self.resting());
         let (mut done, mut part, mut floor) = (0.0, first, smallest);
         let mut here = start.clone();
+        // The last step and its shape, from which the next one is extrapolated.
+        let mut last: Option<(f64, Vec<f64>)> = None;
         let (mut neutral, mut shortened) = (false, false);
         // Number of snaps when the last descent began: a descent over several steps counts as one snap.
         let mut before_descent = None;
@@ -167,7 +199,9 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            let corrected = !neutral && self.try_to_correct(Some(&here), &inputs, unknowns);
+            let guess = last.as_ref().map(|(step, before)| (next - done, *step, &before[..]));
+            let from = unknowns.to_vec();
+            let corrected = !neutral && self.try_to_correct_from(guess, [&here, &inputs], unknowns);
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
@@ -191,6 +225,7 @@ impl Search<'_> {
             }
             // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
+            last = corrected.then(|| (next - done, from));
             (done, here, shortened) = (next, inputs, false);
             if done >= 1.0 {
                 return end;

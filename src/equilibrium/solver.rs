@@ -48,6 +48,8 @@ pub(super) enum Site {
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
+    /// Diagonal elastic stiffness of all unknowns at the inputs of the last evaluation.
+    pub(super) metric: Vec<f64>,
     pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
     pub(super) around: Option<Arc<InVessel>>,
@@ -56,6 +58,8 @@ pub struct Equilibrium {
     pub(super) work: Workspace,
     pub(super) rules: PairQuadrature,
     scratch: Scratch,
+    /// Growth of the shaft for which the shape points are placed.
+    laid_out: f64,
 }
 
 impl Equilibrium {
@@ -87,9 +91,10 @@ impl Equilibrium {
         }
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let chain = Chain::shared(design, &settings)?;
-        let shape = arc_lengths.map(|s| point_at(&chain, s));
+        let shape = arc_lengths.map(|s| point_at(&chain, 0.0, s));
         let (work, rules) = (Workspace::new(&chain, &settings), PairQuadrature::new(&chain, &settings));
         let mut out = Self {
+            metric: chain.metric.clone(),
             settings,
             magnet: magnet.cloned(),
             around: None,
@@ -98,6 +103,7 @@ impl Equilibrium {
             work,
             rules,
             scratch: Scratch::new(&chain),
+            laid_out: f64::NAN,
             chain,
         };
         out.reset();
@@ -134,7 +140,7 @@ impl Equilibrium {
     pub fn reset(&mut self) {
         self.branch = History::new(&self.chain);
         self.work.factorisation = None;
-        self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
+        self.work.place(&self.chain, &Inputs::unloaded(0), &self.branch.unknowns);
     }
 
     /// Fraction of the closed section's stiffness that the windings of each core have reached, 0 (open) to 1, whether or
@@ -167,8 +173,10 @@ impl Equilibrium {
     /// As [`Self::solve`], within a time budget that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
+        self.lay_out(inputs);
         let model = Model {
             chain: &self.chain,
+            metric: &self.metric,
             settings: &self.settings,
             magnet: self.magnet.as_ref(),
             around: self.around.as_deref(),
@@ -220,10 +228,10 @@ impl Equilibrium {
         &self.branch.unknowns
     }
 
-    /// Diagonal elastic stiffness `K` with respect to the unknowns, about the straight shape.
+    /// Diagonal elastic stiffness `K` with respect to the unknowns, about the straight shape, at the last inputs.
     #[must_use]
     pub fn metric(&self) -> &[f64] {
-        &self.chain.metric
+        &self.metric
     }
 
     /// Energy (J) and its gradient with respect to the unknowns at any shape; `None` where bodies touch.
@@ -253,7 +261,8 @@ impl Equilibrium {
     }
 
     pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
-        self.work.place(&self.chain, &inputs.base, unknowns);
+        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+        self.work.place(&self.chain, inputs, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
         self.potential_as_ruled(inputs)
     }
@@ -262,6 +271,7 @@ impl Equilibrium {
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
         let model = Model {
             chain: &self.chain,
+            metric: &self.metric,
             settings: &self.settings,
             magnet: self.magnet.as_ref(),
             around: self.around.as_deref(),
@@ -273,6 +283,7 @@ impl Equilibrium {
     pub(super) fn apart(&self) -> Self {
         Self {
             chain: Arc::clone(&self.chain),
+            metric: self.metric.clone(),
             settings: self.settings,
             magnet: self.magnet.clone(),
             around: self.around.clone(),
@@ -281,12 +292,27 @@ impl Equilibrium {
             work: Workspace::new(&self.chain, &self.settings),
             rules: self.rules.clone(),
             scratch: Scratch::new(&self.chain),
+            laid_out: self.laid_out,
         }
     }
 
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
         Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), inputs, &self.rules)
+    }
+
+    /// Adapts stiffness and shape points to the inserted length of a shaft.
+    pub(super) fn lay_out(&mut self, inputs: &Inputs) {
+        let length = self.chain.growth(inputs.insertion);
+        if self.chain.shaft == 0 || self.laid_out == length {
+            return;
+        }
+        self.laid_out = length;
+        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+        let whole = self.chain.inserted(length) + self.chain.length();
+        let count = self.shape.len() - 1;
+        let places = (0..=count).map(|i| point_at(&self.chain, length, whole * i as f64 / count as f64));
+        self.shape = Arc::new(places.collect());
     }
 
     fn on_element(&self, element: usize, row: &Row) -> Pose {
@@ -336,6 +362,10 @@ impl Solution for Equilibrium {
         self.work.wrenches.on_magnet(inputs)
     }
 
+    fn feed_reaction(&self, inputs: &Inputs) -> Option<f64> {
+        self.feed_push(inputs)
+    }
+
     fn wall(&self) -> Option<WallForces> {
         self.wall_forces()
     }
@@ -345,18 +375,22 @@ impl Solution for Equilibrium {
     }
 }
 
-/// Finds the node or element at unstrained arc length `s` (m) from the base.
-fn point_at(chain: &Chain, s: f64) -> ShapePoint {
+/// Finds the node or element at unstrained arc length `s` (m) from the base; the elements of the shaft have grown by `growth`.
+fn point_at(chain: &Chain, growth: f64, s: f64) -> ShapePoint {
     let mut start = 0.0;
     for (k, element) in chain.elements.iter().enumerate() {
+        let growth = if k < chain.shaft { growth } else { 1.0 };
         if s < start + element.offset {
             return ShapePoint { arc_length: s, place: Site::Rigid(k, s - start) };
         }
         start += element.offset;
-        if s <= start + element.length {
-            return ShapePoint { arc_length: s, place: Site::Elastic(k, element.row(s - start)) };
+        if growth > 0.0 && s <= start + growth * element.length {
+            return ShapePoint {
+                arc_length: s,
+                place: Site::Elastic(k, chain.tables()[k].row_at((s - start) / growth)),
+            };
         }
-        start += element.length;
+        start += growth * element.length;
     }
     let last = chain.elements.len();
     ShapePoint { arc_length: s, place: Site::Rigid(last, (s - start).min(chain.tip_offset)) }

@@ -1,7 +1,7 @@
 //! The surface of the chain: where its elements may touch a wall.
 
 use super::chain::Chain;
-use crate::rod::{Element, Row, RowTable};
+use crate::rod::{Row, RowTable};
 use crate::vessel::Vessel;
 
 /// Largest distance between two places at which the clearance of an element is looked at, m, where it is not longer than
@@ -27,8 +27,6 @@ pub(super) struct Surface {
 /// The surface of one element.
 #[derive(Debug, Clone)]
 pub(super) struct ElementSurface {
-    /// The strain modes at any arc length.
-    pub(super) table: RowTable,
     pub(super) pieces: Vec<Skin>,
 }
 
@@ -43,14 +41,13 @@ pub(super) struct Skin {
 
 impl Surface {
     pub(super) fn new(chain: &Chain) -> Self {
-        let elements = chain.elements.iter().zip(&chain.skins);
-        Self { elements: elements.map(|(element, skin)| ElementSurface::new(element, skin)).collect() }
+        let elements = chain.tables().iter().zip(&chain.skins);
+        Self { elements: elements.map(|(table, skin)| ElementSurface::new(table, skin)).collect() }
     }
 }
 
 impl ElementSurface {
-    fn new(element: &Element, skin: &[[f64; 2]]) -> Self {
-        let table = RowTable::new(element);
+    fn new(table: &RowTable, skin: &[[f64; 2]]) -> Self {
         let mut start = 0.0;
         let pieces = skin.iter().enumerate().map(|(piece, [length, radius])| {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
@@ -61,6 +58,6 @@ impl ElementSurface {
             Skin { radius: *radius, places }
         });
         let pieces = pieces.collect();
-        Self { table, pieces }
+        Self { pieces }
     }
 }

@@ -8,7 +8,7 @@ use super::potential::Potential;
 use super::terms::Touch;
 use super::wall_search::ArcPart;
 use crate::numerics::quadrature::gauss_legendre;
-use crate::rod::PlacedLoad;
+use crate::rod::{Load, PlacedLoad};
 
 /// Gauss points of a part of an arc in contact.
 const POINTS: usize = 4;
@@ -44,6 +44,8 @@ impl WallContact {
 #[derive(Debug, Clone, Default)]
 pub(super) struct WallLoads {
     pub(super) contacts: Vec<WallContact>,
+    /// Loads on nodes, in world axes.
+    pub(super) on_nodes: Vec<(usize, Load)>,
     parts: Vec<ArcPart>,
 }
 
@@ -51,6 +53,7 @@ impl Potential<'_> {
     /// Adds the loads of the wall; returns the energy of those that are not on nodes.
     pub(super) fn load_walls(&mut self, unknowns: &[f64]) -> f64 {
         self.work.walls.contacts.clear();
+        self.work.walls.on_nodes.clear();
         if !self.terms.walls.exist() {
             return 0.0;
         }
@@ -83,8 +86,9 @@ impl Potential<'_> {
 
     fn load_node(&mut self, node: usize, site: Site, touch: &Touch) {
         self.work.node_loads[node] += touch.load;
+        self.work.walls.on_nodes.push((node, touch.load));
         if let Some(before) = node.checked_sub(1) {
-            let lever = self.chain.elements[before].length;
+            let lever = self.chain.elements[before].length * self.work.configurations[before].growth;
             self.work.placed_loads[before].abrupt += touch.stiffness * lever * lever;
         }
         self.work.walls.contacts.push(WallContact::new(site, touch));
@@ -100,17 +104,18 @@ impl Potential<'_> {
             let (element, amplitudes, node) =
                 (&self.chain.elements[*k], self.chain.part(*k, unknowns), work.nodes[*k]);
             let (surface, half) = (&surface.elements[*k], 0.5 * (to - from));
+            let growth = work.configurations[*k].growth;
             for (x, weight) in places.iter().zip(&weights) {
-                let row = surface.table.row(*piece, from + half * (1.0 + x));
+                let row = self.chain.tables()[*k].row(*piece, from + half * (1.0 + x));
                 let frame = work.configurations[*k].frame_at(element, &row, amplitudes);
                 let point = node.transform(&frame.pose.position);
                 let radius = surface.pieces[*piece].radius;
-                let touch = self.terms.walls.rod(&point, radius, half * weight);
+                let touch = self.terms.walls.rod(&point, radius, growth * half * weight);
                 let Some(touch) = touch.filter(|touch| touch.depth > 0.0) else { continue };
                 energy += touch.load.energy;
                 work.walls.contacts.push(WallContact::new(Site::Arc(*arc), &touch));
                 let placed = &mut work.placed_loads[*k];
-                placed.abrupt += touch.stiffness * element.length * element.length;
+                placed.abrupt += touch.stiffness * (growth * element.length).powi(2);
                 let load = touch.load.in_axes(&node.rotation);
                 placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
             }

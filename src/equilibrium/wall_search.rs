@@ -47,7 +47,7 @@ impl Potential<'_> {
             for (piece, skin) in own.pieces.iter().enumerate() {
                 self.find_arcs_on((k, piece), (start, skin), unknowns, &mut seen, found);
             }
-            start += self.chain.elements[k].length;
+            start += self.chain.elements[k].length * self.work.configurations[k].growth;
         }
         for number in 1..found.len() {
             let [before, own] = [found[number - 1], found[number]];
@@ -59,7 +59,7 @@ impl Potential<'_> {
     /// The widening (m) of the lumen with which the chain would nowhere touch the wall.
     pub(super) fn missing_width(&mut self, unknowns: &[f64]) -> f64 {
         let Some(surface) = self.surface else { return 0.0 };
-        self.work.place(self.chain, &self.inputs.base, unknowns);
+        self.work.place(self.chain, self.inputs, unknowns);
         let mut missing = 0.0_f64;
         for (k, own) in surface.elements.iter().enumerate() {
             for skin in &own.pieces {
@@ -85,23 +85,25 @@ impl Potential<'_> {
         found: &mut Vec<ArcPart>,
     ) {
         let (element, amplitudes) = (&self.chain.elements[k], self.chain.part(k, unknowns));
+        let configuration = &self.work.configurations[k];
+        let growth = configuration.growth;
         let mut before: Option<[f64; 3]> = None;
         for (number, row) in skin.places.iter().enumerate() {
             let place = |number: usize| skin.places.get(number).map(|row| row.arc_length);
             let next = place(number + 1).unwrap_or(row.arc_length);
-            if seen.least(start + next) > skin.radius {
+            if seen.least(start + next * growth) > skin.radius {
                 before = None;
                 continue;
             }
-            let (position, tangent) = self.work.configurations[k].curve_at(element, row, amplitudes);
+            let (position, tangent) = configuration.curve_at(element, row, amplitudes);
             let node = &self.work.nodes[k];
             let Some(clearance) = self.terms.walls.clearance(&node.transform(&position)) else { return };
-            *seen = Seen { clearance: clearance.value, arc_length: start + row.arc_length };
+            *seen = Seen { clearance: clearance.value, arc_length: start + row.arc_length * growth };
             let gap = clearance.value - skin.radius;
             let slope = clearance.gradient.dot(&(node.rotation * tangent));
             if let Some([from, first, rise]) = before {
                 let length = row.arc_length - from;
-                if first + gap <= STRETCHED * length {
+                if first + gap <= STRETCHED * length * growth {
                     let cubic = Cubic::through([first, gap], [rise * length, slope * length]);
                     let parts = negative(&cubic, self.terms.walls.onset());
                     found.extend(parts.map(|ends| ArcPart {

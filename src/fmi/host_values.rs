@@ -114,6 +114,8 @@ impl HostValues {
             uniform_field: self.uniform_field.into(),
             field_gradient: self.field_gradient,
             base: self.base.pose("base.orientation")?,
+            insertion: 0.0,
+            roll: 0.0,
             tip_force: self.tip_force.into(),
             tip_moment: self.tip_moment.into(),
             ring_forces: self.ring_forces.iter().map(|&force| force.into()).collect(),

@@ -66,6 +66,8 @@ impl ErrorEstimate {
             magnet_strength: _,
             uniform_field: _,
             base: _,
+            insertion: _,
+            roll: _,
             field_gradient,
             tip_force,
             tip_moment,

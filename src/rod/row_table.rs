@@ -35,6 +35,14 @@ impl RowTable {
         Self(pieces.collect())
     }
 
+    /// The row at arc length `s` (m) from the element's start, clamped to the element.
+    #[must_use]
+    pub fn row_at(&self, s: f64) -> Row {
+        let end = |piece: &PieceRows| piece.start + piece.length;
+        let piece = self.0.iter().position(|piece| s <= end(piece)).unwrap_or(self.0.len() - 1);
+        self.row(piece, s.clamp(0.0, end(&self.0[piece])))
+    }
+
     /// The row at arc length `s` (m) from the element's start, which is within this piece.
     #[must_use]
     pub fn row(&self, piece: usize, s: f64) -> Row {
