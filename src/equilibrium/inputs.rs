@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
 
+/// Longest inserted part of a shaft, m.
+const LONGEST: f64 = 1.0;
+
 /// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
 
@@ -188,6 +191,7 @@ impl Inputs {
                 check(name, *value, |_| true, "finite")?;
             }
         }
+        check("insertion (m)", self.insertion, |v| (0.0..=LONGEST).contains(&v), "from 0 to 1")?;
         let given = self.ring_forces.len();
         if given == rings {
             return Ok(());

@@ -5,3 +5,30 @@ pub(crate) const CLEARANCE: f64 = 1e-16;
 
 /// Derivatives beside differences of fourth order, relative to a unit gradient and to the second derivative.
 pub(crate) const CLEARANCE_SLOPE: f64 = 1e-8;
+
+/// Tip of a rod in a stiff tube beside the rigid limit, relative to its length.
+pub(crate) const STIFF_TIP: f64 = 1e-5;
+
+/// Sum of the wall's forces there, relative.
+pub(crate) const STIFF_FORCE: f64 = 1e-3;
+
+/// Push that holds a shaft, relative to the force at the port.
+pub(crate) const FEED_FORCE: f64 = 1e-4;
+
+/// Closed forms of small slopes, relative.
+pub(crate) const WALL_CLOSED_FORM: f64 = 1e-4;
+
+/// Balance of all forces, relative to the sum of the wall's: the residual of a solve.
+pub(crate) const WALL_BALANCE: f64 = 1e-9;
+
+/// Gradient in contact beside differences of the energy, relative; the Gauss points move with the shape.
+pub(crate) const CONTACT_SLOPE: f64 = 1e-6;
+
+/// Hessian in contact beside differences of the gradient, relative.
+pub(crate) const CONTACT_RATE: f64 = 1e-4;
+
+/// Tip of a scene that is moved as a whole, m.
+pub(crate) const WALL_MOVED: f64 = 1e-11;
+
+/// A shaft that is just at its port beside a clamp: m, N and N m.
+pub(crate) const CLAMPED: f64 = 1e-6;

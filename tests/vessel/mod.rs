@@ -1,7 +1,10 @@
 //! Distance to the wall of a vessel.
 
 mod branch;
+mod contact;
+mod feed;
 mod lumen;
+mod rods;
 
 use nalgebra::{Matrix3, Vector3};
 use rand::rngs::StdRng;
