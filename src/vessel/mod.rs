@@ -1,9 +1,11 @@
 //! The vessel that a manipulator is pushed through: how far a point is from its wall.
 
+pub mod aorta;
 mod branch;
 mod clearance;
 mod lumen;
 
+pub use aorta::Aorta;
 pub use branch::Branch;
 pub use clearance::Clearance;
 pub use lumen::Lumen;
