@@ -92,7 +92,7 @@ fn a_ball_sinks_in_as_in_hertz() {
         assert!((told / force - 1.0).abs() < 0.04, "{told} {force}");
     }
     // An arc in line contact with a parabolic gap gives the same law.
-    let (radius, deepest) = (0.03, 20e-6);
+    let (radius, deepest) = (0.03_f64, 20e-6);
     let half: f64 = (2.0 * radius * deepest).sqrt();
     let count = 20_000;
     let depth = |i: i32| {

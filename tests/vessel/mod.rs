@@ -1,5 +1,6 @@
 //! Distance to the wall of a vessel.
 
+mod aorta;
 mod branch;
 mod contact;
 mod feed;
