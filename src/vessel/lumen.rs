@@ -82,8 +82,18 @@ impl Lumen {
         if let [only] = &self.branches[..] {
             return only.clearance(point);
         }
-        let each: Vec<Clearance> = self.branches.iter().map(|branch| branch.clearance(point)).collect();
-        let largest = each.iter().map(|own| own.value).fold(f64::NEG_INFINITY, f64::max);
+        // Branches too far away to count in the union are left out.
+        let bounds: Vec<f64> = self.branches.iter().map(|branch| branch.bound(point)).collect();
+        let nearest = (0..bounds.len()).max_by(|a, b| bounds[*a].total_cmp(&bounds[*b])).unwrap_or(0);
+        let mut each = vec![self.branches[nearest].clearance(point)];
+        let mut largest = each[0].value;
+        for (number, branch) in self.branches.iter().enumerate() {
+            if number != nearest && bounds[number] > largest + self.merged * NEGLIGIBLE.ln() {
+                let own = branch.clearance(point);
+                largest = largest.max(own.value);
+                each.push(own);
+            }
+        }
         let shares = each.iter().map(|own| ((own.value - largest) / self.merged).exp());
         let sum: f64 = shares.clone().sum();
         let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
