@@ -25,6 +25,7 @@ pub struct Design {
     specification: Specification,
     base_ring: Option<Ring>,
     segments: Vec<Segment>,
+    shaft: Option<Span>,
 }
 
 impl Design {
@@ -46,7 +47,34 @@ impl Design {
             Specification::Segmented(chain) => segmented(chain)?,
             Specification::Cylinder(rod) => (None, vec![plain(rod)?]),
         };
-        Ok(Self { specification, base_ring, segments })
+        Ok(Self { specification, base_ring, segments, shaft: None })
+    }
+
+    /// The same device at the end of a shaft: a tube that is pushed through a port, as long as its inserted part is.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity out of range.
+    pub fn with_shaft(self, tube: &Backbone) -> Result<Self, Error> {
+        limits::shaft(tube)?;
+        let Tube { stiffness, line_density } = Tube::of(tube);
+        let span = Span {
+            kind: SpanKind::Rod,
+            length: 1.0,
+            inner_radius: tube.inner_radius,
+            outer_radius: tube.outer_radius,
+            stiffness,
+            magnetisation: 0.0,
+            density: 0.0,
+            line_density,
+            spiral: None,
+        };
+        Ok(Self { shaft: Some(span), ..self })
+    }
+
+    /// The shaft, a metre of it; `None` for a device that is clamped at its base.
+    #[must_use]
+    pub fn shaft(&self) -> Option<&Span> {
+        self.shaft.as_ref()
     }
 
     /// The specification from which the design was made.
@@ -72,11 +100,21 @@ impl Design {
         self.base_ring.iter().chain(self.segments.iter().filter_map(|segment| segment.ring.as_ref()))
     }
 
-    /// Length of the straight unloaded manipulator, m.
+    /// Length of the straight unloaded manipulator without a shaft, m.
     #[must_use]
     pub fn length(&self) -> f64 {
         let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(|span| span.length).sum();
         spans + self.rings().map(|ring| ring.length).sum::<f64>()
+    }
+
+    /// Largest radius of its bodies without a shaft, m.
+    #[must_use]
+    pub fn largest_radius(&self) -> f64 {
+        let spans = self.segments.iter().flat_map(|segment| &segment.spans).map(|span| {
+            let windings = span.spiral.map_or(0.0, |spiral| spiral.outer_radius);
+            span.outer_radius.max(windings)
+        });
+        self.rings().map(|ring| ring.outer_radius).chain(spans).fold(0.0, f64::max)
     }
 
     /// Mass of all bodies, kg.

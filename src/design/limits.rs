@@ -64,8 +64,19 @@ pub(super) fn backbone(backbone: &Backbone, bore: f64) -> Result<(), Error> {
         |v| v > 0.0 && v <= bore * (1.0 + FIT),
         "> 0 and <= the core inner radius",
     )?;
+    tube("backbone", backbone)
+}
+
+/// Checks the tube behind the base.
+pub(super) fn shaft(shaft: &Backbone) -> Result<(), Error> {
+    length("shaft outer radius (m)", shaft.outer_radius)?;
+    tube("shaft", shaft)
+}
+
+/// Checks bore and material of a tube.
+fn tube(name: &str, backbone: &Backbone) -> Result<(), Error> {
     check(
-        "backbone inner radius (m)",
+        &format!("{name} inner radius (m)"),
         backbone.inner_radius,
         |v| v >= 0.0 && v < backbone.outer_radius,
         ">= 0 and < its outer radius",

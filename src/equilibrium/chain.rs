@@ -1,15 +1,21 @@
 //! The discretised chain: nodes joined by elements, with rings on nodes.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::design::{Design, SpanKind};
 use crate::error::{Error, check};
 use crate::magnetics::PairTable;
-use crate::rod::{Element, Piece, Resolution, SourceGeometry};
+use crate::rod::{Element, Piece, Resolution, RowTable, SourceGeometry};
 
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
+
+/// Number of elements that share the inserted length of a shaft.
+const SHAFT_ELEMENTS: usize = 16;
+
+/// Least inserted length of a shaft, m: below it the shaft counts as this long.
+const SHORTEST: f64 = 1e-7;
 
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
@@ -33,18 +39,23 @@ pub(crate) struct Chain {
     pub(crate) rings: Vec<RingBody>,
     /// Distance from the last node to the tip, m.
     pub(crate) tip_offset: f64,
+    /// Number of elements of the shaft, which come first.
+    pub(crate) shaft: usize,
     /// Index of the first unknown of each element, then the number of unknowns.
     pub(crate) first: Vec<usize>,
-    /// Diagonal elastic stiffness of all unknowns.
+    /// Diagonal elastic stiffness of all unknowns, for a shaft as long as its tables.
     pub(crate) metric: Vec<f64>,
     /// First and last element of each segment's core.
     pub(crate) cores: Vec<(usize, usize)>,
     /// Outer radius of each element, m: the largest of its discs and windings.
     pub(crate) radii: Vec<f64>,
+    /// Length and outer radius of each element's pieces, m.
+    pub(super) skins: Vec<Vec<[f64; 2]>>,
     /// Quadratures of the elements in the fields of the rings.
     pub(super) span_quadratures: SpanQuadratures,
     /// Rules for pairs of rings, one table for each ring; equal rings share theirs.
     pub(super) pair_tables: Vec<Arc<PairTable>>,
+    tables: OnceLock<Vec<RowTable>>,
     made_from: (Design, Discretisation),
 }
 
@@ -59,8 +70,9 @@ fn discretisation(settings: &Settings) -> Discretisation {
 impl Chain {
     pub(crate) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
         let mut rings = Vec::new();
+        let shaft = design.shaft().map_or(0, |_| SHAFT_ELEMENTS);
         if let Some(ring) = design.base_ring() {
-            rings.push(RingBody::new(ring, 0)?);
+            rings.push(RingBody::new(ring, shaft)?);
         }
         let mut offset = design.base_ring().map_or(0.0, |ring| ring.length);
         let spans = settings.interaction.acts_on_spans();
@@ -78,6 +90,18 @@ impl Chain {
         };
         let (mut elements, mut cores, mut chains): (Vec<Element>, _, Vec<Vec<Piece<'_>>>) =
             (Vec::new(), Vec::new(), Vec::new());
+        if let Some(span) = design.shaft() {
+            let pieces = vec![Piece { span, length: span.length / shaft as f64 }];
+            elements = vec![
+                Element::new(
+                    0.0,
+                    &pieces,
+                    &Resolution { degree: settings.degree, nearest: None, ..resolution }
+                );
+                shaft
+            ];
+            chains = vec![pieces; shaft];
+        }
         for segment in design.segments() {
             let first = elements.len();
             let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
@@ -111,9 +135,13 @@ impl Chain {
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
         let span_quadratures = SpanQuadratures::new(&elements, &chains, &rings, settings);
-        let widest =
-            |pieces: &Vec<Piece<'_>>| pieces.iter().map(|piece| piece.span.outer_radius).fold(0.0, f64::max);
-        let radii = chains.iter().map(widest).collect();
+        let skin = |piece: &Piece<'_>| {
+            let windings = piece.span.spiral.map_or(0.0, |spiral| spiral.outer_radius);
+            [piece.length, piece.span.outer_radius.max(windings)]
+        };
+        let skins: Vec<Vec<[f64; 2]>> =
+            chains.iter().map(|pieces| pieces.iter().map(skin).collect()).collect();
+        let radii = skins.iter().map(|skin| skin.iter().map(|piece| piece[1]).fold(0.0, f64::max)).collect();
         let pair_tables = pair_tables(&rings, settings.pair_accuracy);
         let made_from = (design.clone(), discretisation(settings));
         let tip_offset = offset;
@@ -121,12 +149,15 @@ impl Chain {
             elements,
             rings,
             tip_offset,
+            shaft,
             first,
             metric,
             cores,
             radii,
+            skins,
             span_quadratures,
             pair_tables,
+            tables: OnceLock::new(),
             made_from,
         })
     }
@@ -141,9 +172,40 @@ impl Chain {
         self.made_from.1 == discretisation(settings) && self.made_from.0 == *design
     }
 
-    /// Unstrained length, m.
+    /// Unstrained length without the shaft, m.
     pub(crate) fn length(&self) -> f64 {
-        self.elements.iter().map(|element| element.offset + element.length).sum::<f64>() + self.tip_offset
+        let own = &self.elements[self.shaft..];
+        own.iter().map(|element| element.offset + element.length).sum::<f64>() + self.tip_offset
+    }
+
+    /// Length of the shaft's elements relative to that of their tables, for an inserted length (m); 1 without a shaft.
+    pub(super) fn growth(&self, insertion: f64) -> f64 {
+        let tabulated: f64 = self.elements[..self.shaft].iter().map(|element| element.length).sum();
+        if self.shaft == 0 { 1.0 } else { insertion.max(SHORTEST) / tabulated }
+    }
+
+    /// Length of the shaft (m) at that growth.
+    pub(super) fn inserted(&self, growth: f64) -> f64 {
+        growth * self.elements[..self.shaft].iter().map(|element| element.length).sum::<f64>()
+    }
+
+    /// The strain modes at any arc length of each element.
+    pub(super) fn tables(&self) -> &[RowTable] {
+        self.tables.get_or_init(|| self.elements.iter().map(RowTable::new).collect())
+    }
+
+    /// Writes the diagonal elastic stiffness of all unknowns for an inserted length (m).
+    pub(super) fn stiffness_at(&self, insertion: f64, metric: &mut [f64]) {
+        let (growth, shaft) = (self.growth(insertion), self.first[self.shaft]);
+        for (unknown, (own, stiffness)) in metric.iter_mut().zip(&self.metric).enumerate() {
+            *own = if unknown < shaft { stiffness / growth } else { *stiffness };
+        }
+    }
+
+    /// Radius (m) of the round end of a chain that ends without a ring.
+    pub(super) fn round_end(&self) -> Option<f64> {
+        let end = self.skins.last()?.last()?;
+        (self.tip_offset == 0.0).then_some(end[1])
     }
 
     /// Number of unknowns.
@@ -158,7 +220,7 @@ impl Chain {
 
     /// Radian norm: elastic norm of a change that turns one element's end by one radian, the unit of steps and residuals.
     pub(crate) fn radian_norm(&self) -> f64 {
-        self.elements.iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
+        self.elements[self.shaft..].iter().map(|element| element.metric[0]).fold(0.0, f64::max).sqrt()
     }
 }
 

@@ -59,7 +59,9 @@ impl Search<'_> {
             if !settled {
                 let length = self.step(inputs, 0);
                 self.report.iterations += 1;
-                if length <= CONTRACTION * previous {
+                // Contacts that open or close make Newton's method hesitate before it converges.
+                let settles = self.model.around.is_some() && length <= SOON.min(previous);
+                if length <= CONTRACTION * previous || settles {
                     apply(unknowns, &self.scratch.steps[0]);
                     settled = length <= SOON && self.chord(inputs, unknowns, CHORD_CONTRACTION * length, 0.0);
                     if settled && length > NEARLY && !self.passing {
@@ -100,7 +102,7 @@ impl Search<'_> {
     /// Broyden's method in its matrix-free form, in the metric of the elastic energy (C. T. Kelley, Iterative Methods for
     /// Linear and Nonlinear Equations, SIAM 1995, section 7.3, doi:10.1137/1.9781611970944).
     pub(super) fn step(&mut self, inputs: &Inputs, done: usize) -> f64 {
-        let metric = &self.model.chain.metric;
+        let metric = self.model.metric;
         let mut steps = std::mem::take(&mut self.scratch.steps);
         let (earlier, rest) = steps.split_at_mut(done);
         let step = &mut rest[0];
@@ -176,6 +178,29 @@ impl Search<'_> {
         found
     }
 
+    /// The same from the shape that the last step of the inputs leads to: where there is contact, the branch turns little, but
+    /// without it a step presses the chain into the wall. `step` has the lengths of this step and of the last, and the shape before.
+    pub(super) fn try_to_correct_from(
+        &mut self,
+        step: Option<(f64, f64, &[f64])>,
+        [before, inputs]: [&Inputs; 2],
+        unknowns: &mut [f64],
+    ) -> bool {
+        if let Some((now, last, shape)) = step.filter(|_| self.model.around.is_some()) {
+            let mut trial = std::mem::take(&mut self.scratch.trial);
+            for ((x, here), then) in trial.iter_mut().zip(&*unknowns).zip(shape) {
+                *x = here + (here - then) * (now / last);
+            }
+            let reach = self.model.settings.follow_step;
+            let found = self.accept(Some(before), inputs, unknowns, &mut trial, reach);
+            self.scratch.trial = trial;
+            if found {
+                return true;
+            }
+        }
+        self.try_to_correct(Some(before), inputs, unknowns)
+    }
+
     /// Corrects `trial` by a first step of at most `reach`, and moves `unknowns` there if it is an equilibrium; if
     /// `unknowns` are the equilibrium at the inputs `before`, on the same branch.
     pub(super) fn accept(
@@ -201,7 +226,7 @@ impl Search<'_> {
     /// stiffen or soften it, with the one under the first inputs. From beyond a fold it does not: there the change of the
     /// inputs moves the shape by far less than the distance of the two.
     fn goes_on(&mut self, [before, inputs]: [&Inputs; 2], [last, now]: [&[f64]; 2]) -> bool {
-        let metric = &self.model.chain.metric;
+        let metric = self.model.metric;
         let mut between = std::mem::take(&mut self.scratch.between);
         let apart = |between: &mut [f64]| {
             between.iter_mut().zip(now.iter().zip(last)).for_each(|(b, (n, l))| *b = n - l);

@@ -54,7 +54,7 @@ impl Search<'_> {
         let conservative = self.potential(inputs).terms.have_potential();
         if !conservative && minimum.converged && !self.is_confirmed(inputs, &reached) {
             // An unstable equilibrium, which the descent of a potential leaves by itself.
-            spread(&self.model.chain.metric, &mut reached, PUSH * unit);
+            spread(self.model.metric, &mut reached, PUSH * unit);
             minimum = self.go_downhill(inputs, &mut reached, tolerance);
         }
         let residual = minimum.residual / unit;
@@ -138,7 +138,7 @@ impl Search<'_> {
     /// Distance of two shapes in the elastic energy norm.
     fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-        norm(&self.model.chain.metric, &between)
+        norm(self.model.metric, &between)
     }
 
     fn region(&self, tolerance: f64) -> Region {

@@ -59,6 +59,8 @@ pub(super) enum SpanCoupling {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hessian<'a> {
     pub(super) chain: &'a Chain,
+    /// Diagonal elastic stiffness of all unknowns.
+    pub(super) metric: &'a [f64],
     /// Second derivatives with respect to the node displacements, row by row.
     pub(super) nodes: &'a [f64],
     /// Second derivatives of each element.
@@ -179,7 +181,12 @@ impl Linearisation {
     fn condense(&mut self, hessian: &Hessian<'_>, k: usize, shift: f64) -> bool {
         let size = self.rhs.len();
         let own = &mut self.condensations[k];
-        if !own.condense(&hessian.elements[k], &hessian.chain.elements[k].metric, shift, &hessian.mixed[k]) {
+        if !own.condense(
+            &hessian.elements[k],
+            hessian.chain.part(k, hessian.metric),
+            shift,
+            &hessian.mixed[k],
+        ) {
             return false;
         }
         let axes = self.axes[k];

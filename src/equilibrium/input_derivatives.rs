@@ -1,6 +1,6 @@
 //! Mixed derivatives of the potential: the contribution of each input to the gradient and to the clamp's wrench.
 
-use nalgebra::{DMatrix, DMatrixView, Matrix3, Vector3};
+use nalgebra::{DMatrix, DMatrixView, Matrix3, Matrix6, Vector3};
 
 use super::inputs::Inputs;
 use super::layout::{Counts, Input};
@@ -8,7 +8,7 @@ use super::potential::Potential;
 use super::terms::Frame;
 use crate::geometry::hat;
 use crate::magnetics::LinearField;
-use crate::rod::START;
+use crate::rod::{Load, START};
 
 /// Mixed derivatives at a fixed base, one column for each input; the base's own columns are zero.
 #[derive(Debug, Clone)]
@@ -49,6 +49,18 @@ impl Potential<'_> {
                 let motion = DMatrixView::from_slice(tangent.station_motion(element, index, state), size, 6);
                 block.gemm(1.0, &motion, &load, 1.0);
             }
+            for placed in &self.work.placed_loads[k].loads[self.work.placed_loads[k].own..] {
+                let frame = &placed.frame;
+                let arm =
+                    frame.pose.position + into * (self.work.nodes[k].position - self.inputs.base.position);
+                let load = vessel_rates(&placed.load, &arm, &into);
+                let tangent = &mut self.work.derivatives[k];
+                let size = tangent.size;
+                let motion = tangent.motion(element, &placed.row, &frame.pose.position, &frame.left);
+                let motion = DMatrixView::from_slice(motion, size, 6);
+                let mut columns = block.columns_range_mut(Input::of_vessel());
+                columns.gemm(1.0, &motion, &load, 1.0);
+            }
             gradient
                 .rows_mut(self.chain.first[k], block.nrows() - START)
                 .copy_from(&block.rows(START, block.nrows() - START));
@@ -75,8 +87,32 @@ impl Potential<'_> {
         for (_, frame) in Frame::at_nodes(self.chain).filter(|(own, _)| *own == node) {
             out += self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0;
         }
+        for (_, load) in self.work.walls.on_nodes.iter().filter(|(own, _)| *own == node) {
+            let mut columns = out.columns_range_mut(Input::of_vessel());
+            columns += vessel_rates(load, &(pose.position - self.inputs.base.position), &Matrix3::identity());
+        }
         Some(out)
     }
+}
+
+/// Derivatives of a wall's load with respect to a displacement (m) of the vessel and its rotation (rad) about the base
+/// position: six columns, with three rows of force and three of moment, in the axes of the load, to which `into` turns from those
+/// of the world. `arm` (m) leads from the base position to the frame.
+///
+/// Moved with the vessel, the frame would keep its load, which would turn with both; less what the frame's own motion changes.
+fn vessel_rates(load: &Load, arm: &Vector3<f64>, into: &Matrix3<f64>) -> Matrix6<f64> {
+    let (force, moment, turning) = (load.force, load.moment(), load.rotation_hessian());
+    let mut out = Matrix6::zeros();
+    for column in 0..6 {
+        let unit = into.column(column % 3).into_owned();
+        let (shift, spin) = if column < 3 { (unit, Vector3::zeros()) } else { (unit.cross(arm), unit) };
+        let by_force = spin.cross(&force) - load.position_position * shift - load.position_rotation * spin;
+        let by_moment = spin.cross(&moment) * 0.5 - load.position_rotation.tr_mul(&shift) - turning * spin;
+        for axis in 0..3 {
+            (out[(axis, column)], out[(3 + axis, column)]) = (by_force[axis], by_moment[axis]);
+        }
+    }
+    out
 }
 
 /// Rates of the inputs when everything fixed in the world moves along each axis (m) and rotates about it at the base
@@ -88,10 +124,14 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         uniform_field,
         field_gradient,
         base,
+        insertion: _, // these do not change
+        roll: _,
         tip_force,
         tip_moment,
         ring_forces,
         gravity,
+        widening: _,
+        softening: _,
     } = inputs;
     let base = base.position;
     let field_gradient = LinearField::new(*uniform_field, *field_gradient).gradient();
@@ -103,6 +143,8 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
             out.view_mut((input.columns().start, column), (rate.len(), 1)).copy_from_slice(rate);
         };
         let velocity = |point: &Vector3<f64>| shift + spin.cross(&(point - base));
+        set(Input::VesselPosition, shift.as_slice());
+        set(Input::VesselRotation, spin.as_slice());
         set(Input::MagnetPosition, velocity(&magnet.position).as_slice());
         set(Input::MagnetRotation, spin.as_slice());
         let field = spin.cross(uniform_field) - field_gradient * velocity(&Vector3::zeros());

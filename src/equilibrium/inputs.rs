@@ -4,7 +4,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
-use crate::geometry::Pose;
+use crate::geometry::{Pose, RotationVector};
+
+/// Longest inserted part of a shaft, m.
+const LONGEST: f64 = 1.0;
 
 /// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
@@ -23,8 +26,12 @@ pub struct Inputs {
     pub uniform_field: Vector3<f64>,
     /// Components `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
     pub field_gradient: [f64; 5],
-    /// Clamped base pose.
+    /// Clamped base pose; of a device with a shaft, the pose of the port through which that is pushed.
     pub base: Pose,
+    /// Length of shaft inside the port, m; without effect where there is no shaft.
+    pub insertion: f64,
+    /// Turn of what the base clamps, or of the shaft in its port, about its axis, rad.
+    pub roll: f64,
     /// Force on the tip, N.
     pub tip_force: Vector3<f64>,
     /// Moment on the tip, N m.
@@ -33,6 +40,10 @@ pub struct Inputs {
     pub ring_forces: Vec<Vector3<f64>>,
     /// Acceleration of gravity, m/s2.
     pub gravity: Vector3<f64>,
+    /// Uniform widening of the vessel's lumen, m: 0, but for the way from a free shape into a narrow lumen.
+    pub widening: f64,
+    /// Natural logarithm of the ratio of the wall's modulus to the one that acts: 0, but on the way to a first shape.
+    pub softening: f64,
 }
 
 impl Inputs {
@@ -45,10 +56,14 @@ impl Inputs {
             uniform_field: Vector3::zeros(),
             field_gradient: [0.0; 5],
             base: Pose::identity(),
+            insertion: 0.0,
+            roll: 0.0,
             tip_force: Vector3::zeros(),
             tip_moment: Vector3::zeros(),
             ring_forces: vec![Vector3::zeros(); rings],
             gravity: Vector3::zeros(),
+            widening: 0.0,
+            softening: 0.0,
         }
     }
 }
@@ -57,13 +72,24 @@ impl Inputs {
     /// The same poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
-        Self { magnet: self.magnet, base: self.base, ..Self::unloaded(self.ring_forces.len()) }
+        let Self { magnet, base, insertion, roll, .. } = *self;
+        Self { magnet, base, insertion, roll, ..Self::unloaded(self.ring_forces.len()) }
     }
 
     /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
     #[must_use]
     pub fn without_moment(&self) -> Self {
         Self { tip_moment: Vector3::zeros(), ..self.clone() }
+    }
+
+    /// Pose of what the base clamps, or of the shaft where it enters: the base, rolled about its axis.
+    #[must_use]
+    pub fn root(&self) -> Pose {
+        if self.roll == 0.0 {
+            return self.base;
+        }
+        let turn = RotationVector::new(Vector3::z() * self.roll).matrix();
+        Pose { rotation: self.base.rotation * turn, ..self.base }
     }
 
     /// Copies `other`, without allocation if it has the same number of rings.
@@ -84,10 +110,14 @@ impl Inputs {
             uniform_field: mix(&self.uniform_field, &other.uniform_field),
             field_gradient: core::array::from_fn(|i| number(self.field_gradient[i], other.field_gradient[i])),
             base: self.base.between(&other.base, t),
+            insertion: number(self.insertion, other.insertion),
+            roll: number(self.roll, other.roll),
             tip_force: mix(&self.tip_force, &other.tip_force),
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
             ring_forces: self.ring_forces.iter().zip(&other.ring_forces).map(|(a, b)| mix(a, b)).collect(),
             gravity: mix(&self.gravity, &other.gravity),
+            widening: number(self.widening, other.widening),
+            softening: number(self.softening, other.softening),
         }
     }
 
@@ -123,10 +153,14 @@ impl Inputs {
             uniform_field,
             field_gradient,
             base,
+            insertion,
+            roll,
             tip_force,
             tip_moment,
             ring_forces,
             gravity,
+            widening,
+            softening,
         } = self;
         let named = [
             ("magnet position (m)", magnet.position.as_slice()),
@@ -136,9 +170,13 @@ impl Inputs {
             ("field gradient (T/m)", field_gradient),
             ("base position (m)", base.position.as_slice()),
             ("base orientation", base.rotation.as_slice()),
+            ("insertion (m)", std::slice::from_ref(insertion)),
+            ("roll (rad)", std::slice::from_ref(roll)),
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
             ("gravity (m/s2)", gravity.as_slice()),
+            ("widening of the lumen (m)", std::slice::from_ref(widening)),
+            ("softening of the wall", std::slice::from_ref(softening)),
         ];
         named.into_iter().chain(ring_forces.iter().map(|force| ("ring force (N)", force.as_slice())))
     }
@@ -153,6 +191,7 @@ impl Inputs {
                 check(name, *value, |_| true, "finite")?;
             }
         }
+        check("insertion (m)", self.insertion, |v| (0.0..=LONGEST).contains(&v), "from 0 to 1")?;
         let given = self.ring_forces.len();
         if given == rings {
             return Ok(());

@@ -47,7 +47,7 @@ impl Search<'_> {
                 return contact.unwrap_or(otherwise);
             }
         };
-        self.work.place(self.model.chain, &target.base, &branch.unknowns);
+        self.work.place(self.model.chain, target, &branch.unknowns);
         self.model.contact(target, self.work).map_or(outcome, Outcome::Contact)
     }
 
@@ -79,7 +79,7 @@ impl Search<'_> {
 
     /// Upper bound of the stability margin at the shape factorised last; NaN where none is found.
     fn estimate_margin(&mut self, inputs: &Inputs, softest: &mut [f64], search: Effort) -> f64 {
-        let metric = &self.model.chain.metric;
+        let metric = self.model.metric;
         // With a share of all directions, so that a mode orthogonal to the last one is not missed.
         spread(metric, softest, EVERY_DIRECTION);
         let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
@@ -92,6 +92,6 @@ impl Search<'_> {
 /// Stability margin at the shape and with the factorisation of `potential`, to about nine digits.
 pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
     let mut softest = vec![0.0; potential.chain.freedoms()];
-    spread(&potential.chain.metric, &mut softest, 1.0);
+    spread(potential.metric, &mut softest, 1.0);
     potential.margin(&mut Lanczos::default(), &mut softest, THOROUGH)
 }

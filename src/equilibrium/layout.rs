@@ -28,6 +28,12 @@ pub enum Input {
     BasePosition,
     /// Rotation of the base, rad.
     BaseRotation,
+    /// Turn of the base or shaft about its axis, rad.
+    Roll,
+    /// Displacement of the vessel, m.
+    VesselPosition,
+    /// Rotation of the vessel about the base position, rad.
+    VesselRotation,
     /// Force at the centre of this ring (counted from 0), N.
     RingForce(usize),
 }
@@ -70,7 +76,7 @@ pub enum Output {
 }
 
 /// Inputs of every design in the order of their columns; the forces on the rings follow.
-const INPUTS: [Input; 10] = [
+const INPUTS: [Input; 13] = [
     Input::MagnetPosition,
     Input::MagnetRotation,
     Input::MagnetStrength,
@@ -81,6 +87,9 @@ const INPUTS: [Input; 10] = [
     Input::Gravity,
     Input::BasePosition,
     Input::BaseRotation,
+    Input::Roll,
+    Input::VesselPosition,
+    Input::VesselRotation,
 ];
 
 /// Outputs of every design in the order of their rows; shape points, rings and cores follow.
@@ -107,7 +116,7 @@ impl Input {
     /// Number of columns of this input.
     pub(super) const fn width(self) -> usize {
         match self {
-            Self::MagnetStrength => 1,
+            Self::MagnetStrength | Self::Roll => 1,
             Self::FieldGradient => 5,
             _ => VECTOR,
         }
@@ -119,6 +128,11 @@ impl Input {
             INPUTS.iter().take_while(|input| **input != self).map(|input| input.width()).sum();
         let first = before + if let Self::RingForce(ring) = self { ring * self.width() } else { 0 };
         first..first + self.width()
+    }
+
+    /// The columns of displacement and rotation of the vessel.
+    pub(super) fn of_vessel() -> Range<usize> {
+        Self::VesselPosition.columns().start..Self::VesselRotation.columns().end
     }
 }
 

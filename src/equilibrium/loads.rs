@@ -13,7 +13,7 @@ impl Potential<'_> {
     /// Places the chain and sums all loads; returns the energy, or `None` where bodies touch.
     pub(super) fn load(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
         let hessian = order == Order::Hessian;
-        self.work.place(self.chain, &self.inputs.base, unknowns);
+        self.work.place(self.chain, self.inputs, unknowns);
         let mut energy = 0.0;
         for (k, element) in self.chain.elements.iter().enumerate() {
             energy += self.work.configurations[k].elastic_energy(element, self.chain.part(k, unknowns));
@@ -21,6 +21,7 @@ impl Potential<'_> {
         self.work.wrenches = TermWrenches::none();
         energy += self.load_stations(order)? + self.load_stops(unknowns);
         self.load_nodes(order)?;
+        energy += self.load_walls(unknowns);
         if hessian {
             self.work.node_hessian.fill(0.0);
         }
@@ -56,8 +57,12 @@ impl Potential<'_> {
                 let own;
                 (own, near) = near.split_at(self.terms.magnet.points_on(station));
                 let (frame, pose) = (Frame::Station(station, own), self.work.station(k, index));
-                let about = (&base, &mut self.work.wrenches);
-                let load = self.terms.load(&frame, &pose, &axes, order, about)?;
+                let mut wrenches = TermWrenches::none();
+                let load = self.terms.load(&frame, &pose, &axes, order, (&base, &mut wrenches))?;
+                // The inserted part of a shaft is as heavy as it is long.
+                let share = if k < self.chain.shaft { self.work.growth } else { 1.0 };
+                self.work.wrenches.add(&wrenches, share);
+                let load = if k < self.chain.shaft { load.times(share) } else { load };
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;
             }
@@ -87,6 +92,7 @@ impl Potential<'_> {
             let matrix = blocks(&zero, &zero, &zero, &stop.mixed);
             placed.couplings.push(PlacedCoupling { between: [0, 1], matrix });
             placed.abrupt = stop.stiffness;
+            placed.own = placed.loads.len();
         }
         energy
     }
@@ -106,8 +112,8 @@ impl Potential<'_> {
     ///
     /// The first step after a change of the inputs starts from the shape of the last solve, whose pair loads are reused.
     pub(super) fn add_pair_loads(&mut self, unknowns: &[f64], order: Order) -> Option<f64> {
-        let (base, rules) = (&self.inputs.base, self.rules.number());
-        let kept = self.work.pair_loads.at(unknowns, base, rules);
+        let (placed, rules) = ((self.work.nodes[0], self.work.growth), self.rules.number());
+        let kept = self.work.pair_loads.at(unknowns, placed, rules);
         let kept = kept.filter(|_| order == Order::Gradient);
         let energy = if let Some(energy) = kept {
             energy
@@ -119,7 +125,7 @@ impl Potential<'_> {
             let energy = self.load_ring_pairs(order)? + self.load_rings_on_spans(order)?;
             let pair_loads = &mut self.work.pair_loads;
             pair_loads.made = Some(Made { energy, rules });
-            pair_loads.base = *base;
+            pair_loads.placed = placed;
             pair_loads.unknowns.copy_from_slice(unknowns);
             energy
         };

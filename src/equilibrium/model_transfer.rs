@@ -47,11 +47,11 @@ impl Equilibrium {
         if stable {
             potential.solve(&mut step);
         }
-        let near = stable && norm(&self.chain.metric, &step) <= NEAR * self.chain.radian_norm();
+        let near = stable && norm(&self.metric, &step) <= NEAR * self.chain.radian_norm();
         if near {
             unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
         }
-        self.work.place(&self.chain, &inputs.base, &unknowns);
+        self.work.place(&self.chain, &inputs, &unknowns);
         self.branch.unknowns = unknowns;
         near.then(|| TipDeviation::between(&self.tip(), &other.tip())).filter(TipDeviation::is_finite)
     }

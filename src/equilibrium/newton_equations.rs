@@ -30,6 +30,7 @@ impl Objective for Potential<'_> {
         let Some(made) = self.work.take_linearisation() else { return false };
         let hessian = Hessian {
             chain: self.chain,
+            metric: self.metric,
             nodes: &self.work.node_hessian,
             elements: &self.work.derivatives,
             mixed: &self.work.cross,
@@ -61,6 +62,6 @@ impl Objective for Potential<'_> {
     }
 
     fn metric(&self) -> &[f64] {
-        &self.chain.metric
+        self.metric
     }
 }

@@ -13,7 +13,8 @@ pub(super) struct PairLoads {
     pub(super) stations: Vec<Vec<Load>>,
     /// `None` where their computation was not completed.
     pub(super) made: Option<Made>,
-    pub(super) base: Pose,
+    /// Pose of the first node, and the growth of the shaft.
+    pub(super) placed: (Pose, f64),
     pub(super) unknowns: Vec<f64>,
 }
 
@@ -31,14 +32,14 @@ impl PairLoads {
             nodes: vec![Load::zero(); chain.elements.len() + 1],
             stations: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             made: None,
-            base: Pose::identity(),
+            placed: (Pose::identity(), 1.0),
             unknowns: vec![0.0; chain.freedoms()],
         }
     }
 
     /// The energy, if the loads are those at this shape with these rules.
-    pub(super) fn at(&self, unknowns: &[f64], base: &Pose, rules: u64) -> Option<f64> {
-        let alike = |made: &Made| made.rules == rules && self.base == *base && self.unknowns == unknowns;
+    pub(super) fn at(&self, unknowns: &[f64], placed: (Pose, f64), rules: u64) -> Option<f64> {
+        let alike = |made: &Made| made.rules == rules && self.placed == placed && self.unknowns == unknowns;
         let made = self.made.filter(alike);
         made.map(|made| made.energy)
     }

@@ -7,6 +7,7 @@ use super::condensation::Condensation;
 use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
+use super::surface::Surface;
 use super::terms::Terms;
 use super::workspace::{PlacedLoads, Workspace};
 use crate::numerics::arnoldi::smallest_real_part;
@@ -27,10 +28,14 @@ pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
 #[derive(Debug)]
 pub(super) struct Potential<'a> {
     pub(super) chain: &'a Chain,
+    /// Diagonal elastic stiffness of all unknowns.
+    pub(super) metric: &'a [f64],
     pub(super) settings: &'a Settings,
     pub(super) inputs: &'a Inputs,
     pub(super) terms: Terms<'a>,
     pub(super) rules: &'a PairQuadrature,
+    /// The surface of the chain, where there is a vessel.
+    pub(super) surface: Option<&'a Surface>,
     pub(super) work: &'a mut Workspace,
 }
 
@@ -43,7 +48,7 @@ impl Potential<'_> {
     /// diverges in overdamped motion. Flutter, a pair of complex eigenvalues of the undamped motion, is not covered: it
     /// depends on masses and damping, which are not part of statics.
     pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
-        let metric = &self.chain.metric;
+        let metric = self.metric;
         if self.terms.have_potential() {
             let margin = lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
             lanczos.add_second(SECOND, softest);
@@ -58,8 +63,8 @@ impl Potential<'_> {
         if self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite) {
             return true;
         }
-        let mut softest = vec![0.0; self.chain.metric.len()];
-        spread(&self.chain.metric, &mut softest, 1.0);
+        let mut softest = vec![0.0; self.metric.len()];
+        spread(self.metric, &mut softest, 1.0);
         self.margin(&mut Lanczos::default(), &mut softest, THOROUGH) > 0.0
     }
 

@@ -47,12 +47,12 @@ impl History {
             let curved = pace * (pace + 1.0) / (1.0 + 1.0 / quickened);
             let bends = self.unknowns.iter().zip(last).zip(oldest);
             let bends = bends.map(|((now, then), old)| curved * ((now - then) - quickened * (then - old)));
-            let squares = bends.clone().zip(&model.chain.metric).map(|(bend, k)| k * bend * bend);
+            let squares = bends.clone().zip(model.metric).map(|(bend, k)| k * bend * bend);
             if squares.sum::<f64>().sqrt() > model.settings.tolerance * model.chain.radian_norm() {
                 shape.iter_mut().zip(bends).for_each(|(x, bend)| *x += bend);
             }
         }
-        let length = norm(&model.chain.metric, shape) / model.chain.radian_norm();
+        let length = norm(model.metric, shape) / model.chain.radian_norm();
         shape.iter_mut().zip(&self.unknowns).for_each(|(x, now)| *x += now);
         Some(length).filter(|length| *length <= PREDICTED)
     }

@@ -89,7 +89,11 @@ impl Refinement {
         magnet: Option<&Assembly>,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let model = Equilibrium::of_checked(design, magnet, coarse.settings.refined(), shape_points)?;
+        let made = Equilibrium::of_checked(design, magnet, coarse.settings.refined(), shape_points)?;
+        let model = match &coarse.around {
+            Some(around) => made.in_vessel(&around.vessel),
+            None => made,
+        };
         let (own, other) = (&model.chain, &coarse.chain);
         let mut projection = Vec::new();
         for (k, (element, from)) in own.elements.iter().zip(&other.elements).enumerate() {
@@ -129,7 +133,7 @@ impl Refinement {
         // Amplitudes of the added modes: the elastic step without its part in the coarser modes.
         let mut finer = model.potential(inputs, shape);
         finer.slope(shape)?;
-        let metric = &finer.chain.metric;
+        let metric = finer.metric;
         for ((by, slope), stiffness) in step.iter_mut().zip(finer.gradient()).zip(metric) {
             *by = -slope / stiffness;
         }
@@ -144,12 +148,12 @@ impl Refinement {
         coarse.potential_as_ruled(inputs).solve(own);
         step.fill(0.0);
         projection.raise(own, step);
-        let length = norm(&model.chain.metric, step);
+        let length = norm(&model.metric, step);
         if length.is_nan() || length > NEAR * model.chain.radian_norm() {
             return None;
         }
         add(step, shape);
-        model.work.place(&model.chain, &inputs.base, shape);
+        model.work.place(&model.chain, inputs, shape);
         let seen = TipDeviation::between(&model.tip(), &coarse.tip());
         // Two accuracies may share the same quadratures, so that the possible error of the finer ones is added.
         let quadratures = model.has_quadratures(inputs);

@@ -7,6 +7,7 @@ use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
 use super::report::Report;
 use super::settings::Settings;
+use super::surface::InVessel;
 use super::terms::Terms;
 use super::workspace::Workspace;
 use crate::magnetics::Assembly;
@@ -29,8 +30,11 @@ pub(super) const CORRECTIONS: usize = 12;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Model<'a> {
     pub(super) chain: &'a Chain,
+    /// Diagonal elastic stiffness of all unknowns.
+    pub(super) metric: &'a [f64],
     pub(super) settings: &'a Settings,
     pub(super) magnet: Option<&'a Assembly>,
+    pub(super) around: Option<&'a InVessel>,
 }
 
 impl<'a> Model<'a> {
@@ -47,10 +51,12 @@ impl<'a> Model<'a> {
         rules: &'a PairQuadrature,
         work: &'a mut Workspace,
     ) -> Potential<'a> {
-        let Self { chain, settings, magnet } = *self;
-        let mut terms = Terms::new(chain, settings, magnet, inputs, rules);
+        let Self { chain, metric, settings, magnet, around } = *self;
+        let vessel = around.map(|around| &around.vessel);
+        let mut terms = Terms::new(chain, settings, magnet, inputs, rules).in_vessel(vessel);
         terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
-        Potential { chain, settings, inputs, terms, rules, work }
+        let surface = around.map(|around| &around.surface);
+        Potential { chain, metric, settings, inputs, terms, rules, surface, work }
     }
 }
 
@@ -104,7 +110,7 @@ impl Search<'_> {
 
     /// Chooses the quadrature rules for a shape.
     pub(super) fn choose_rules(&mut self, inputs: &Inputs, unknowns: &[f64]) {
-        self.work.place(self.model.chain, &inputs.base, unknowns);
+        self.work.place(self.model.chain, inputs, unknowns);
         self.choose_rules_here();
     }
 

@@ -47,7 +47,10 @@ impl Equilibrium {
         copy.add_shape(&mut rows, &response);
         copy.add_rings(&mut rows, &response);
         copy.add_cores(&mut rows, &response);
-        Ok(Jacobian { matrix: rows.into_matrix(), counts: response.counts })
+        let mut matrix = rows.into_matrix();
+        let roll = matrix.columns_range(Input::BaseRotation.columns()) * inputs.base.axis();
+        matrix.set_column(Input::Roll.columns().start, &roll);
+        Ok(Jacobian { matrix, counts: response.counts })
     }
 
     fn response(&mut self, inputs: &Inputs) -> Result<Response, Error> {
@@ -95,7 +98,7 @@ impl Potential<'_> {
     /// Stiffness of the softest direction relative to the elastic stiffness, by inverse iteration: an upper bound, close
     /// where it is small, for conservative and non-conservative forces.
     fn softest_stiffness(&mut self) -> f64 {
-        let metric = &self.chain.metric;
+        let metric = self.metric;
         let mut direction = vec![0.0; metric.len()];
         spread(metric, &mut direction, 1.0);
         let mut growth = f64::INFINITY;

@@ -51,6 +51,7 @@ impl Equilibrium {
         for inputs in branch.all_inputs().chain(origin.as_ref().map(|origin| &origin.inputs)) {
             inputs.check(self.chain.rings.len())?;
         }
+        self.lay_out(inputs);
         let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));
         let replaced = refactorised && self.rules.restore(rules);
         if !replaced || self.potential_as_ruled(inputs).slope(&branch.unknowns).is_none() {

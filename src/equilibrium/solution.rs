@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::inputs::Inputs;
+use super::wall_forces::WallForces;
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
 
@@ -25,6 +26,16 @@ pub trait Solution {
 
     /// Force and moment (about the base position) that the clamp exerts.
     fn base_reaction(&self) -> Wrench;
+
+    /// Push (N) that holds a shaft in its port at the inputs of the last solve; `None` without a shaft.
+    fn feed_reaction(&self, _inputs: &Inputs) -> Option<f64> {
+        None
+    }
+
+    /// Forces of the vessel's wall; `None` without a vessel.
+    fn wall(&self) -> Option<WallForces> {
+        None
+    }
 
     /// Wrench on the external magnet about its centre; `inputs` must be those of the last solve.
     fn magnet_reaction(&self, inputs: &Inputs) -> Wrench;

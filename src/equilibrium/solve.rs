@@ -7,6 +7,7 @@ use super::outcome::Outcome;
 use super::report::Report;
 use super::search::{PASSING, ROUNDING, Search};
 use crate::numerics::trust_region::Objective;
+use crate::rod::Element;
 
 /// Largest drift of loads and shape from the last factorisation for which its stability margin is kept, relative to that
 /// margin.
@@ -19,6 +20,21 @@ const SETTLING: f64 = 4.0;
 /// Length (radian norm) of the first step from the unloaded shape, as its factorisation predicts it, up to which that step
 /// is tried: Newton's method finds no shape much farther away.
 const STRAIGHT: f64 = 2.0;
+
+/// Share of the progress of a first solve until a shaft is pushed in.
+const BEGUN: f64 = 0.2;
+
+/// Length (m) by which a shaft is pushed in at first.
+const PUSHED: f64 = 2e-3;
+
+/// Share of the way from the soft to the actual wall that is tried first.
+const STIFFER: f64 = 0.125;
+
+/// Modulus (Pa) of the wall while the loads of a first solve are applied, if it is stiffer: that of a soft silicone.
+const LINING: f64 = 1e6;
+
+/// Ratio of the softened wall's modulus to bending stiffness over the fourth power of the length.
+const ALIKE: f64 = 1e3;
 
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
@@ -73,24 +89,91 @@ impl Search<'_> {
         if let Some(start) = from {
             return self.advance([start, target], [0.0, 1.0], 1.0, unknowns);
         }
+        if self.model.chain.shaft == 0 || target.insertion == 0.0 {
+            return self.begin(target, [0.0, 1.0], unknowns);
+        }
+        // A shaft is pushed in under the loads of the target.
+        let outside = Inputs { insertion: 0.0, ..target.clone() };
+        let begun = self.begin(&outside, [0.0, BEGUN], unknowns);
+        if !begun.is_solved() {
+            return begun;
+        }
+        let first = (PUSHED / target.insertion).min(1.0);
+        self.advance([&outside, target], [BEGUN, 1.0], first, unknowns)
+    }
+
+    /// Finds the first shape, at `target`, from the straight one. The stage is that of [`Self::advance`].
+    fn begin(&mut self, target: &Inputs, [from, to]: [f64; 2], unknowns: &mut [f64]) -> Outcome {
+        let stages = [0.0, 0.2, 0.4, 0.8, 1.0].map(|part| from + part * (to - from));
+        // A wall far stiffer than those of vessels lets none of its contacts change smoothly: it becomes so last.
+        let lining = self.softening(LINING);
+        let (unloaded, lined) = (
+            Inputs { softening: lining, ..target.without_loads() },
+            Inputs { softening: lining, ..target.clone() },
+        );
+        let widening = self.potential(&unloaded).missing_width(unknowns);
+        let softening = if widening > 0.0 { self.softening(self.alike(target)) } else { lining };
+        let free = Inputs { widening, softening, ..unloaded.clone() };
         // The unloaded shape, under internal forces alone, is found from the straight one.
-        let unloaded = target.without_loads();
-        self.passing = unloaded != *target;
-        let found = self.correct(&unloaded, unknowns, SETTLING);
+        self.passing = free != *target;
+        let found = self.correct(&free, unknowns, SETTLING);
         self.passing = false;
-        if !found && self.descend(&unloaded, unknowns, self.resting()) != Outcome::Solved {
+        if !found && self.descend(&free, unknowns, self.resting()) != Outcome::Solved {
             return Outcome::BranchEnds;
         }
+        let mut stage = 0;
+        let mut done = Outcome::Solved;
+        if widening > 0.0 {
+            // A vessel that the straight shape does not fit into narrows around it, with a soft wall that then stiffens.
+            let narrow = Inputs { softening, ..unloaded.clone() };
+            done = self.advance([&free, &narrow], [stages[0], stages[1]], 0.5, unknowns);
+            if done.is_solved() {
+                done = self.advance([&narrow, &unloaded], [stages[1], stages[2]], STIFFER, unknowns);
+            }
+            stage = 2;
+        }
+        let hardens = lined != *target;
+        if done.is_solved() {
+            let end = stages[if hardens { 3 } else { 4 }];
+            done = self.load_up([&unloaded, &lined], [stages[stage], end], unknowns);
+        }
+        if done.is_solved() && hardens {
+            done = self.advance([&lined, target], [stages[3], stages[4]], STIFFER, unknowns);
+        }
+        done
+    }
+
+    /// Applies the loads of `target` to the shape under internal forces alone.
+    fn load_up(
+        &mut self,
+        [unloaded, target]: [&Inputs; 2],
+        [from, to]: [f64; 2],
+        unknowns: &mut [f64],
+    ) -> Outcome {
         let held = target.without_moment();
         let first = self.first_part(&held, unknowns);
         if held == *target {
-            return self.advance([&unloaded, target], [0.0, 1.0], first, unknowns);
+            return self.advance([unloaded, target], [from, to], first, unknowns);
         }
         // A non-conservative load does not select the branch: it is applied last, to the shape under all other loads.
-        match self.advance([&unloaded, &held], [0.0, 0.5], first, unknowns) {
-            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [0.5, 1.0], 1.0, unknowns),
+        let middle = 0.5 * (from + to);
+        match self.advance([unloaded, &held], [from, middle], first, unknowns) {
+            Outcome::Solved | Outcome::Neutral => self.advance([&held, target], [middle, to], 1.0, unknowns),
             lost => lost,
         }
+    }
+
+    /// Softening that leaves the wall with this modulus (Pa), unless it is as soft by itself.
+    fn softening(&self, modulus: f64) -> f64 {
+        self.model.around.map_or(0.0, |around| (around.vessel.wall.modulus() / modulus).ln().max(0.0))
+    }
+
+    /// Modulus (Pa) of a wall that is about as soft as the chain.
+    fn alike(&self, inputs: &Inputs) -> f64 {
+        let chain = self.model.chain;
+        let bending = |element: &Element| element.metric[0] * element.length;
+        let length = chain.inserted(chain.growth(inputs.insertion)) + chain.length();
+        ALIKE * chain.elements.iter().map(bending).fold(0.0, f64::max) / length.powi(4)
     }
 
     /// Follows the branch along the straight path between two inputs; `stage` is the range of progress that this path
@@ -106,6 +189,8 @@ impl Search<'_> {
         let (smallest, resting) = (self.model.settings.smallest_part, self.resting());
         let (mut done, mut part, mut floor) = (0.0, first, smallest);
         let mut here = start.clone();
+        // The last step and its shape, from which the next one is extrapolated.
+        let mut last: Option<(f64, Vec<f64>)> = None;
         let (mut neutral, mut shortened) = (false, false);
         // Number of snaps when the last descent began: a descent over several steps counts as one snap.
         let mut before_descent = None;
@@ -114,7 +199,9 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            let corrected = !neutral && self.try_to_correct(Some(&here), &inputs, unknowns);
+            let guess = last.as_ref().map(|(step, before)| (next - done, *step, &before[..]));
+            let from = unknowns.to_vec();
+            let corrected = !neutral && self.try_to_correct_from(guess, [&here, &inputs], unknowns);
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
@@ -138,6 +225,7 @@ impl Search<'_> {
             }
             // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
+            last = corrected.then(|| (next - done, from));
             (done, here, shortened) = (next, inputs, false);
             if done >= 1.0 {
                 return end;

@@ -15,7 +15,9 @@ use super::report::Report;
 use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
+use super::surface::{InVessel, Surface};
 use super::terms::Terms;
+use super::wall_forces::WallForces;
 use super::workspace::Workspace;
 use crate::design::Design;
 use crate::error::Error;
@@ -23,6 +25,7 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
+use crate::vessel::Vessel;
 
 /// Point of the centreline at which the shape is reported.
 #[derive(Debug, Clone)]
@@ -45,13 +48,18 @@ pub(super) enum Site {
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     pub(super) chain: Arc<Chain>,
+    /// Diagonal elastic stiffness of all unknowns at the inputs of the last evaluation.
+    pub(super) metric: Vec<f64>,
     pub(super) settings: Settings,
     pub(super) magnet: Option<Assembly>,
+    pub(super) around: Option<Arc<InVessel>>,
     pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: History,
     pub(super) work: Workspace,
     pub(super) rules: PairQuadrature,
     scratch: Scratch,
+    /// Growth of the shaft for which the shape points are placed.
+    laid_out: f64,
 }
 
 impl Equilibrium {
@@ -83,20 +91,32 @@ impl Equilibrium {
         }
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let chain = Chain::shared(design, &settings)?;
-        let shape = arc_lengths.map(|s| point_at(&chain, s));
+        let shape = arc_lengths.map(|s| point_at(&chain, 0.0, s));
         let (work, rules) = (Workspace::new(&chain, &settings), PairQuadrature::new(&chain, &settings));
         let mut out = Self {
+            metric: chain.metric.clone(),
             settings,
             magnet: magnet.cloned(),
+            around: None,
             shape: Arc::new(shape.collect()),
             branch: History::new(&chain),
             work,
             rules,
             scratch: Scratch::new(&chain),
+            laid_out: f64::NAN,
             chain,
         };
         out.reset();
         Ok(out)
+    }
+
+    /// The same manipulator, unsolved, in a vessel.
+    #[must_use]
+    pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
+        let surface = Surface::new(&self.chain);
+        self.around = Some(Arc::new(InVessel { vessel: vessel.clone(), surface }));
+        self.reset();
+        self
     }
 
     /// Whether both use the same tables of modes and quadratures in memory: all models of one design and discretisation that
@@ -120,7 +140,7 @@ impl Equilibrium {
     pub fn reset(&mut self) {
         self.branch = History::new(&self.chain);
         self.work.factorisation = None;
-        self.work.place(&self.chain, &Pose::identity(), &self.branch.unknowns);
+        self.work.place(&self.chain, &Inputs::unloaded(0), &self.branch.unknowns);
     }
 
     /// Fraction of the closed section's stiffness that the windings of each core have reached, 0 (open) to 1, whether or
@@ -153,7 +173,14 @@ impl Equilibrium {
     /// As [`Self::solve`], within a time budget that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
-        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        self.lay_out(inputs);
+        let model = Model {
+            chain: &self.chain,
+            metric: &self.metric,
+            settings: &self.settings,
+            magnet: self.magnet.as_ref(),
+            around: self.around.as_deref(),
+        };
         let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
         let report = Report::start();
         let mut search = Search {
@@ -201,10 +228,10 @@ impl Equilibrium {
         &self.branch.unknowns
     }
 
-    /// Diagonal elastic stiffness `K` with respect to the unknowns, about the straight shape.
+    /// Diagonal elastic stiffness `K` with respect to the unknowns, about the straight shape, at the last inputs.
     #[must_use]
     pub fn metric(&self) -> &[f64] {
-        &self.chain.metric
+        &self.metric
     }
 
     /// Energy (J) and its gradient with respect to the unknowns at any shape; `None` where bodies touch.
@@ -234,14 +261,21 @@ impl Equilibrium {
     }
 
     pub(super) fn potential<'a>(&'a mut self, inputs: &'a Inputs, unknowns: &[f64]) -> Potential<'a> {
-        self.work.place(&self.chain, &inputs.base, unknowns);
+        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+        self.work.place(&self.chain, inputs, unknowns);
         self.rules.choose(&self.chain, &self.work.nodes);
         self.potential_as_ruled(inputs)
     }
 
     /// The potential with the quadrature rules chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        let model = Model { chain: &self.chain, settings: &self.settings, magnet: self.magnet.as_ref() };
+        let model = Model {
+            chain: &self.chain,
+            metric: &self.metric,
+            settings: &self.settings,
+            magnet: self.magnet.as_ref(),
+            around: self.around.as_deref(),
+        };
         model.potential(inputs, &self.rules, &mut self.work)
     }
 
@@ -249,19 +283,36 @@ impl Equilibrium {
     pub(super) fn apart(&self) -> Self {
         Self {
             chain: Arc::clone(&self.chain),
+            metric: self.metric.clone(),
             settings: self.settings,
             magnet: self.magnet.clone(),
+            around: self.around.clone(),
             shape: Arc::clone(&self.shape),
             branch: self.branch.clone(),
             work: Workspace::new(&self.chain, &self.settings),
             rules: self.rules.clone(),
             scratch: Scratch::new(&self.chain),
+            laid_out: self.laid_out,
         }
     }
 
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
         Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), inputs, &self.rules)
+    }
+
+    /// Adapts stiffness and shape points to the inserted length of a shaft.
+    pub(super) fn lay_out(&mut self, inputs: &Inputs) {
+        let length = self.chain.growth(inputs.insertion);
+        if self.chain.shaft == 0 || self.laid_out == length {
+            return;
+        }
+        self.laid_out = length;
+        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+        let whole = self.chain.inserted(length) + self.chain.length();
+        let count = self.shape.len() - 1;
+        let places = (0..=count).map(|i| point_at(&self.chain, length, whole * i as f64 / count as f64));
+        self.shape = Arc::new(places.collect());
     }
 
     fn on_element(&self, element: usize, row: &Row) -> Pose {
@@ -311,23 +362,35 @@ impl Solution for Equilibrium {
         self.work.wrenches.on_magnet(inputs)
     }
 
+    fn feed_reaction(&self, inputs: &Inputs) -> Option<f64> {
+        self.feed_push(inputs)
+    }
+
+    fn wall(&self) -> Option<WallForces> {
+        self.wall_forces()
+    }
+
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         self.terms(inputs).field_at(point)
     }
 }
 
-/// Finds the node or element at unstrained arc length `s` (m) from the base.
-fn point_at(chain: &Chain, s: f64) -> ShapePoint {
+/// Finds the node or element at unstrained arc length `s` (m) from the base; the elements of the shaft have grown by `growth`.
+fn point_at(chain: &Chain, growth: f64, s: f64) -> ShapePoint {
     let mut start = 0.0;
     for (k, element) in chain.elements.iter().enumerate() {
+        let growth = if k < chain.shaft { growth } else { 1.0 };
         if s < start + element.offset {
             return ShapePoint { arc_length: s, place: Site::Rigid(k, s - start) };
         }
         start += element.offset;
-        if s <= start + element.length {
-            return ShapePoint { arc_length: s, place: Site::Elastic(k, element.row(s - start)) };
+        if growth > 0.0 && s <= start + growth * element.length {
+            return ShapePoint {
+                arc_length: s,
+                place: Site::Elastic(k, chain.tables()[k].row_at((s - start) / growth)),
+            };
         }
-        start += element.length;
+        start += growth * element.length;
     }
     let last = chain.elements.len();
     ShapePoint { arc_length: s, place: Site::Rigid(last, (s - start).min(chain.tip_offset)) }

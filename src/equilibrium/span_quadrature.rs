@@ -105,6 +105,9 @@ impl SpanQuadratures {
     ) -> Self {
         let mut quadratures: Vec<SpanQuadrature> = Vec::new();
         let mut place = |element: usize, body: &RingBody| {
+            if pieces[element].iter().all(|piece| piece.span.magnetisation == 0.0) {
+                return None;
+            }
             let geometry = source_geometry(elements, element, body, settings)?;
             let same =
                 |own: &SpanQuadrature| own.geometry == geometry && pieces[own.element] == pieces[element];

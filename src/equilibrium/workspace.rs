@@ -4,10 +4,12 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::factorisation::{Factorisation, Linearisation, TotalLoad};
+use super::inputs::Inputs;
 use super::pair_loads::PairLoads;
 use super::settings::Settings;
 use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
+use super::wall_loads::WallLoads;
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
 
@@ -18,6 +20,8 @@ pub(super) struct Workspace {
     pub(super) nodes: Vec<Pose>,
     /// The unknowns at which the chain is placed; NaN before the first evaluation.
     pub(super) placed: Vec<f64>,
+    /// Length of the shaft's elements relative to that of their tables.
+    pub(super) growth: f64,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     /// Loads on other frames, by element.
@@ -27,6 +31,7 @@ pub(super) struct Workspace {
     pub(super) batch: SectionBatch,
     /// Field of the external magnet at the stations.
     pub(super) fields: StationFields,
+    pub(super) walls: WallLoads,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -46,6 +51,8 @@ pub(super) struct Workspace {
 #[derive(Debug, Clone, Default)]
 pub(super) struct PlacedLoads {
     pub(super) loads: Vec<PlacedLoad>,
+    /// Number of those, which come first, that depend on the shape of the element alone.
+    pub(super) own: usize,
     /// Mixed derivatives of pairs of them.
     pub(super) couplings: Vec<PlacedCoupling>,
     /// Rotational stiffness of those that change abruptly with the shape, N m/rad.
@@ -56,6 +63,7 @@ impl PlacedLoads {
     pub(super) fn clear(&mut self) {
         self.loads.clear();
         self.couplings.clear();
+        self.own = 0;
         self.abrupt = 0.0;
     }
 }
@@ -69,12 +77,14 @@ impl Workspace {
             configurations: chain.elements.iter().map(Configuration::straight).collect(),
             nodes: vec![Pose::identity(); count + 1],
             placed: vec![f64::NAN; chain.freedoms()],
+            growth: 1.0,
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
             placed_loads: vec![PlacedLoads::default(); count],
             pair_loads: PairLoads::new(chain),
             batch: SectionBatch::default(),
             fields: StationFields::default(),
+            walls: WallLoads::default(),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),
@@ -92,13 +102,16 @@ impl Workspace {
         self.nodes[element].compose(&self.configurations[element].stations[index].pose())
     }
 
-    /// Places all stations and nodes for the given base and unknowns, unless they are there already.
-    pub(super) fn place(&mut self, chain: &Chain, base: &Pose, unknowns: &[f64]) {
-        if self.nodes[0] == *base && self.placed == unknowns {
+    /// Places all stations and nodes for the given inputs and unknowns, unless they are there already.
+    pub(super) fn place(&mut self, chain: &Chain, inputs: &Inputs, unknowns: &[f64]) {
+        let (root, growth) = (inputs.root(), chain.growth(inputs.insertion));
+        if self.nodes[0] == root && self.placed == unknowns && self.growth == growth {
             return;
         }
         self.placed.copy_from_slice(unknowns);
-        self.nodes[0] = *base;
+        self.growth = growth;
+        self.configurations[..chain.shaft].iter_mut().for_each(|shaft| shaft.growth = growth);
+        self.nodes[0] = root;
         for (k, element) in chain.elements.iter().enumerate() {
             self.configurations[k].update(element, chain.part(k, unknowns));
             self.nodes[k + 1] = self.nodes[k].compose(&self.configurations[k].end);

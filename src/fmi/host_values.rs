@@ -7,6 +7,7 @@ use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::{Inputs, Manipulator, Scene, SceneFile};
 use crate::methods::Method;
+use crate::vessel::{Vessel, Wall};
 
 /// A pose as the host sets it, one component at a time: until all are set, its quaternion need not have unit norm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +31,12 @@ pub struct HostValues {
     pub field_gradient: [f64; 5],
     /// Pose of the clamped base.
     pub base: UncheckedPose,
+    /// Whether the shaft is pushed in, or the device clamped at its base.
+    pub feed_mode: FeedMode,
+    /// Length of shaft inside the port, m.
+    pub insertion: f64,
+    /// Turn about the axis of the base, rad.
+    pub roll: f64,
     /// Force on the tip, N, world frame.
     pub tip_force: [f64; 3],
     /// Moment on the tip, N.m, world frame.
@@ -45,10 +52,25 @@ pub struct HostValues {
     pub backbone: Backbone,
     /// Whether the design has a backbone.
     pub backbone_present: bool,
+    /// The shaft of a scene that has one.
+    pub shaft: Option<Backbone>,
+    /// The vessel of a scene that has one.
+    pub vessel: Option<Vessel>,
+    /// Young's modulus of its wall, Pa.
+    pub wall_modulus: f64,
     /// The cylinders of the external magnet.
     pub magnets: Vec<AxialMagnet>,
     /// Settings of model and solver.
     pub settings: Settings,
+}
+
+/// How a device is held at its base. Its number is that of the FMU's enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FeedMode {
+    /// The base holds the first body.
+    Clamped = 0,
+    /// The base is a port through which a shaft of given length is pushed in.
+    Insertion = 1,
 }
 
 /// The magnet of a scene that states none: the usual assembly at its usual place, switched off.
@@ -91,6 +113,11 @@ impl HostValues {
             uniform_field: inputs.uniform_field.into(),
             field_gradient: inputs.field_gradient,
             base: inputs.base.into(),
+            feed_mode: if scene.shaft.is_some() { FeedMode::Insertion } else { FeedMode::Clamped },
+            insertion: inputs.insertion,
+            roll: inputs.roll,
+            shaft: scene.shaft,
+            wall_modulus: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.modulus()),
             tip_force: inputs.tip_force.into(),
             tip_moment: inputs.tip_moment.into(),
             ring_forces: inputs.ring_forces.iter().map(|&force| force.into()).collect(),
@@ -98,6 +125,7 @@ impl HostValues {
             backbone: backbone.unwrap_or_else(Backbone::silicone),
             backbone_present: backbone.is_some(),
             specification: scene.specification,
+            vessel: scene.vessel,
             magnets,
             settings: scene.settings,
         })
@@ -114,10 +142,14 @@ impl HostValues {
             uniform_field: self.uniform_field.into(),
             field_gradient: self.field_gradient,
             base: self.base.pose("base.orientation")?,
+            insertion: self.insertion,
+            roll: self.roll,
             tip_force: self.tip_force.into(),
             tip_moment: self.tip_moment.into(),
             ring_forces: self.ring_forces.iter().map(|&force| force.into()).collect(),
             gravity: self.gravity.into(),
+            widening: 0.0,
+            softening: 0.0,
         })
     }
 
@@ -130,7 +162,11 @@ impl HostValues {
         if let Specification::Segmented(segmented) = &mut specification {
             segmented.backbone = self.backbone_present.then_some(self.backbone);
         }
-        Design::new(specification)
+        let design = Design::new(specification)?;
+        match &self.shaft {
+            Some(shaft) if self.feed_mode == FeedMode::Insertion => design.with_shaft(shaft),
+            _ => Ok(design),
+        }
     }
 
     /// The manipulator that the parameters describe, not yet solved.
@@ -139,7 +175,14 @@ impl HostValues {
     /// Those of [`HostValues::design`], [`Assembly::new`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let magnet = Assembly::new(self.magnets.clone())?;
-        Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)
+        let made = Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)?;
+        Ok(match &self.vessel {
+            Some(vessel) => {
+                let wall = Wall::new(self.wall_modulus)?;
+                made.in_vessel(&Vessel { wall, ..vessel.clone() })
+            }
+            None => made,
+        })
     }
 }
 

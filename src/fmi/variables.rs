@@ -11,6 +11,8 @@ mod parameters;
 
 mod rows;
 
+mod vessel;
+
 use super::host_values::HostValues;
 use super::value::Value;
 use super::variable::{Causality, Variable};
@@ -81,10 +83,13 @@ impl Table {
         };
         let mut rows = Rows::default();
         rows.inputs(&counts);
+        rows.feed_inputs(start);
         rows.design_parameters(start);
         rows.parameters(start);
+        rows.vessel_parameters(start);
         rows.design_constants(start, &counts);
         rows.outputs(&counts);
+        rows.vessel_outputs(start, &counts);
         Ok(Self { variables: rows.variables, counts })
     }
 

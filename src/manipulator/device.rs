@@ -10,6 +10,7 @@ use crate::equilibrium::{Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::methods::Method;
+use crate::vessel::Vessel;
 
 /// A manipulator solved by the potential method; it keeps its shape from one solve to the next.
 ///
@@ -62,6 +63,14 @@ impl Manipulator {
         let hierarchy = Hierarchy::new(design, magnet, settings, shape_points)?;
         let outputs = Outputs::straight(hierarchy.present(), resolution(&hierarchy));
         Ok(Self { hierarchy, outputs, has_shape: false })
+    }
+
+    /// The same manipulator, unsolved, in a vessel.
+    #[must_use]
+    pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
+        self.hierarchy = self.hierarchy.in_vessel(vessel);
+        self.reset();
+        self
     }
 
     /// Follows the equilibrium branch from the last inputs to `inputs`; the first call starts from the unloaded shape.

@@ -66,11 +66,15 @@ impl ErrorEstimate {
             magnet_strength: _,
             uniform_field: _,
             base: _,
+            insertion: _,
+            roll: _,
             field_gradient,
             tip_force,
             tip_moment,
             ring_forces,
             gravity,
+            widening: _, // both are 0 at every solved shape
+            softening: _,
         } = inputs;
         let [gradient, before] = [field_gradient, &then.field_gradient].map(|g| SVector::from(*g));
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();

@@ -20,6 +20,7 @@ use crate::design::Design;
 use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
+use crate::vessel::Vessel;
 
 /// Fraction of the tolerance above which a discretisation of the richest model is left; its estimate includes a safety factor.
 const REFINE: f64 = 1.0;
@@ -116,6 +117,11 @@ impl Hierarchy {
         };
         out.relax();
         Ok(out)
+    }
+
+    /// All models in a vessel.
+    pub(super) fn in_vessel(self, vessel: &Vessel) -> Self {
+        Self { models: self.models.in_vessel(vessel), ..self }
     }
 
     /// Relaxes the residual tolerances of the cheaper models to a small part of the tip tolerances.

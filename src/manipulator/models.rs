@@ -6,6 +6,7 @@ use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Inputs, Interaction, Refinement, Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
+use crate::vessel::Vessel;
 
 /// Largest number of iterations of a cheaper model per solve; with more it would not be cheap.
 const CHEAP: u32 = 100;
@@ -58,6 +59,12 @@ impl Models {
             finer: Vec::new(),
             judge: None,
         })
+    }
+
+    /// The same models, unsolved, in a vessel.
+    pub(super) fn in_vessel(self, vessel: &Vessel) -> Self {
+        let whole = self.whole.into_iter().map(|model| model.in_vessel(vessel)).collect();
+        Self { whole, finer: Vec::new(), judge: None, ..self }
     }
 
     /// Index of the richest interaction model, in the discretisation of the settings.

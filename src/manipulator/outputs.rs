@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::Inputs;
-use crate::equilibrium::{Interaction, Outcome, Report, Solution};
+use crate::equilibrium::{Interaction, Outcome, Report, Solution, WallForces};
 use crate::geometry::Pose;
 use crate::methods::Method;
 
@@ -50,6 +50,13 @@ pub struct Outputs {
     pub rings: Vec<Pose>,
     /// Bending angle of each core (of each element of a plain cylinder), rad.
     pub core_angles: Vec<f64>,
+    /// Forces of the vessel's wall; `None` without a vessel.
+    pub wall: Option<WallForces>,
+    /// Length of the shaft inside its port, m; `None` without a shaft.
+    pub feed_length: Option<f64>,
+    /// Push that holds the shaft in its port, N: derivative of the potential energy with respect to the inserted length; `None`
+    /// without a shaft.
+    pub feed_reaction: Option<f64>,
     /// Whether the equilibrium is stable; `None` when the model has no potential or the method does not compute it.
     pub stable: Option<bool>,
     /// Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold.
@@ -116,6 +123,9 @@ impl Outputs {
             shape,
             rings: solution.rings().collect(),
             core_angles: solution.core_angles().collect(),
+            wall: solution.wall(),
+            feed_length: None,
+            feed_reaction: None,
             stable: Some(true),
             stability_margin: 1.0,
             snaps: 0,
@@ -143,6 +153,9 @@ impl Outputs {
         let magnet = solution.magnet_reaction(inputs);
         (self.magnet_reaction_force, self.magnet_reaction_torque) = (magnet.force, magnet.torque);
         self.tip_field = solution.field_at(inputs, &self.tip.position).unwrap_or_default();
+        self.wall = solution.wall();
+        self.feed_reaction = solution.feed_reaction(inputs);
+        self.feed_length = self.feed_reaction.map(|_| inputs.insertion);
         let places = self.shape.iter_mut().zip(&mut self.shape_arc_length);
         places.zip(solution.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
         self.rings.iter_mut().zip(solution.rings()).for_each(|(slot, pose)| *slot = pose);

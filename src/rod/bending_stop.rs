@@ -6,6 +6,7 @@ use super::load::Load;
 use super::piece::Piece;
 use crate::design::SpanKind;
 use crate::geometry::hat;
+use crate::numerics::onset::onset;
 
 /// Half the width of the transition from open to closed windings, relative to the boundary angle: the real windings
 /// of a core do not all touch at once.
@@ -60,14 +61,14 @@ impl BendingStop {
     /// Energy (J) at the bending angle `angle` (rad), with its first two derivatives; `None` where the windings are open.
     #[must_use]
     pub fn energy(&self, angle: f64) -> Option<[f64; 3]> {
-        let derivatives = transition(angle - self.angle, TRANSITION * self.angle)?;
+        let derivatives = onset(angle - self.angle, TRANSITION * self.angle)?;
         Some(derivatives.map(|value| self.stiffness * value))
     }
 
     /// Fraction of the closed section's stiffness that is reached at the bending angle `angle` (rad), from 0 (open) to 1.
     #[must_use]
     pub fn closed(&self, angle: f64) -> f64 {
-        transition(angle - self.angle, TRANSITION * self.angle).map_or(0.0, |[_, _, second]| second)
+        onset(angle - self.angle, TRANSITION * self.angle).map_or(0.0, |[_, _, second]| second)
     }
 
     /// Loads on the ends of a core with these unit tangents `d3`; `None` where the windings are open.
@@ -101,21 +102,4 @@ impl BendingStop {
 /// Angle between two unit tangents, rad.
 fn bending_angle([near, far]: &[Vector3<f64>; 2]) -> f64 {
     near.cross(far).norm().atan2(near.dot(far))
-}
-
-/// `P` and its first two derivatives at `x`, with a transition from `-width` to `width`; `None` before it.
-fn transition(x: f64, width: f64) -> Option<[f64; 3]> {
-    let t = 0.5 * (x / width + 1.0);
-    if t <= 0.0 {
-        return None;
-    }
-    if t >= 1.0 {
-        return Some([0.5 * x * x + width * width / 14.0, x, 1.0]);
-    }
-    let (full, cube) = (2.0 * width, t * t * t);
-    Some([
-        full * full * cube * t * t * (t * t / 7.0 - 0.5 * t + 0.5),
-        full * cube * t * (t * t - 3.0 * t + 2.5),
-        cube * (6.0 * t * t - 15.0 * t + 10.0),
-    ])
 }

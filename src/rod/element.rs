@@ -193,7 +193,8 @@ impl Element {
         self.row_in(piece, start, s.clamp(0.0, self.length))
     }
 
-    fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
+    /// The same within a piece that begins at `start`.
+    pub(super) fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
         let rate = order(self.modes.each_ref().map(|mode| mode.values(piece, s)));
         let integral = order(self.modes.each_ref().map(|mode| mode.integrals(piece, s)));
         let mut position = Vec::new();
@@ -206,6 +207,18 @@ impl Element {
         let total = self.pieces.iter().map(|(_, nodes, _)| nodes.len()).sum();
         position.resize(total, 0.0);
         Row { arc_length: s, rate, integral, position }
+    }
+
+    /// Number of pieces.
+    pub(super) fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Length (m) of a piece, and the largest degree of the polynomials that its rows are.
+    pub(super) fn piece(&self, piece: usize) -> (f64, usize) {
+        let (length, nodes, _) = &self.pieces[piece];
+        let degree = self.modes.iter().map(Modes::count).max().unwrap_or(0);
+        (*length, nodes.len().max(degree))
     }
 
     /// Gauss nodes on [-1, 1] of a piece, and its first station.

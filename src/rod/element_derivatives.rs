@@ -111,13 +111,13 @@ impl ElementDerivatives {
                 beyond += placed.load.force * placed.row.position[index];
             }
             if second {
-                self.add_station(element, index, state, load, &beyond);
+                self.add_station(element, index, (state, configuration.growth), load, &beyond);
                 if load.stiff {
                     self.station_motion(element, index, state);
                     self.add_stiffness(load);
                 }
             } else {
-                self.add_station_gradient(element, index, state, load, &beyond);
+                self.add_station_gradient(element, index, (state, configuration.growth), load, &beyond);
             }
         }
         for placed in loads.placed {
@@ -132,19 +132,19 @@ impl ElementDerivatives {
             (START..).zip(&element.metric).zip(amplitudes).zip(&element.component)
         {
             if *component >= ROTATIONS {
-                self.gradient[row] += stiffness * amplitude;
+                self.gradient[row] += stiffness * amplitude / configuration.growth;
             }
         }
         if second {
             for coupling in loads.couplings {
                 self.add_coupling(element, loads.placed, coupling);
             }
-            self.complete(element, &whole);
+            self.complete(element, configuration.growth, &whole);
         }
     }
 
     /// Adds the second-order rotation of the start node and the strain stiffness, and fills the lower triangle.
-    fn complete(&mut self, element: &Element, whole: &Matrix3<f64>) {
+    fn complete(&mut self, element: &Element, growth: f64, whole: &Matrix3<f64>) {
         let turned = turning(whole);
         for i in 0..3 {
             for j in 0..3 {
@@ -153,7 +153,7 @@ impl ElementDerivatives {
         }
         for ((row, stiffness), component) in (START..).zip(&element.metric).zip(&element.component) {
             if *component >= ROTATIONS {
-                self.hessian[row * self.size + row] += stiffness;
+                self.hessian[row * self.size + row] += stiffness / growth;
             }
         }
         for i in 0..self.size {
@@ -189,12 +189,12 @@ impl ElementDerivatives {
         &mut self,
         element: &Element,
         index: usize,
-        state: &StationState,
+        (state, growth): (&StationState, f64),
         load: &Load,
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let (bend, rate) = bending::gradient(state, &station.stiffness, station.weight);
+        let (bend, rate) = bending::gradient(state, &station.stiffness, station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let slope = state.theta.rotation_gradient(&pull) + bend;
         let along = state.directors.tr_mul(beyond);
@@ -211,12 +211,12 @@ impl ElementDerivatives {
         &mut self,
         element: &Element,
         index: usize,
-        state: &StationState,
+        (state, growth): (&StationState, f64),
         load: &Load,
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let bend = Bending::new(state, &station.stiffness, station.weight);
+        let bend = Bending::new(state, &station.stiffness, station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let (slope, curve) = state.theta.contract_rotation(&pull);
         let slope = slope + bend.slope;

@@ -17,7 +17,7 @@ pub struct StationState {
     pub directors: Matrix3<f64>,
     /// Left Jacobian of the rotation vector.
     pub left: Matrix3<f64>,
-    /// `v = e3 +` shear and extension, in the directors.
+    /// `v = e3 +` shear and extension, in the directors, per arc length of the element's tables.
     pub stretch: Vector3<f64>,
     /// Derivative of the position with respect to arc length, `A v`.
     pub tangent: Vector3<f64>,
@@ -49,6 +49,8 @@ pub struct FrameState {
 pub struct Configuration {
     /// The Gauss points.
     pub stations: Vec<StationState>,
+    /// Its length relative to that of the element's tables: it changes where a shaft is pushed in.
+    pub growth: f64,
     /// Rotation vector from start to end.
     pub end_theta: RotationVector,
     /// Pose of the end.
@@ -79,6 +81,7 @@ impl Configuration {
         };
         let mut out = Self {
             stations: vec![state; element.stations.len()],
+            growth: 1.0,
             end_theta: RotationVector::new(Vector3::zeros()),
             end: Pose::identity(),
         };
@@ -96,7 +99,7 @@ impl Configuration {
             state.rate = rate;
             state.directors = state.theta.matrix();
             state.left = state.theta.left_jacobian();
-            state.stretch = Vector3::z() + strain;
+            state.stretch = Vector3::z() * self.growth + strain;
             state.tangent = state.directors * state.stretch;
             end += state.tangent * station.weight;
         }
@@ -130,6 +133,14 @@ impl Configuration {
         FrameState { pose, left: theta.left_jacobian(), theta }
     }
 
+    /// Position (m) and its derivative with respect to the table's arc length at a tabulated arc length, in the frame of the preceding node.
+    #[must_use]
+    pub fn curve_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
+        let (_, strain) = components(element, &row.rate, amplitudes);
+        let directors = Self::rotation_at(element, row, amplitudes).matrix();
+        (self.position_at(element, row), directors * (Vector3::z() * self.growth + strain))
+    }
+
     /// The rotation vector at a tabulated arc length.
     #[must_use]
     pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
@@ -153,6 +164,6 @@ impl Configuration {
                 energy += 0.5 * stiffness * amplitude * amplitude;
             }
         }
-        energy
+        energy / self.growth
     }
 }

@@ -72,6 +72,20 @@ impl Load {
         self.rotation_rotation + turning(&self.couple)
     }
 
+    /// The load of so many times as much.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            energy: self.energy * factor,
+            force: self.force * factor,
+            couple: self.couple * factor,
+            position_position: self.position_position * factor,
+            position_rotation: self.position_rotation * factor,
+            rotation_rotation: self.rotation_rotation * factor,
+            stiff: self.stiff,
+        }
+    }
+
     /// The load in the axes given by the columns of `axes`.
     #[must_use]
     pub fn in_axes(&self, axes: &Matrix3<f64>) -> Self {

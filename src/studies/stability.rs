@@ -102,6 +102,8 @@ impl Ray {
         for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
             let scene = Scene {
                 specification: Specification::paper(self.segments),
+                vessel: None,
+                shaft: None,
                 magnets: None,
                 inputs: self.inputs(0.0),
                 settings: Settings { interaction: self.interaction, ..Settings::default() },

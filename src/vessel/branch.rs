@@ -1,6 +1,6 @@
 //! One vessel: the union of the balls along a centreline.
 
-use core::ops::RangeInclusive;
+use core::ops::{Range, RangeInclusive};
 
 use nalgebra::{Vector3, Vector4};
 
@@ -13,6 +13,9 @@ const TURN: f64 = 0.2;
 
 /// Largest number of pieces of one interval between two points.
 const MOST_PIECES: usize = 64;
+
+/// Number of pieces in a group.
+const GROUPED: usize = 8;
 
 /// Steps of the search for the nearest ball; half of them suffice by bisection alone.
 const STEPS: usize = 100;
@@ -42,6 +45,10 @@ pub struct Branch {
     /// Centre (m) and radius (m) over the length of the chords between the points.
     curve: Spline<4>,
     pieces: Vec<Piece>,
+    /// Balls around groups of pieces.
+    groups: Vec<Group>,
+    /// A ball around all of it.
+    whole: Group,
 }
 
 /// A part of the centreline within one interval of its points.
@@ -54,6 +61,38 @@ struct Piece {
     around: f64,
     /// Largest radius of the vessel here, m.
     widest: f64,
+}
+
+/// Pieces that follow one another, with a ball around them.
+#[derive(Debug, Clone, PartialEq)]
+struct Group {
+    pieces: Range<usize>,
+    centre: Vector3<f64>,
+    around: f64,
+    widest: f64,
+}
+
+impl Group {
+    fn of(all: &[Piece], pieces: Range<usize>) -> Self {
+        let own = &all[pieces.clone()];
+        let centre = own.iter().map(|piece| piece.centre).sum::<Vector3<f64>>() / own.len() as f64;
+        let around =
+            own.iter().map(|piece| (piece.centre - centre).norm() + piece.around).fold(0.0, f64::max);
+        let widest = own.iter().map(|piece| piece.widest).fold(0.0, f64::max);
+        Self { pieces, centre, around, widest }
+    }
+
+    /// Upper bound of the clearance of a point in its balls.
+    fn bound(&self, point: &Vector3<f64>) -> f64 {
+        self.widest + self.around - (point - self.centre).norm()
+    }
+}
+
+impl Piece {
+    /// The same of a piece.
+    fn bound(&self, point: &Vector3<f64>) -> f64 {
+        self.widest + self.around - (point - self.centre).norm()
+    }
 }
 
 /// The ball that is locally the nearest to a point.
@@ -97,7 +136,10 @@ impl Branch {
         let values = points.iter().zip(radii).map(|(c, r)| Vector4::new(c.x, c.y, c.z, *r)).collect();
         let curve = Spline::new(knots, values)?;
         let pieces = pieces(&curve);
-        let branch = Self { name: name.into(), curve, pieces };
+        let starts = (0..pieces.len()).step_by(GROUPED);
+        let groups = starts.map(|i| Group::of(&pieces, i..(i + GROUPED).min(pieces.len()))).collect();
+        let whole = Group::of(&pieces, 0..pieces.len());
+        let branch = Self { name: name.into(), curve, pieces, groups, whole };
         branch.check_radii()?;
         Ok(branch)
     }
@@ -140,6 +182,13 @@ impl Branch {
         out
     }
 
+    /// Upper bound of the clearance of a point (m), at little cost.
+    pub(super) fn bound(&self, point: &Vector3<f64>) -> f64 {
+        let whole = self.whole.bound(point);
+        let groups = || self.groups.iter().map(|group| group.bound(point)).fold(f64::NEG_INFINITY, f64::max);
+        if whole < 0.0 { whole } else { groups() }
+    }
+
     /// The ball in which the point is deepest.
     fn nearest(&self, point: &Vector3<f64>) -> Nearest {
         let value = |place: &CurvePoint<4>| place.value.w - (point - place.value.xyz()).norm();
@@ -151,20 +200,28 @@ impl Branch {
                 best = Some(Nearest { place, moves: false, value });
             }
         }
-        // Pieces that may come near first, so that most others need no search.
-        let bound = |piece: &Piece| piece.widest + piece.around - (point - piece.centre).norm();
-        let hopeful = self.pieces.iter().map(|piece| (bound(piece), piece));
-        let first = hopeful.clone().max_by(|a, b| a.0.total_cmp(&b.0));
-        let others =
-            hopeful.filter(|(_, piece)| first.is_none_or(|(_, first)| !core::ptr::eq(*piece, first)));
-        for (bound, piece) in first.into_iter().chain(others) {
+        // What may be nearest comes first, so that most of the rest needs no search.
+        let by_bound = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0);
+        let groups = || self.groups.iter().enumerate().map(|(number, group)| (group.bound(point), number));
+        let first = groups().max_by(by_bound).map_or(0, |(_, number)| number);
+        let others = groups().filter(|(_, number)| *number != first);
+        for (bound, number) in [(f64::INFINITY, first)].into_iter().chain(others) {
             if best.as_ref().is_some_and(|best| bound <= best.value) {
                 continue;
             }
-            if let Some(place) = self.local_maximum(piece, point) {
-                let value = value(&place);
-                if best.as_ref().is_none_or(|best| value > best.value) {
-                    best = Some(Nearest { place, moves: true, value });
+            let range = self.groups[number].pieces.clone();
+            let pieces = || range.clone().map(|number| (self.pieces[number].bound(point), number));
+            let first = pieces().max_by(by_bound).map_or(0, |(_, number)| number);
+            let others = pieces().filter(|(_, number)| *number != first);
+            for (bound, number) in [(f64::INFINITY, first)].into_iter().chain(others) {
+                if best.as_ref().is_some_and(|best| bound <= best.value) {
+                    continue;
+                }
+                if let Some(place) = self.local_maximum(&self.pieces[number], point) {
+                    let value = value(&place);
+                    if best.as_ref().is_none_or(|best| value > best.value) {
+                        best = Some(Nearest { place, moves: true, value });
+                    }
                 }
             }
         }

@@ -143,8 +143,18 @@ impl Lumen {
 
 /// The smooth maximum of several clearances.
 fn union(branches: &[Branch], merged: f64, point: &Vector3<f64>) -> Clearance {
-    let each: Vec<Clearance> = branches.iter().map(|branch| branch.clearance(point)).collect();
-    let largest = each.iter().map(|own| own.value).fold(f64::NEG_INFINITY, f64::max);
+    // Branches too far away to count are left out.
+    let bounds: Vec<f64> = branches.iter().map(|branch| branch.bound(point)).collect();
+    let nearest = (0..bounds.len()).max_by(|a, b| bounds[*a].total_cmp(&bounds[*b])).unwrap_or(0);
+    let mut each = vec![branches[nearest].clearance(point)];
+    let mut largest = each[0].value;
+    for (number, branch) in branches.iter().enumerate() {
+        if number != nearest && bounds[number] > largest + merged * NEGLIGIBLE.ln() {
+            let own = branch.clearance(point);
+            largest = largest.max(own.value);
+            each.push(own);
+        }
+    }
     let shares = each.iter().map(|own| ((own.value - largest) / merged).exp());
     let sum: f64 = shares.clone().sum();
     let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());

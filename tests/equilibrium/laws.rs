@@ -56,6 +56,7 @@ fn moved(inputs: &Inputs, turn: &Matrix3<f64>, shift: &Vector3<f64>) -> Inputs {
         tip_moment: turn * inputs.tip_moment,
         ring_forces: inputs.ring_forces.iter().map(|force| turn * force).collect(),
         gravity: turn * inputs.gravity,
+        ..*inputs
     }
 }
 

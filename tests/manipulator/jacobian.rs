@@ -52,6 +52,7 @@ fn inputs_and_sizes(rings: usize) -> Vec<(Input, f64)> {
         (Input::Gravity, 10.0),
         (Input::BasePosition, 0.05),
         (Input::BaseRotation, 1.0),
+        (Input::Roll, 1.0),
     ];
     all.extend((0..rings).map(|ring| (Input::RingForce(ring), 0.005)));
     all
@@ -72,6 +73,8 @@ fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
         Input::Gravity => out.gravity[axis] += by,
         Input::BasePosition => out.base.position[axis] += by,
         Input::BaseRotation => out.base.rotation = turn() * out.base.rotation,
+        Input::Roll => out.roll += by,
+        Input::VesselPosition | Input::VesselRotation => unreachable!("not among the inputs"),
         Input::RingForce(ring) => out.ring_forces[ring][axis] += by,
     }
     out

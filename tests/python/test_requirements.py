@@ -21,6 +21,7 @@ FILES = [
     "tests/requirements.txt",
     "tests/bench/requirements.txt",
     "tests/bench/finite_elements.txt",
+    "tests/bench/mujoco.txt",
 ]
 FOLDERS = ["fmu", "fmu/examples", "tests/charts", "tests/bench", "tests/python"]
 PROGRAMS = {path.stem: path for folder in FOLDERS for path in sorted((PACKAGE / folder).glob("*.py"))}

@@ -16,3 +16,35 @@ pub(crate) const GRID_OUTSIDE: [f64; 2] = [1e-7, 0.01];
 /// Jumps of value (m), gradient and second derivative (1/m) where the grid changes: rounding of some centimetres to single
 /// precision, over powers of half a millimetre.
 pub(crate) const GRID_ACROSS_LEVELS: [f64; 3] = [2e-9, 1e-5, 0.1];
+
+/// Tip of a rod in a stiff tube beside the rigid limit, relative to its length.
+pub(crate) const STIFF_TIP: f64 = 1e-5;
+
+/// Sum of the wall's forces there, relative.
+pub(crate) const STIFF_FORCE: f64 = 1e-3;
+
+/// Push that holds a shaft, relative to the force at the port.
+pub(crate) const FEED_FORCE: f64 = 1e-4;
+
+/// Closed forms of small slopes, relative.
+pub(crate) const WALL_CLOSED_FORM: f64 = 1e-4;
+
+/// Balance of all forces, relative to the sum of the wall's: the residual of a solve.
+pub(crate) const WALL_BALANCE: f64 = 1e-9;
+
+/// Gradient in contact beside differences of the energy, relative; the Gauss points move with the shape.
+pub(crate) const CONTACT_SLOPE: f64 = 1e-6;
+
+/// Hessian in contact beside differences of the gradient, relative.
+pub(crate) const CONTACT_RATE: f64 = 1e-4;
+
+/// Tip of a scene that is moved as a whole, m.
+pub(crate) const WALL_MOVED: f64 = 1e-11;
+
+/// A shaft that is just at its port beside a clamp: m, N and N m.
+pub(crate) const CLAMPED: f64 = 1e-6;
+/// Measures of arteries searched in steps of 0.02 mm, m; that their walls taper counts less.
+pub(crate) const MEASURE: f64 = 6e-5;
+
+/// Angles between arteries, rad: a spline turns a little already before a bend begins.
+pub(crate) const MEASURED_ANGLE: f64 = 1e-3;

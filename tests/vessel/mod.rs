@@ -1,9 +1,13 @@
 //! Distance to the wall of a vessel.
 
+mod aorta;
 mod branch;
+mod contact;
+mod feed;
 mod grid;
 mod lumen;
 mod mesh;
+mod rods;
 mod stl;
 mod tube;
 

@@ -95,6 +95,16 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
         ("ring_positions_m", outputs.rings.iter().map(|ring| vector(&ring.position)).collect()),
         ("core_angles_rad", json!(outputs.core_angles)),
         ("shape_m", outputs.shape.iter().map(vector).collect()),
+        ("contact_force_n", json!(outputs.wall.as_ref().map(|wall| vector(&wall.force)))),
+        ("contact_count", json!(outputs.wall.as_ref().map(|wall| wall.count))),
+        ("largest_contact_force_n", json!(outputs.wall.as_ref().map(|wall| wall.largest_force))),
+        ("largest_indentation_m", json!(outputs.wall.as_ref().map(|wall| wall.largest_indentation))),
+        (
+            "ring_contact_forces_n",
+            json!(outputs.wall.as_ref().map(|wall| wall.rings.iter().map(vector).collect::<Vec<_>>())),
+        ),
+        ("feed_length_m", json!(outputs.feed_length)),
+        ("feed_reaction_force_n", json!(outputs.feed_reaction)),
         ("stable", json!(outputs.stable)),
         ("stability_margin", json!(outputs.stability_margin)),
         ("snaps", json!(outputs.snaps)),
@@ -168,6 +178,22 @@ fn as_table(outputs: &Outputs) -> String {
         "unknown" => "stability unknown: this model has no potential",
         known => known,
     };
+    let contacts = |outputs: &Outputs| {
+        let wall = outputs.wall.as_ref().map(|wall| {
+            [
+                row("contacts with the wall", wall.count.to_string(), ""),
+                vector("force of the wall", &wall.force, 1e3, "mN"),
+                row("largest contact force", format!("{:.4}", 1e3 * wall.largest_force), "mN"),
+                row("largest indentation", format!("{:.4}", 1e6 * wall.largest_indentation), "um"),
+            ]
+            .concat()
+        });
+        let feed = outputs.feed_length.zip(outputs.feed_reaction).map(|(length, push)| {
+            row("inserted length", format!("{:.4}", 1e3 * length), "mm")
+                + &row("push at the port", format!("{:.4}", 1e3 * push), "mN")
+        });
+        [wall, feed].into_iter().flatten().collect::<String>()
+    };
     let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
     [
         format!("{status}; {stable}; {search}\n"),
@@ -182,6 +208,7 @@ fn as_table(outputs: &Outputs) -> String {
         vector("magnet reaction force", &outputs.magnet_reaction_force, 1e3, "mN"),
         vector("magnet reaction torque", &outputs.magnet_reaction_torque, 1e6, "mN.mm, about its centre"),
         vector("external field at tip", &outputs.tip_field, 1e3, "mT"),
+        contacts(outputs),
         row("stability margin", format!("{:.4}", outputs.stability_margin), "of the unloaded shape's"),
         row("error estimate", format!("{:.4}", outputs.error_estimate * 1e6), "um, of the tip position"),
         row("snaps", outputs.snaps.to_string(), ""),

@@ -13,6 +13,7 @@ mod magnet;
 mod pair;
 mod ring_pairs;
 mod rings_on_spans;
+mod walls;
 mod weight;
 
 use nalgebra::{Matrix3, Vector3};
@@ -24,6 +25,7 @@ use super::settings::Settings;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, Wrench};
 use crate::rod::{Load, Order};
+use crate::vessel::Vessel;
 
 pub(crate) use applied::Applied;
 pub(crate) use background::Background;
@@ -34,6 +36,7 @@ pub(crate) use magnet::Magnet;
 pub(crate) use pair::blocks;
 pub(crate) use ring_pairs::{RingPairs, overlap};
 pub(crate) use rings_on_spans::{Mixed, RingsOnSpans};
+pub(crate) use walls::{Touch, Walls};
 pub(crate) use weight::Weight;
 
 /// A term that acts on single frames.
@@ -68,6 +71,7 @@ pub(crate) struct Terms<'a> {
     pub(crate) pairs: RingPairs<'a>,
     pub(crate) spans: RingsOnSpans<'a>,
     pub(crate) stops: BendingStops,
+    pub(crate) walls: Walls<'a>,
 }
 
 impl<'a> Terms<'a> {
@@ -87,7 +91,13 @@ impl<'a> Terms<'a> {
             pairs: RingPairs::new(chain, settings.interaction, rules),
             spans: RingsOnSpans::new(chain, settings.interaction, rules),
             stops: BendingStops::new(settings),
+            walls: Walls::new(inputs),
         }
+    }
+
+    /// The same in a vessel.
+    pub(crate) fn in_vessel(self, vessel: Option<&'a Vessel>) -> Self {
+        Self { walls: self.walls.of(vessel), ..self }
     }
 
     /// The terms that act on single frames.

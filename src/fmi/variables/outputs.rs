@@ -33,11 +33,11 @@ fn outcome_number(outcome: Outcome) -> i32 {
     }
 }
 
-fn count(number: u32) -> i32 {
+pub(super) fn count(number: u32) -> i32 {
     i32::try_from(number).unwrap_or(i32::MAX)
 }
 
-fn real(
+pub(super) fn real(
     name: impl Into<String>,
     quantity: Quantity,
     description: &str,
@@ -46,7 +46,7 @@ fn real(
     Draft::output(name, quantity, description, Access::RealOutput(get))
 }
 
-fn integer(name: &str, description: &str, get: fn(&Outputs) -> i32) -> Draft {
+pub(super) fn integer(name: &str, description: &str, get: fn(&Outputs) -> i32) -> Draft {
     Draft::output(name, DataType::Integer, description, Access::IntegerOutput(get))
 }
 

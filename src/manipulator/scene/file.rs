@@ -4,6 +4,8 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::spiral_start::SpiralStartEntry;
+use super::tube::BackboneEntries;
+use super::vessel::{FeedEntries, VesselEntries};
 use crate::equilibrium::{Interaction, Settings};
 use crate::methods::Method;
 
@@ -21,6 +23,10 @@ pub struct SceneFile {
     pub(super) load: LoadEntries,
     pub(super) gravity: GravityEntries,
     pub(super) model: ModelEntries,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) vessel: Option<VesselEntries>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) feed: Option<FeedEntries>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -132,25 +138,6 @@ impl Default for RingEntries {
     fn default() -> Self {
         Self { length_mm: 1.0, remanence_t: 1.35, recoil_permeability: 1.0, density_kg_m3: 7000.0 }
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BackboneEntries {
-    pub(super) outer_radius_mm: f64,
-    pub(super) inner_radius_mm: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) shore_a: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) elastic_modulus_mpa: Option<f64>,
-    pub(super) poisson: f64,
-    #[serde(default = "water")]
-    pub(super) density_kg_m3: f64,
-}
-
-/// Density of a polymer tube without filler, rounded, kg/m3.
-fn water() -> f64 {
-    1000.0
 }
 
 /// Default axis of rotation: a right-handed rotation about it takes +z to +y.

@@ -7,16 +7,19 @@ mod path;
 mod resolve;
 mod spiral_start;
 mod text;
+mod tube;
 mod units;
+mod vessel;
 
 pub use file::SceneFile;
 
 use super::{Compared, Inputs, Manipulator, Solve};
-use crate::design::{Design, Specification};
+use crate::design::{Backbone, Design, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::methods::{self, Method};
+use crate::vessel::Vessel;
 
 /// Everything that one solve needs, in SI units.
 ///
@@ -39,7 +42,11 @@ pub struct Scene {
     pub specification: Specification,
     /// The cylinders of the external magnet; `None` for no magnet.
     pub magnets: Option<Vec<AxialMagnet>>,
-    /// Fields, loads and base pose.
+    /// The vessel that the manipulator is in; `None` for none.
+    pub vessel: Option<Vessel>,
+    /// The shaft behind the base; `None` for a manipulator that is clamped there.
+    pub shaft: Option<Backbone>,
+    /// Fields, loads, base pose and insertion.
     pub inputs: Inputs,
     /// Model settings and solver settings of the potential method.
     pub settings: Settings,
@@ -63,7 +70,11 @@ impl Scene {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn design(&self) -> Result<Design, Error> {
-        Design::new(self.specification.clone())
+        let design = Design::new(self.specification.clone())?;
+        match &self.shaft {
+            Some(shaft) => design.with_shaft(shaft),
+            None => Ok(design),
+        }
     }
 
     /// The checked external magnet, if there is one.
@@ -88,7 +99,11 @@ impl Scene {
             )));
         }
         let magnet = self.assembly()?;
-        Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)
+        let made = Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)?;
+        Ok(match &self.vessel {
+            Some(vessel) => made.in_vessel(vessel),
+            None => made,
+        })
     }
 
     /// A manipulator of this scene solved by the method that the scene names, unsolved.
@@ -109,6 +124,12 @@ impl Scene {
     pub fn device(&self, shape_points: usize) -> Result<Box<dyn Solve>, Error> {
         if self.solver.method == Method::Potential {
             return Ok(self.manipulator(shape_points)?.into());
+        }
+        if self.vessel.is_some() || self.shaft.is_some() {
+            let given = self.solver.method.name();
+            return Err(Error::Unsupported(format!(
+                "a vessel and a shaft need method \"potential\", not \"{given}\""
+            )));
         }
         let (design, magnet) = (self.design()?, self.assembly()?);
         Ok(Compared::new(&design, magnet.as_ref(), self.settings, self.solver, shape_points)?.into())

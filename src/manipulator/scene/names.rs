@@ -62,7 +62,7 @@ impl Unit {
 
 /// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
 /// cylinder.
-const KEYS: [(&str, &str); 37] = [
+const KEYS: [(&str, &str); 44] = [
     ("number of segments", "design.segments"),
     ("helix length L (m)", "design.helix.length_mm"),
     ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
@@ -95,6 +95,13 @@ const KEYS: [(&str, &str); 37] = [
     ("particle remanence B_r (T)", "design.particle_remanence_t"),
     ("cylinder remanence (T)", "design.remanence_t"),
     ("density (kg/m3)", "design.density_kg_m3"),
+    ("shaft outer radius (m)", "feed.shaft.outer_radius_mm"),
+    ("shaft inner radius (m)", "feed.shaft.inner_radius_mm"),
+    ("Shore A hardness", "feed.shaft.shore_a"),
+    ("Young's modulus (Pa)", "feed.shaft.elastic_modulus_mpa"),
+    ("Poisson's ratio", "feed.shaft.poisson"),
+    ("density (kg/m3)", "feed.shaft.density_kg_m3"),
+    ("vessel wall modulus (Pa)", "vessel.wall_modulus_mpa"),
     ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm"),
     ("magnet inner radius (m)", "magnet.cylinders[*].inner_radius_mm"),
     ("magnet length (m)", "magnet.cylinders[*].length_mm"),

@@ -4,15 +4,16 @@ use nalgebra::{Matrix3, Vector3};
 use toml::Value;
 
 use super::file::{
-    BackboneEntries, DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries,
-    RingEntries, SceneFile, SpiralName,
+    DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries, RingEntries,
+    SceneFile, SpiralName,
 };
 use super::spiral_start::SpiralStartEntry;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
+use super::vessel::{FeedMode, VesselEntries};
 use super::{Scene, names};
 use crate::design::{
-    Backbone, Cylinder, CylinderMaterial, Design, Helix, Modulus, RingMagnet, Segmented, Specification,
-    SpiralKind, SpiralStart,
+    Backbone, Cylinder, CylinderMaterial, Design, Helix, RingMagnet, Segmented, Specification, SpiralKind,
+    SpiralStart,
 };
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
@@ -20,9 +21,13 @@ use crate::geometry::{Pose, RotationVector};
 use crate::magnetics::{Assembly, AxialMagnet};
 use crate::manipulator::Inputs;
 use crate::methods;
+use crate::vessel::Vessel;
 
 /// Largest turn, deg: a hundred times round. Of a larger one too few digits would be left.
 const LARGEST_TURN: f64 = 36_000.0;
+
+/// Relative depth in the wall that a device at rest on it may have by rounding of its numbers.
+const ROUNDED: f64 = 1e-6;
 
 /// Distance of the magnet's axis below the manipulator's middle when no position is given, m.
 const MAGNET_DISTANCE: f64 = 0.12;
@@ -81,8 +86,13 @@ impl SceneFile {
             Error::Range { .. } => error,
             of_the_list => Error::Unsupported(format!("magnet.cylinders: {of_the_list}")),
         })?;
+        let vessel = self.vessel.as_ref().map(VesselEntries::si).transpose()?;
+        let shaft = self.shaft(&specification)?;
+        if let Some(vessel) = &vessel {
+            fits(&Design::new(specification.clone())?, vessel, &inputs)?;
+        }
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
-        Ok(Scene { specification, magnets, inputs, settings: self.settings()?, solver })
+        Ok(Scene { specification, magnets, vessel, shaft, inputs, settings: self.settings()?, solver })
     }
 
     /// Fills in the entry that `key` names if it was omitted because it follows from the design.
@@ -118,6 +128,9 @@ impl SceneFile {
         inputs.field_gradient = gradient_t_per_m;
         let base = pose("base", in_metres(self.base.position_mm), self.base.orientation_wxyz)?;
         inputs.base = turned(&turn("base", self.base.turn_axis, self.base.turn_deg)?, base);
+        if let Some(feed) = &self.feed {
+            (inputs.insertion, inputs.roll) = (feed.insertion_mm / MM_PER_M, feed.roll_deg.to_radians());
+        }
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
         inputs.gravity = self.gravity.acceleration_m_s2.into();
@@ -132,6 +145,35 @@ impl SceneFile {
             inputs.ring_forces = forces.iter().map(|&force| force.into()).collect();
         }
         Ok(inputs)
+    }
+
+    /// The shaft that is pushed in: its own table, or the backbone that goes on behind the base.
+    fn shaft(&self, specification: &Specification) -> Result<Option<Backbone>, Error> {
+        let Some(feed) = &self.feed else { return Ok(None) };
+        let turn = |v: f64| v.abs() <= LARGEST_TURN;
+        check("feed.roll_deg", feed.roll_deg, turn, "from -36000 to 36000")?;
+        if feed.mode == FeedMode::Clamped {
+            check(
+                "feed.insertion_mm",
+                feed.insertion_mm,
+                |v| v == 0.0,
+                "0 unless feed.mode = \"insertion\"",
+            )?;
+            return match feed.shaft {
+                Some(_) => Err(Error::Unsupported("feed.shaft needs feed.mode = \"insertion\"".into())),
+                None => Ok(None),
+            };
+        }
+        check("feed.insertion_mm", feed.insertion_mm, |v| (0.0..=1000.0).contains(&v), "from 0 to 1000")?;
+        if let Some(shaft) = feed.shaft {
+            return Ok(Some(shaft.si("feed.shaft")?));
+        }
+        match specification {
+            Specification::Segmented(Segmented { backbone: Some(backbone), .. }) => Ok(Some(*backbone)),
+            _ => Err(Error::Unsupported(
+                "feed.shaft is missing: without design.backbone, there is no tube that goes on behind the base".into(),
+            )),
+        }
     }
 
     fn settings(&self) -> Result<Settings, Error> {
@@ -178,7 +220,7 @@ impl DesignEntries {
                 },
                 helix: self.helix.unwrap_or_default().si(),
                 ring: self.ring.unwrap_or_default().si(),
-                backbone: self.backbone.map(BackboneEntries::si).transpose()?,
+                backbone: self.backbone.map(|entries| entries.si("design.backbone")).transpose()?,
             }),
             DesignKind::Cylinder => Specification::Cylinder(Cylinder {
                 length: required("design.length_mm", self.length_mm)? / MM_PER_M,
@@ -251,6 +293,22 @@ impl DesignEntries {
     }
 }
 
+/// Checks that a device fits into its vessel where it starts.
+fn fits(design: &Design, vessel: &Vessel, inputs: &Inputs) -> Result<(), Error> {
+    let radius = design.largest_radius();
+    let clearance = vessel.lumen.clearance(&inputs.base.position).value;
+    let allowed =
+        format!(">= {:.4}, the radius of the device: it does not fit in where it starts", radius * MM_PER_M);
+    let fits = |v: f64| v >= radius * MM_PER_M * (1.0 - ROUNDED);
+    check(
+        "distance of base.position_mm from the wall of the vessel (mm)",
+        clearance * MM_PER_M,
+        fits,
+        &allowed,
+    )?;
+    Ok(())
+}
+
 fn refuse(keys: &[(&str, bool)], reason: &str) -> Result<(), Error> {
     match keys.iter().find(|(_, present)| *present) {
         Some((key, _)) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
@@ -288,27 +346,6 @@ impl RingEntries {
             recoil_permeability: self.recoil_permeability,
             density: self.density_kg_m3,
         }
-    }
-}
-
-impl BackboneEntries {
-    fn si(self) -> Result<Backbone, Error> {
-        let modulus = match (self.shore_a, self.elastic_modulus_mpa) {
-            (Some(hardness), None) => Modulus::ShoreA(hardness),
-            (None, Some(modulus)) => Modulus::Elastic(modulus * PA_PER_MPA),
-            _ => {
-                return Err(Error::Unsupported(
-                    "design.backbone needs either shore_a or elastic_modulus_mpa, and not both".into(),
-                ));
-            }
-        };
-        Ok(Backbone {
-            outer_radius: self.outer_radius_mm / MM_PER_M,
-            inner_radius: self.inner_radius_mm / MM_PER_M,
-            modulus,
-            poisson: self.poisson,
-            density: self.density_kg_m3,
-        })
     }
 }
 

@@ -1,0 +1,54 @@
+//! What the wall of a vessel does to the manipulator.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::solver::Equilibrium;
+use super::wall_loads::Site;
+
+/// Forces of the wall on the manipulator, world axes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WallForces {
+    /// Number of separate contacts: each ring, each arc of soft material or shaft, and a round tip.
+    pub count: usize,
+    /// Total force, N.
+    pub force: Vector3<f64>,
+    /// Sum of the magnitudes of all local forces, N.
+    pub sum: f64,
+    /// Force of the contact with the largest force, N.
+    pub largest_force: f64,
+    /// Largest depth in the wall, m.
+    pub largest_indentation: f64,
+    /// Force on each ring, base to tip, N.
+    pub rings: Vec<Vector3<f64>>,
+}
+
+impl Equilibrium {
+    /// Forces of the wall at the last solved shape; `None` without a vessel.
+    pub(super) fn wall_forces(&self) -> Option<WallForces> {
+        self.around.as_ref()?;
+        let mut out = WallForces {
+            count: 0,
+            force: Vector3::zeros(),
+            sum: 0.0,
+            largest_force: 0.0,
+            largest_indentation: 0.0,
+            rings: vec![Vector3::zeros(); self.chain.rings.len()],
+        };
+        let contacts = &self.work.walls.contacts;
+        for own in contacts.chunk_by(|a, b| a.site == b.site) {
+            let force: Vector3<f64> = own.iter().map(|contact| contact.force).sum();
+            out.count += 1;
+            out.force += force;
+            out.largest_force = out.largest_force.max(force.norm());
+            if let Site::Ring(number) = own[0].site {
+                out.rings[number] = force;
+            }
+        }
+        for contact in contacts {
+            out.sum += contact.force.norm();
+            out.largest_indentation = out.largest_indentation.max(contact.depth);
+        }
+        Some(out)
+    }
+}

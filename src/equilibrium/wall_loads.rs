@@ -1,0 +1,126 @@
+//! Loads of the vessel's wall on the chain: on its arcs, on the rims of its rings and on its tip.
+
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+
+use super::potential::Potential;
+use super::terms::Touch;
+use super::wall_search::ArcPart;
+use crate::numerics::quadrature::gauss_legendre;
+use crate::rod::{Load, PlacedLoad};
+
+/// Gauss points of a part of an arc in contact.
+const POINTS: usize = 4;
+
+/// Where the chain touches the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Site {
+    /// The rims of a ring, by its number.
+    Ring(usize),
+    /// An arc, by its number.
+    Arc(usize),
+    /// The round end of a chain that ends without a ring.
+    Tip,
+}
+
+/// Contact with the wall at one place, or at one Gauss point of an arc.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct WallContact {
+    pub(super) site: Site,
+    /// Force of the wall on the chain, N, world axes.
+    pub(super) force: Vector3<f64>,
+    /// Depth in the wall, m.
+    pub(super) depth: f64,
+}
+
+impl WallContact {
+    fn new(site: Site, touch: &Touch) -> Self {
+        Self { site, force: -touch.load.force, depth: touch.depth }
+    }
+}
+
+/// All contacts with the wall at the shape evaluated last.
+#[derive(Debug, Clone, Default)]
+pub(super) struct WallLoads {
+    pub(super) contacts: Vec<WallContact>,
+    /// Loads on nodes, in world axes.
+    pub(super) on_nodes: Vec<(usize, Load)>,
+    parts: Vec<ArcPart>,
+}
+
+impl Potential<'_> {
+    /// Adds the loads of the wall; returns the energy of those that are not on nodes.
+    pub(super) fn load_walls(&mut self, unknowns: &[f64]) -> f64 {
+        self.work.walls.contacts.clear();
+        self.work.walls.on_nodes.clear();
+        if !self.terms.walls.exist() {
+            return 0.0;
+        }
+        self.load_rims();
+        self.load_tip();
+        self.load_arcs(unknowns)
+    }
+
+    fn load_rims(&mut self) {
+        let (walls, mut found) = (self.terms.walls, Vec::new());
+        for (number, body) in self.chain.rings.iter().enumerate() {
+            let node = self.work.nodes[body.node];
+            for height in [0.0, body.ring.length] {
+                walls.rim(&node, height, body.ring.outer_radius, &mut found);
+            }
+            for touch in found.drain(..) {
+                self.load_node(body.node, Site::Ring(number), &touch);
+            }
+        }
+    }
+
+    fn load_tip(&mut self) {
+        let last = self.chain.elements.len();
+        let Some(radius) = self.chain.round_end() else { return };
+        let touch = self.terms.walls.tip(&self.work.nodes[last].position, radius);
+        if let Some(touch) = touch.filter(|touch| touch.depth > 0.0) {
+            self.load_node(last, Site::Tip, &touch);
+        }
+    }
+
+    fn load_node(&mut self, node: usize, site: Site, touch: &Touch) {
+        self.work.node_loads[node] += touch.load;
+        self.work.walls.on_nodes.push((node, touch.load));
+        if let Some(before) = node.checked_sub(1) {
+            let lever = self.chain.elements[before].length * self.work.configurations[before].growth;
+            self.work.placed_loads[before].abrupt += touch.stiffness * lever * lever;
+        }
+        self.work.walls.contacts.push(WallContact::new(site, touch));
+    }
+
+    fn load_arcs(&mut self, unknowns: &[f64]) -> f64 {
+        let Some(surface) = self.surface else { return 0.0 };
+        let mut parts = std::mem::take(&mut self.work.walls.parts);
+        self.find_arcs(surface, unknowns, &mut parts);
+        let (places, weights) = gauss_legendre(POINTS);
+        let (mut energy, work) = (0.0, &mut *self.work);
+        for ArcPart { on: (k, piece), ends: [from, to], arc } in &parts {
+            let (element, amplitudes, node) =
+                (&self.chain.elements[*k], self.chain.part(*k, unknowns), work.nodes[*k]);
+            let (surface, half) = (&surface.elements[*k], 0.5 * (to - from));
+            let growth = work.configurations[*k].growth;
+            for (x, weight) in places.iter().zip(&weights) {
+                let row = self.chain.tables()[*k].row(*piece, from + half * (1.0 + x));
+                let frame = work.configurations[*k].frame_at(element, &row, amplitudes);
+                let point = node.transform(&frame.pose.position);
+                let radius = surface.pieces[*piece].radius;
+                let touch = self.terms.walls.rod(&point, radius, growth * half * weight);
+                let Some(touch) = touch.filter(|touch| touch.depth > 0.0) else { continue };
+                energy += touch.load.energy;
+                work.walls.contacts.push(WallContact::new(Site::Arc(*arc), &touch));
+                let placed = &mut work.placed_loads[*k];
+                placed.abrupt += touch.stiffness * (growth * element.length).powi(2);
+                let load = touch.load.in_axes(&node.rotation);
+                placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
+            }
+        }
+        work.walls.parts = parts;
+        energy
+    }
+}

@@ -1,0 +1,109 @@
+//! Variables of shaft and vessel: only the FMU of a scene that has them has these.
+
+use super::super::derivative_role::DerivativeRole;
+use super::super::host_values::{FeedMode, HostValues};
+use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS};
+use super::super::value::{DataType, Enumeration, Item};
+use super::super::variable::Access;
+use super::outputs::{count, integer, real};
+use super::rows::{Draft, Rows};
+use super::{Counts, access};
+use crate::manipulator::Input;
+
+/// How the device is held at its base.
+static FEED: Enumeration = Enumeration {
+    name: "FeedMode",
+    description: "How the device is held at its base",
+    items: &[
+        Item {
+            name: "clamped",
+            value: FeedMode::Clamped as i32,
+            description: "The base holds the first body",
+        },
+        Item {
+            name: "insertion",
+            value: FeedMode::Insertion as i32,
+            description: "The base is a port through which a shaft of given length is pushed in",
+        },
+    ],
+};
+
+impl Rows {
+    /// Inputs of a shaft.
+    pub(super) fn feed_inputs(&mut self, start: &HostValues) {
+        if start.shaft.is_none() {
+            return;
+        }
+        let insertion = access!(|values| values.insertion);
+        let description = "Length of shaft inside the port, whose pose is that of the base";
+        self.scalar(Draft::input("feed.insertion", LENGTH, description, insertion).min(0.0).max(1.0));
+        let roll = access!(|values| values.roll);
+        let draft = Draft::input("feed.roll", ANGLE, "Turn of the shaft about its axis in the port", roll);
+        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::Roll)));
+    }
+
+    /// Parameters of shaft and vessel.
+    pub(super) fn vessel_parameters(&mut self, start: &HostValues) {
+        if start.shaft.is_some() {
+            let mode = Access::Enumeration {
+                get: |values| values.feed_mode as i32,
+                set: |values, number| {
+                    let clamped = number == FeedMode::Clamped as i32;
+                    values.feed_mode = if clamped { FeedMode::Clamped } else { FeedMode::Insertion };
+                },
+            };
+            let description = "How the device is held at its base";
+            self.scalar(Draft::parameter("feed.mode", DataType::Enumeration(&FEED), description, mode));
+        }
+        if start.vessel.is_some() {
+            let modulus = access!(|values| values.wall_modulus);
+            let draft =
+                Draft::parameter("vessel.wall_modulus", MODULUS, "Young's modulus of the wall", modulus);
+            self.scalar(draft.min(0.0));
+        }
+    }
+
+    /// Outputs of shaft and vessel.
+    pub(super) fn vessel_outputs(&mut self, start: &HostValues, counts: &Counts) {
+        if start.shaft.is_some() {
+            let description = "Length of shaft inside the port";
+            self.scalar(
+                real("feed.length", LENGTH, description, |o, _| o.feed_length.unwrap_or(0.0)).min(0.0),
+            );
+            let description =
+                "Push that holds the shaft: derivative of the potential energy by the inserted length";
+            self.scalar(real("feed.reaction_force", FORCE, description, |o, _| {
+                o.feed_reaction.unwrap_or(0.0)
+            }));
+        }
+        if start.vessel.is_none() {
+            return;
+        }
+        let description = "Separate contacts with the wall";
+        self.scalar(
+            integer("contact.count", description, |o| {
+                o.wall.as_ref().map_or(0, |wall| count(u32::try_from(wall.count).unwrap_or(u32::MAX)))
+            })
+            .min(0.0),
+        );
+        let force = real("contact.force", FORCE, "Total force of the wall", |o, index| {
+            o.wall.as_ref().map_or(0.0, |wall| wall.force[index.component])
+        });
+        self.array(3, &force);
+        let description = "Force of the contact with the largest one";
+        let largest =
+            |o: &crate::manipulator::Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_force);
+        self.scalar(real("contact.largest_force", FORCE, description, largest).min(0.0));
+        let description = "Largest depth in the wall";
+        let deepest =
+            |o: &crate::manipulator::Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_indentation);
+        self.scalar(real("contact.largest_indentation", LENGTH, description, deepest).min(0.0));
+        for ring in 0..counts.rings {
+            let name = format!("ring[{}].contact_force", ring + 1);
+            let force = real(name, FORCE, "Force of the wall on the ring", |o, index| {
+                o.wall.as_ref().map_or(0.0, |wall| wall.rings[index.item][index.component])
+            });
+            self.array_of(ring, 3, &force);
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Tables of tubes: the backbone through all bodies, and the shaft behind the base.
+
+use serde::{Deserialize, Serialize};
+
+use super::units::{MM_PER_M, PA_PER_MPA};
+use crate::design::{Backbone, Modulus};
+use crate::error::Error;
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BackboneEntries {
+    pub(super) outer_radius_mm: f64,
+    pub(super) inner_radius_mm: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) shore_a: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) elastic_modulus_mpa: Option<f64>,
+    pub(super) poisson: f64,
+    #[serde(default = "water")]
+    pub(super) density_kg_m3: f64,
+}
+
+/// Density of a polymer tube without filler, rounded, kg/m3.
+fn water() -> f64 {
+    1000.0
+}
+
+impl BackboneEntries {
+    /// The tube of the table of this name.
+    pub(super) fn si(self, table: &str) -> Result<Backbone, Error> {
+        let modulus = match (self.shore_a, self.elastic_modulus_mpa) {
+            (Some(hardness), None) => Modulus::ShoreA(hardness),
+            (None, Some(modulus)) => Modulus::Elastic(modulus * PA_PER_MPA),
+            _ => {
+                return Err(Error::Unsupported(format!(
+                    "{table} needs either shore_a or elastic_modulus_mpa, and not both"
+                )));
+            }
+        };
+        Ok(Backbone {
+            outer_radius: self.outer_radius_mm / MM_PER_M,
+            inner_radius: self.inner_radius_mm / MM_PER_M,
+            modulus,
+            poisson: self.poisson,
+            density: self.density_kg_m3,
+        })
+    }
+}

@@ -1,0 +1,83 @@
+//! Tables `[vessel]` and `[feed]` of a scene: the vessel's lumen and wall, and the shaft that is pushed in.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::tube::BackboneEntries;
+use super::units::{MM_PER_M, PA_PER_MPA};
+use crate::error::Error;
+use crate::vessel::{Branch, Lumen, Vessel, Wall};
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct VesselEntries {
+    pub(super) wall_modulus_mpa: f64,
+    pub(super) friction: f64,
+    pub(super) branch: Vec<BranchEntries>,
+}
+
+impl Default for VesselEntries {
+    /// A soft silicone, oiled.
+    fn default() -> Self {
+        Self { wall_modulus_mpa: 1.0, friction: 0.0, branch: Vec::new() }
+    }
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct BranchEntries {
+    pub(super) name: String,
+    pub(super) points_mm: Vec<[f64; 3]>,
+    pub(super) radius_mm: RadiusEntry,
+}
+
+/// One radius for all points, or one for each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a number, or a list with one number for each point")]
+pub(super) enum RadiusEntry {
+    Same(f64),
+    Each(Vec<f64>),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum FeedMode {
+    #[default]
+    Clamped,
+    Insertion,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct FeedEntries {
+    pub(super) mode: FeedMode,
+    pub(super) insertion_mm: f64,
+    pub(super) roll_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) shaft: Option<BackboneEntries>,
+}
+
+impl VesselEntries {
+    pub(super) fn si(&self) -> Result<Vessel, Error> {
+        if self.friction != 0.0 {
+            return Err(Error::Unsupported(format!(
+                "vessel.friction = {} is not available in this version: walls are without friction, 0",
+                self.friction
+            )));
+        }
+        let branches = self.branch.iter().map(BranchEntries::si).collect::<Result<_, _>>()?;
+        Ok(Vessel { lumen: Lumen::new(branches)?, wall: Wall::new(self.wall_modulus_mpa * PA_PER_MPA)? })
+    }
+}
+
+impl BranchEntries {
+    fn si(&self) -> Result<Branch, Error> {
+        let points: Vec<Vector3<f64>> =
+            self.points_mm.iter().map(|point| Vector3::from(*point) / MM_PER_M).collect();
+        let radii: Vec<f64> = match &self.radius_mm {
+            RadiusEntry::Same(radius) => vec![radius / MM_PER_M; points.len()],
+            RadiusEntry::Each(radii) => radii.iter().map(|radius| radius / MM_PER_M).collect(),
+        };
+        Branch::new(&self.name, &points, &radii)
+    }
+}

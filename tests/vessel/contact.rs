@@ -1,0 +1,272 @@
+//! Contact with the wall: closed forms, laws and derivatives.
+
+use core::f64::consts::PI;
+
+use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::manipulator::{Input, Output, Scene};
+use mcm::vessel::{Branch, Lumen, Vessel, Wall};
+use nalgebra::Vector3;
+
+use crate::tolerance::{CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_CLOSED_FORM, WALL_MOVED};
+
+const LENGTH: f64 = 0.06;
+const RADIUS: f64 = 0.5e-3;
+const MODULUS: f64 = 3e6;
+/// Gap between rod and wall, m.
+const GAP: f64 = 0.15e-3;
+
+fn bending_stiffness() -> f64 {
+    MODULUS * PI * RADIUS.powi(4) / 4.0
+}
+
+fn tube(radius: f64, modulus: f64) -> Vessel {
+    let points = [-0.02, 0.03, 0.08].map(|z| Vector3::new(0.0, 0.0, z));
+    let branch = Branch::new("tube", &points, &[radius; 3]).expect("allowed");
+    Vessel { lumen: Lumen::new(vec![branch]).expect("one"), wall: Wall::new(modulus).expect("allowed") }
+}
+
+/// A thin rod in a straight tube.
+fn rod(modulus: f64) -> Equilibrium {
+    let material = CylinderMaterial::Bulk { elastic_modulus: MODULUS, poisson: 0.45, remanence: 0.0 };
+    let cylinder =
+        Cylinder { length: LENGTH, radius: RADIUS, inner_radius: 0.0, material, density: Some(0.0) };
+    let design = Design::new(Specification::Cylinder(cylinder)).expect("allowed");
+    let settings = Settings {
+        cylinder_elements: 16,
+        interaction: Interaction::None,
+        time_budget: 60.0,
+        ..Settings::default()
+    };
+    Equilibrium::new(&design, None, settings, 2).expect("allowed").in_vessel(&tube(RADIUS + GAP, modulus))
+}
+
+/// The tip force of a clamped rod whose tip is bent against the wall by a moment: `3 (M - M1) / (2 L)` beyond
+/// `M1 = 2 K c / L^2`.
+#[test]
+fn bent_rod_presses_its_tip_as_in_closed_form() {
+    let touching = 2.0 * bending_stiffness() * GAP / (LENGTH * LENGTH);
+    let mut last = f64::INFINITY;
+    for modulus in [1e6, 1e8, 1e10] {
+        let mut model = rod(modulus);
+        let mut worst = 0.0_f64;
+        for times in [2.0, 5.0, 10.0] {
+            let moment = times * touching;
+            let inputs = Inputs { tip_moment: Vector3::new(0.0, moment, 0.0), ..Inputs::unloaded(0) };
+            assert!(model.solve(&inputs).expect("finite").solved());
+            let wanted = 1.5 * (moment - touching) / LENGTH;
+            let wall = model.wall().expect("a vessel");
+            worst = worst.max((wall.force.norm() / wanted - 1.0).abs());
+        }
+        println!("wall of {modulus:.0e} Pa: {worst:.1e}");
+        assert!(worst < 0.2 * last || worst < WALL_CLOSED_FORM, "{worst} after {last}");
+        last = worst;
+    }
+    assert!(last < WALL_CLOSED_FORM, "{last}");
+}
+
+/// A compressed column whose tip rests on the wall: `N = P (c/L) kL / (kL - tan kL)`.
+#[test]
+fn compressed_column_rests_on_the_wall_as_in_closed_form() {
+    for (angle, wanted) in [(2.0, 1.91157), (2.5, 4.81210), (PI, PI * PI), (4.0, 22.51794)] {
+        let axial = bending_stiffness() * (angle / LENGTH).powi(2);
+        let mut model = rod(1e10);
+        let aside = 1e-3 * axial;
+        let mut inputs = Inputs { tip_force: Vector3::new(aside, 0.0, -axial), ..Inputs::unloaded(0) };
+        assert!(model.solve(&inputs).expect("finite").solved());
+        inputs.tip_force.x = 0.0;
+        assert!(model.solve(&inputs).expect("finite").solved());
+        let force = model.wall().expect("a vessel").force.norm();
+        let scaled = force * LENGTH.powi(3) / (bending_stiffness() * GAP);
+        println!("kL = {angle}: {scaled}, {wanted}");
+        assert!((scaled / wanted - 1.0).abs() < 10.0 * WALL_CLOSED_FORM, "kL = {angle}: {scaled}, {wanted}");
+    }
+}
+
+/// Hertz for a ball of 2 mm in a silicone of 1.7 MPa.
+#[test]
+fn a_ball_sinks_in_as_in_hertz() {
+    let wall = Wall::new(1.7e6).expect("allowed");
+    for (force, depth) in [(0.01, 18e-6), (0.09, 76e-6), (0.146, 105e-6)] {
+        let [_, told, _] = wall.ball(2e-3, depth);
+        assert!((told / force - 1.0).abs() < 0.04, "{told} {force}");
+    }
+    // An arc in line contact with a parabolic gap gives the same law.
+    let (radius, deepest) = (0.03_f64, 20e-6);
+    let half: f64 = (2.0 * radius * deepest).sqrt();
+    let count = 20_000;
+    let depth = |i: i32| {
+        deepest
+            - (half * (2.0 * f64::from(i) + 1.0 - f64::from(count)) / f64::from(count)).powi(2)
+                / (2.0 * radius)
+    };
+    let sum: f64 = (0..count).map(|i| wall.line(depth(i))[1] * 2.0 * half / f64::from(count)).sum();
+    let [_, ball, _] = wall.ball(radius, deepest);
+    assert!((sum / ball - 1.0).abs() < 0.02, "{sum} {ball}");
+}
+
+const SEGMENTS: &str = "[design]\nsegments = 3\n[field]\nuniform_mt = [2.0, 12.0, 0.0]\n\
+    [gravity]\nacceleration_m_s2 = [0.0, -9.81, 0.0]\n[load]\ntip_force_n = [0.001, 0.0, -0.002]\n\
+    [model]\ninteraction = \"rings\"\ntime_budget_s = 60.0\n[vessel]\n[[vessel.branch]]\nname = \"arc\"\n";
+
+/// Three segments in a bent vessel, in which they touch the wall with rings and windings.
+fn segments() -> Scene {
+    let points: Vec<String> = (-10..=30)
+        .map(|i| {
+            let angle = f64::from(i) * 0.02;
+            format!(
+                "[{:.9}, {:.9}, {:.9}]",
+                50.0 * (1.0 - angle.cos()),
+                -20.0 * (1.0 - angle.cos()),
+                50.0 * angle.sin()
+            )
+        })
+        .collect();
+    let text = format!("{SEGMENTS}points_mm = [{}]\nradius_mm = 2.6\n", points.join(", "));
+    Scene::parse(&text, "segments").expect("a scene")
+}
+
+fn solved(scene: &Scene) -> Equilibrium {
+    let settings = scene.settings.as_discretised();
+    let model = Equilibrium::new(&scene.design().expect("allowed"), None, settings, 11).expect("allowed");
+    let mut model = model.in_vessel(scene.vessel.as_ref().expect("a vessel"));
+    let report = model.solve(&scene.inputs).expect("finite");
+    assert!(report.solved() && report.stable == Some(true), "{report:?}");
+    model
+}
+
+#[test]
+fn all_forces_balance() {
+    let scene = segments();
+    let model = solved(&scene);
+    let wall = model.wall().expect("a vessel");
+    assert!(wall.count >= 2 && wall.rings.iter().any(|force| force.norm() > 1e-4), "{wall:?}");
+    let weight = scene.inputs.gravity * scene.design().expect("allowed").mass();
+    let total = model.base_reaction().force
+        + wall.force
+        + model.magnetic_wrench().force
+        + weight
+        + scene.inputs.tip_force;
+    assert!(total.norm() < WALL_BALANCE * wall.sum, "{total} of {}", wall.sum);
+}
+
+#[test]
+fn gradient_and_hessian_agree_with_differences() {
+    let scene = segments();
+    let mut model = solved(&scene);
+    let unknowns = model.unknowns().to_vec();
+    let metric = model.metric().to_vec();
+    let unit = metric.iter().copied().fold(0.0, f64::max).sqrt();
+    // Deeper in the wall than at equilibrium, in a direction with all components.
+    let direction: Vec<f64> =
+        metric.iter().enumerate().map(|(i, k)| unit / k.sqrt() * (1.3 * i as f64).sin() / 20.0).collect();
+    let at = |part: f64| -> Vec<f64> { unknowns.iter().zip(&direction).map(|(x, d)| x + part * d).collect() };
+    let (here, step) = (0.01, 1e-5);
+    let mut along = |part: f64| {
+        let (energy, gradient) = model.gradient(&scene.inputs, &at(part)).expect("inside");
+        (energy, gradient)
+    };
+    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|n| along(here + n * step));
+    let (_, told) = along(here);
+    let inner = |x: &[f64]| x.iter().zip(&direction).map(|(x, d)| x * d).sum::<f64>();
+    let slope = (8.0 * (c.0 - b.0) - (d.0 - a.0)) / (12.0 * step);
+    let norm = |x: &[f64]| x.iter().zip(&metric).map(|(x, k)| x * x / k).sum::<f64>().sqrt();
+    println!("gradient: {} {slope}", inner(&told));
+    let size = norm(&told) * unit / 20.0;
+    assert!((inner(&told) - slope).abs() < CONTACT_SLOPE * size, "{} {slope}", inner(&told));
+    // H d by differences of the gradient; then H^-1 must lead back to d.
+    let curve: Vec<f64> =
+        (0..unknowns.len()).map(|i| (8.0 * (c.1[i] - b.1[i]) - (d.1[i] - a.1[i])) / (12.0 * step)).collect();
+    let back = model.solve_at(&scene.inputs, &at(here), 0.0, &curve).expect("definite");
+    let apart: f64 = back.iter().zip(&direction).zip(&metric).map(|((b, d), k)| k * (b - d).powi(2)).sum();
+    let whole: f64 = direction.iter().zip(&metric).map(|(d, k)| k * d * d).sum();
+    println!("Hessian: {:.1e}", (apart / whole).sqrt());
+    assert!((apart / whole).sqrt() < CONTACT_RATE, "{}", (apart / whole).sqrt());
+}
+
+#[test]
+fn jacobian_in_contact_agrees_with_solves_beside() {
+    let scene = segments();
+    let model = solved(&scene);
+    let jacobian = model.jacobian().expect("regular");
+    for (input, axis, step) in [
+        (Input::BasePosition, 0, 1e-6),
+        (Input::BasePosition, 2, 1e-6),
+        (Input::UniformField, 1, 1e-6),
+        (Input::TipForce, 0, 1e-7),
+        (Input::Roll, 0, 1e-5),
+    ] {
+        let at = |by: f64| {
+            let mut inputs = scene.inputs.clone();
+            match input {
+                Input::BasePosition => inputs.base.position[axis] += by,
+                Input::UniformField => inputs.uniform_field[axis] += by,
+                Input::Roll => inputs.roll += by,
+                _ => inputs.tip_force[axis] += by,
+            }
+            let mut beside = model.clone();
+            assert!(beside.solve(&inputs).expect("finite").solved());
+            (beside.tip().position, beside.base_reaction().force)
+        };
+        let (plus, minus) = (at(step), at(-step));
+        for (output, slope) in [
+            (Output::TipPosition, (plus.0 - minus.0) / (2.0 * step)),
+            (Output::BaseReactionForce, (plus.1 - minus.1) / (2.0 * step)),
+        ] {
+            let told = jacobian.block(output, input).expect("exists").column(axis).into_owned();
+            let apart = (Vector3::new(told[0], told[1], told[2]) - slope).norm();
+            assert!(apart < 1e-4 * slope.norm().max(1e-3), "{output:?} by {input:?}: {told} {slope}");
+        }
+    }
+}
+
+/// The same scene turned and moved, vessel and all.
+#[test]
+fn a_moved_scene_has_the_same_answer() {
+    let scene = segments();
+    let model = solved(&scene);
+    let turn = mcm::geometry::RotationVector::new(Vector3::new(0.4, -0.3, 0.8)).matrix();
+    let shift = Vector3::new(0.02, -0.01, 0.05);
+    let branch = &scene.vessel.as_ref().expect("a vessel").lumen.branches()[0];
+    let count = 60;
+    let balls = (0..=count).map(|i| branch.ball(branch.range().end() * f64::from(i) / f64::from(count)));
+    let (points, radii): (Vec<_>, Vec<_>) = balls.map(|(c, r)| (turn * c + shift, r)).unzip();
+    let moved_branch = Branch::new("arc", &points, &radii).expect("allowed");
+    let still: Vec<_> = points.iter().map(|point| turn.transpose() * (point - shift)).collect();
+    let wall = scene.vessel.as_ref().expect("a vessel").wall;
+    let vessel = |branch| Vessel { lumen: Lumen::new(vec![branch]).expect("one"), wall };
+    let mut first = scene.clone();
+    first.vessel = Some(vessel(Branch::new("arc", &still, &radii).expect("allowed")));
+    let first = solved(&first);
+    let mut second = scene.clone();
+    second.vessel = Some(vessel(moved_branch));
+    let inputs = &mut second.inputs;
+    inputs.base.position = turn * inputs.base.position + shift;
+    inputs.base.rotation = turn * inputs.base.rotation;
+    for vector in [&mut inputs.uniform_field, &mut inputs.gravity, &mut inputs.tip_force] {
+        *vector = turn * *vector;
+    }
+    let second = solved(&second);
+    let apart = (turn * first.tip().position + shift - second.tip().position).norm();
+    assert!(apart < WALL_MOVED, "{apart}");
+    assert!((model.tip().position - first.tip().position).norm() < 1e-7);
+}
+
+/// Without contact a vessel changes nothing, to the last bit.
+#[test]
+fn a_wide_vessel_changes_nothing() {
+    let mut scene = segments();
+    let branch = scene.vessel.as_ref().expect("a vessel").lumen.branches()[0].clone();
+    let balls = (0..=20).map(|i| branch.ball(branch.range().end() * f64::from(i) / 20.0));
+    let (points, radii): (Vec<_>, Vec<_>) = balls.map(|(c, r)| (c, 8.0 * r)).unzip();
+    let wide = Branch::new("wide", &points, &radii).expect("allowed");
+    let wall = scene.vessel.as_ref().expect("a vessel").wall;
+    scene.vessel = Some(Vessel { lumen: Lumen::new(vec![wide]).expect("one"), wall });
+    let inside = solved(&scene);
+    let settings = scene.settings.as_discretised();
+    let mut outside =
+        Equilibrium::new(&scene.design().expect("allowed"), None, settings, 11).expect("allowed");
+    assert!(outside.solve(&scene.inputs).expect("finite").solved());
+    assert_eq!(inside.unknowns(), outside.unknowns());
+    assert_eq!(inside.wall().expect("a vessel").count, 0);
+}
