@@ -14,7 +14,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("design", &["geometry"]),
     ("magnetics", &["design"]),
     ("rod", &["design"]),
-    ("equilibrium", &["magnetics", "rod"]),
+    ("equilibrium", &["magnetics", "rod", "vessel"]),
     ("methods", &["equilibrium"]),
     ("manipulator", &["methods"]),
     ("studies", &["manipulator"]),

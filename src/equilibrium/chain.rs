@@ -15,7 +15,7 @@ use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
 const SHAFT_ELEMENTS: usize = 16;
 
 /// Least inserted length of a shaft, m: below it the shaft counts as this long.
-const SHORTEST: f64 = 1e-7;
+const SHORTEST: f64 = 1e-9;
 
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;

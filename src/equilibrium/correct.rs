@@ -19,6 +19,9 @@ const SOON: f64 = 0.05;
 /// step is followed in shorter steps.
 const MISSED: f64 = 0.5;
 
+/// Largest residual (radian norm) that counts as rounding where there is a wall.
+const PRESSED: f64 = 1e-7;
+
 /// Maximum number of changes of the quadrature rules at a solved shape: at the distance where two rules meet, they could
 /// alternate for ever.
 const RULE_CHOICES: u32 = 3;
@@ -71,7 +74,7 @@ impl Search<'_> {
                     } else {
                         previous = length;
                     }
-                } else if length < ROUNDING {
+                } else if length < ROUNDING && self.is_rounding(residual) {
                     settled = true;
                 } else {
                     return false;
@@ -88,6 +91,11 @@ impl Search<'_> {
             }
         }
         false
+    }
+
+    /// Whether rounding may be what is left of a residual: against a stiff wall the shortest step changes forces.
+    fn is_rounding(&self, residual: f64) -> bool {
+        self.model.around.is_none() || residual <= PRESSED
     }
 
     /// Residual at which a shape counts as solved.
@@ -144,7 +152,7 @@ impl Search<'_> {
             }
             let length = self.step(inputs, done);
             if length.is_nan() || length > longest {
-                return holds && length < ROUNDING;
+                return holds && length < ROUNDING && self.is_rounding(residual);
             }
             apply(unknowns, &self.scratch.steps[done]);
             self.report.iterations += 1;

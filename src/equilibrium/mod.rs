@@ -42,6 +42,7 @@ mod source;
 mod span_quadrature;
 mod surface;
 mod terms;
+mod wall_contacts;
 mod wall_forces;
 mod wall_loads;
 mod wall_search;

@@ -367,7 +367,8 @@ impl Solution for Equilibrium {
     }
 
     fn wall(&self) -> Option<WallForces> {
-        self.wall_forces()
+        let contacts = &self.work.walls.contacts;
+        self.around.as_ref().map(|_| WallForces::of(contacts, self.chain.rings.len()))
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {

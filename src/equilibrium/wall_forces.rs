@@ -3,8 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::solver::Equilibrium;
-use super::wall_loads::Site;
+use super::wall_contacts::{Site, WallContact};
 
 /// Forces of the wall on the manipulator, world axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -23,19 +22,17 @@ pub struct WallForces {
     pub rings: Vec<Vector3<f64>>,
 }
 
-impl Equilibrium {
-    /// Forces of the wall at the last solved shape; `None` without a vessel.
-    pub(super) fn wall_forces(&self) -> Option<WallForces> {
-        self.around.as_ref()?;
-        let mut out = WallForces {
+impl WallForces {
+    /// The sum of these contacts of a chain with so many rings.
+    pub(super) fn of(contacts: &[WallContact], rings: usize) -> Self {
+        let mut out = Self {
             count: 0,
             force: Vector3::zeros(),
             sum: 0.0,
             largest_force: 0.0,
             largest_indentation: 0.0,
-            rings: vec![Vector3::zeros(); self.chain.rings.len()],
+            rings: vec![Vector3::zeros(); rings],
         };
-        let contacts = &self.work.walls.contacts;
         for own in contacts.chunk_by(|a, b| a.site == b.site) {
             let force: Vector3<f64> = own.iter().map(|contact| contact.force).sum();
             out.count += 1;
@@ -49,6 +46,6 @@ impl Equilibrium {
             out.sum += contact.force.norm();
             out.largest_indentation = out.largest_indentation.max(contact.depth);
         }
-        Some(out)
+        out
     }
 }

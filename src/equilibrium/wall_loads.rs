@@ -2,52 +2,14 @@
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
-
 use super::potential::Potential;
 use super::terms::Touch;
-use super::wall_search::ArcPart;
+use super::wall_contacts::{ArcPart, Site, WallContact};
 use crate::numerics::quadrature::gauss_legendre;
-use crate::rod::{Load, PlacedLoad};
+use crate::rod::PlacedLoad;
 
 /// Gauss points of a part of an arc in contact.
 const POINTS: usize = 4;
-
-/// Where the chain touches the wall.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Site {
-    /// The rims of a ring, by its number.
-    Ring(usize),
-    /// An arc, by its number.
-    Arc(usize),
-    /// The round end of a chain that ends without a ring.
-    Tip,
-}
-
-/// Contact with the wall at one place, or at one Gauss point of an arc.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct WallContact {
-    pub(super) site: Site,
-    /// Force of the wall on the chain, N, world axes.
-    pub(super) force: Vector3<f64>,
-    /// Depth in the wall, m.
-    pub(super) depth: f64,
-}
-
-impl WallContact {
-    fn new(site: Site, touch: &Touch) -> Self {
-        Self { site, force: -touch.load.force, depth: touch.depth }
-    }
-}
-
-/// All contacts with the wall at the shape evaluated last.
-#[derive(Debug, Clone, Default)]
-pub(super) struct WallLoads {
-    pub(super) contacts: Vec<WallContact>,
-    /// Loads on nodes, in world axes.
-    pub(super) on_nodes: Vec<(usize, Load)>,
-    parts: Vec<ArcPart>,
-}
 
 impl Potential<'_> {
     /// Adds the loads of the wall; returns the energy of those that are not on nodes.

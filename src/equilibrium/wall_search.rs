@@ -2,21 +2,11 @@
 
 use super::potential::Potential;
 use super::surface::{Skin, Surface};
+use super::wall_contacts::ArcPart;
 use crate::numerics::hermite::Cubic;
 
 /// Upper bound of the stretch of an element: soft helices extend by several percent.
 const STRETCHED: f64 = 1.25;
-
-/// A part of an arc in contact, within which the force is a smooth function of the arc length.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ArcPart {
-    /// Element and its piece.
-    pub(super) on: (usize, usize),
-    /// Its ends along the element, m.
-    pub(super) ends: [f64; 2],
-    /// Number of the arc that it belongs to.
-    pub(super) arc: usize,
-}
 
 /// What is known of the clearance along the chain, from the last place looked at.
 #[derive(Debug, Clone, Copy)]

@@ -9,7 +9,7 @@ use super::pair_loads::PairLoads;
 use super::settings::Settings;
 use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
-use super::wall_loads::WallLoads;
+use super::wall_contacts::WallLoads;
 use crate::geometry::Pose;
 use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
 

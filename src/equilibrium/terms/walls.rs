@@ -11,7 +11,7 @@ use crate::vessel::{Clearance, Lumen, Vessel, Wall};
 const SIDES: usize = 6;
 
 /// Newton steps to the place of a rim that is the deepest in the wall.
-const STEPS: usize = 8;
+const STEPS: usize = 25;
 
 /// Step (rad) at which that place is found.
 const FOUND: f64 = 1e-12;
@@ -168,7 +168,7 @@ impl Rim<'_> {
             }
             angle -= step;
         }
-        Some((angle, self.walls.clearance(&self.place(angle))?))
+        None
     }
 
     /// Second derivative of the clearance by the angle, of a place from which it increases to both sides.

@@ -123,7 +123,9 @@ impl Faults<'_> {
             if !forget(&mut table, &path) {
                 return Ok(());
             }
-            rest = self.reread(&table)?;
+            // Nothing can be read without an entry that has no default.
+            let Ok(next) = self.reread(&table) else { return Ok(()) };
+            rest = next;
         }
         Ok(())
     }

@@ -88,6 +88,9 @@ impl SceneFile {
         })?;
         let vessel = self.vessel.as_ref().map(VesselEntries::si).transpose()?;
         let shaft = self.shaft(&specification)?;
+        if let Some(shaft) = &shaft {
+            Design::new(specification.clone())?.with_shaft(shaft)?;
+        }
         if let Some(vessel) = &vessel {
             fits(&Design::new(specification.clone())?, vessel, &inputs)?;
         }
