@@ -19,6 +19,9 @@ const SOON: f64 = 0.05;
 /// step is followed in shorter steps.
 const MISSED: f64 = 0.5;
 
+/// Shift of the Hessian, relative to the elastic one, where the chain is pressed into a wall so hard that it is not definite.
+const LIFTING: f64 = 0.3;
+
 /// Largest residual (radian norm) that counts as rounding where there is a wall.
 const PRESSED: f64 = 1e-7;
 
@@ -55,7 +58,16 @@ impl Search<'_> {
             let Some(energy) = potential.linearise(unknowns) else { return false };
             let residual = dual_norm(potential.metric(), potential.gradient()) / unit;
             if !potential.factorise(0.0) {
-                return false;
+                // Pressed deep into a wall the chain would buckle; a shift leads it back.
+                let pressed = self.model.around.is_some() && self.potential(inputs).factorise(LIFTING);
+                let length = if pressed { self.step(inputs, 0) } else { f64::NAN };
+                if length.is_nan() || length > reach {
+                    return false;
+                }
+                apply(unknowns, &self.scratch.steps[0]);
+                self.report.iterations += 1;
+                previous = first;
+                continue;
             }
             let mut settled = residual <= tolerance;
             (self.report.residual, self.report.energy) = (residual, energy);
@@ -186,27 +198,44 @@ impl Search<'_> {
         found
     }
 
-    /// The same from the shape that the last step of the inputs leads to: where there is contact, the branch turns little, but
-    /// without it a step presses the chain into the wall. `step` has the lengths of this step and of the last, and the shape before.
-    pub(super) fn try_to_correct_from(
+    /// The same from the shape to which the branch leads along its tangent: where there is contact, a step from the last shape
+    /// itself would press the chain into the wall. `nearby` are inputs on the way, by a small part of the step.
+    pub(super) fn try_to_correct_along(
         &mut self,
-        step: Option<(f64, f64, &[f64])>,
+        (nearby, part): (&Inputs, f64),
         [before, inputs]: [&Inputs; 2],
         unknowns: &mut [f64],
     ) -> bool {
-        if let Some((now, last, shape)) = step.filter(|_| self.model.around.is_some()) {
-            let mut trial = std::mem::take(&mut self.scratch.trial);
-            for ((x, here), then) in trial.iter_mut().zip(&*unknowns).zip(shape) {
-                *x = here + (here - then) * (now / last);
-            }
-            let reach = self.model.settings.follow_step;
-            let found = self.accept(Some(before), inputs, unknowns, &mut trial, reach);
-            self.scratch.trial = trial;
-            if found {
-                return true;
-            }
+        let mut trial = std::mem::take(&mut self.scratch.trial);
+        let led = self.lead_along((nearby, part), before, unknowns, &mut trial);
+        let reach = self.model.settings.follow_step;
+        let found = led && self.accept(Some(before), inputs, unknowns, &mut trial, reach);
+        self.scratch.trial = trial;
+        found
+    }
+
+    /// Writes the shape at the end of the tangent to `trial`, by the last factorisation; `false` where there is none.
+    fn lead_along(
+        &mut self,
+        (nearby, part): (&Inputs, f64),
+        before: &Inputs,
+        unknowns: &[f64],
+        trial: &mut [f64],
+    ) -> bool {
+        let mut potential = self.potential(before);
+        if potential.linearise(unknowns).is_none() || !potential.factorise(0.0) {
+            return false;
         }
-        self.try_to_correct(Some(before), inputs, unknowns)
+        trial.copy_from_slice(&self.work.gradient);
+        let mut potential = self.potential(nearby);
+        if potential.slope(unknowns).is_none() {
+            return false;
+        }
+        trial.iter_mut().zip(potential.gradient()).for_each(|(x, after)| *x = (*x - after) / part);
+        potential.solve(trial);
+        let length = norm(self.model.metric, trial) / self.model.chain.radian_norm();
+        trial.iter_mut().zip(unknowns).for_each(|(x, here)| *x += here);
+        length <= self.model.settings.follow_step
     }
 
     /// Corrects `trial` by a first step of at most `reach`, and moves `unknowns` there if it is an equilibrium; if

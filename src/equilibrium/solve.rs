@@ -36,6 +36,9 @@ const LINING: f64 = 1e6;
 /// Ratio of the softened wall's modulus to bending stiffness over the fourth power of the length.
 const ALIKE: f64 = 1e3;
 
+/// Part of a step over which the tangent of a branch is found by a difference.
+const TANGENT: f64 = 1e-3;
+
 /// Inverse of the fraction of iterations that is reserved for a final descent.
 const RESERVE: u32 = 3;
 
@@ -189,8 +192,6 @@ impl Search<'_> {
         let (smallest, resting) = (self.model.settings.smallest_part, self.resting());
         let (mut done, mut part, mut floor) = (0.0, first, smallest);
         let mut here = start.clone();
-        // The last step and its shape, from which the next one is extrapolated.
-        let mut last: Option<(f64, Vec<f64>)> = None;
         let (mut neutral, mut shortened) = (false, false);
         // Number of snaps when the last descent began: a descent over several steps counts as one snap.
         let mut before_descent = None;
@@ -199,9 +200,11 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            let guess = last.as_ref().map(|(step, before)| (next - done, *step, &before[..]));
-            let from = unknowns.to_vec();
-            let corrected = !neutral && self.try_to_correct_from(guess, [&here, &inputs], unknowns);
+            let nearby = at((done + TANGENT * (next - done)).min(1.0));
+            let corrected = !neutral
+                && (self.model.around.is_some()
+                    && self.try_to_correct_along((&nearby, TANGENT), [&here, &inputs], unknowns)
+                    || self.try_to_correct(Some(&here), &inputs, unknowns));
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
@@ -225,7 +228,6 @@ impl Search<'_> {
             }
             // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
-            last = corrected.then(|| (next - done, from));
             (done, here, shortened) = (next, inputs, false);
             if done >= 1.0 {
                 return end;

@@ -68,3 +68,21 @@ fn the_scene_to_begin_with_is_the_default_with_every_key() {
     assert_status(&again, 1);
     assert!(stderr(&again).contains("scene.toml exists already"));
 }
+
+#[test]
+fn a_scene_in_an_aorta_can_be_solved() {
+    let here = folder("init_vessel");
+    for name in ["aorta", "aorta-spatial"] {
+        let file = format!("{name}.toml");
+        assert_status(&mcm(&here, &["init", "--vessel", name, "--out", &file]), 0);
+        let scene = SceneFile::parse(&std::fs::read_to_string(here.join(&file)).unwrap(), name).unwrap();
+        let scene = scene.scene().unwrap();
+        assert!(
+            scene.vessel.is_some_and(|vessel| vessel.lumen.branches().len() > 5) && scene.shaft.is_some()
+        );
+    }
+    let solved = mcm(&here, &["solve", "aorta.toml", "--json"]);
+    let answer: serde_json::Value = serde_json::from_str(&stdout(&solved)).unwrap();
+    assert_eq!(answer["feed_length_m"], 0.0);
+    assert!(answer["contact_count"].is_number() && answer["largest_indentation_m"].as_f64().unwrap() < 1e-3);
+}

@@ -3,11 +3,51 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use mcm::vessel::Aorta;
+
 use super::failure::Failure;
 use super::output::{Output, print};
 
 /// Every key with its default and a remark.
 const SCENE: &str = include_str!("init.toml");
+
+/// The nine-segment device on a silicone tube of 40 Shore A, in a vessel that follows.
+const IN_VESSEL: &str = "\
+# Nine segments at the end of a silicone tube, in an abdominal aorta. `mcm init` explains the other keys.
+
+[design]
+spiral = \"alternating\"
+
+[magnet]                         # beneath the port, its field along the vessel
+position_mm = [0.0, -120.0, 20.0]
+
+[feed]
+mode = \"insertion\"
+insertion_mm = 0.0
+
+[feed.shaft]
+outer_radius_mm = 0.75
+inner_radius_mm = 0.25
+shore_a = 40.0
+poisson = 0.45
+
+[model]
+interaction = \"rings\"
+time_budget_s = 10.0
+
+[vessel]
+wall_modulus_mpa = 1.0
+
+";
+
+/// A vessel to begin with.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum VesselName {
+    /// An abdominal aorta flat in a plane, as a phantom on a table
+    Aorta,
+    /// The same in three dimensions
+    AortaSpatial,
+}
 
 /// Prints a scene with every key and its default, as a beginning of one's own.
 #[derive(clap::Args)]
@@ -16,15 +56,23 @@ pub(crate) struct Init {
     /// File to write instead of printing; must not exist yet
     #[arg(long, value_name = "SCENE.toml")]
     out: Option<PathBuf>,
+    /// A device on a shaft in this vessel instead of every key
+    #[arg(long, value_enum, value_name = "NAME")]
+    vessel: Option<VesselName>,
 }
 
 impl Init {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let scene = match self.vessel {
+            None => SCENE.to_owned(),
+            Some(VesselName::Aorta) => IN_VESSEL.to_owned() + &Aorta::planar().scene_text()?,
+            Some(VesselName::AortaSpatial) => IN_VESSEL.to_owned() + &Aorta::spatial().scene_text()?,
+        };
         match &self.out {
             Some(out) if out.exists() => return Err(Failure(format!("{} exists already", out.display()))),
-            Some(out) => Output::at(out)?.fill(SCENE.as_bytes())?,
-            None => print(SCENE)?,
+            Some(out) => Output::at(out)?.fill(scene.as_bytes())?,
+            None => print(scene)?,
         }
         Ok(ExitCode::SUCCESS)
     }
