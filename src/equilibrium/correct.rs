@@ -208,8 +208,21 @@ impl Search<'_> {
     ) -> bool {
         let mut trial = std::mem::take(&mut self.scratch.trial);
         let led = self.lead_along((nearby, part), before, unknowns, &mut trial);
+        let predicted = trial.clone();
         let reach = self.model.settings.follow_step;
-        let found = led && self.accept(Some(before), inputs, unknowns, &mut trial, reach);
+        let mut found = led && self.correct(inputs, &mut trial, reach);
+        if found {
+            let apart = |a: &[f64], b: &[f64]| {
+                let square = a.iter().zip(b).zip(self.model.metric).map(|((a, b), k)| k * (a - b).powi(2));
+                square.sum::<f64>()
+            };
+            // Found where the tangent leads; the way back would meet other contacts than the way there.
+            let expected = apart(&trial, &predicted) <= MISSED * MISSED * apart(&predicted, unknowns);
+            found = self.kept || expected || self.goes_on([before, inputs], [unknowns, &trial]);
+        }
+        if found {
+            unknowns.copy_from_slice(&trial);
+        }
         self.scratch.trial = trial;
         found
     }
