@@ -304,7 +304,7 @@ impl Equilibrium {
     /// Adapts stiffness and shape points to the inserted length of a shaft.
     pub(super) fn lay_out(&mut self, inputs: &Inputs) {
         let length = self.chain.growth(inputs.insertion);
-        if self.chain.shaft == 0 || self.laid_out == length {
+        if self.chain.shaft == 0 || self.laid_out.to_bits() == length.to_bits() {
             return;
         }
         self.laid_out = length;

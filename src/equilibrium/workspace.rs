@@ -105,7 +105,7 @@ impl Workspace {
     /// Places all stations and nodes for the given inputs and unknowns, unless they are there already.
     pub(super) fn place(&mut self, chain: &Chain, inputs: &Inputs, unknowns: &[f64]) {
         let (root, growth) = (inputs.root(), chain.growth(inputs.insertion));
-        if self.nodes[0] == root && self.placed == unknowns && self.growth == growth {
+        if self.nodes[0] == root && self.placed == unknowns && self.growth.to_bits() == growth.to_bits() {
             return;
         }
         self.placed.copy_from_slice(unknowns);

@@ -18,7 +18,7 @@ const ONSET: f64 = 0.1;
 /// `4/3 E* sqrt(R) depth^(3/2)`: its indentation profile is a parabola along the arc. Where a rim or a tip touches in a point,
 /// the force is that of Hertz for a ball of its radius.
 ///
-/// Both laws set in within a depth of `0.1 N/m` over the modulus (0.1 um at 1 MPa), so that their energies have four continuous
+/// Both laws set in within a depth of `0.1 N/m` over the modulus (0.1 um at 1e6 Pa), so that their energies have four continuous
 /// derivatives; they are exactly zero without contact.
 ///
 /// H. Hertz, J. reine angew. Math. 92 (1882) 156, doi:10.1515/crll.1882.92.156.
@@ -40,7 +40,7 @@ impl Wall {
     /// A wall with this Young's modulus, Pa.
     ///
     /// # Errors
-    /// [`Error::Range`] unless it is from 1 kPa to 1 TPa.
+    /// [`Error::Range`] unless it is from 1e3 to 1e12 Pa.
     pub fn new(modulus: f64) -> Result<Self, Error> {
         let allowed = "from 1000 to 1000000000000";
         let modulus = check("vessel wall modulus (Pa)", modulus, |v| (1e3..=1e12).contains(&v), allowed)?;
@@ -60,7 +60,7 @@ impl Wall {
     }
 
     /// Plane-strain modulus `E*`, Pa.
-    fn plane_modulus(&self) -> f64 {
+    fn plane_modulus(self) -> f64 {
         self.modulus / (1.0 - POISSON * POISSON)
     }
 
@@ -71,7 +71,7 @@ impl Wall {
     }
 
     /// The ramp that replaces the depth, with its integral and slope.
-    fn ramp(&self, depth: f64) -> Option<[f64; 3]> {
+    fn ramp(self, depth: f64) -> Option<[f64; 3]> {
         let half = 0.5 * self.onset();
         onset(depth - half, half)
     }

@@ -20,6 +20,8 @@ mod state;
 
 mod table;
 
+mod vessel;
+
 use std::sync::{Arc, Mutex};
 
 use mcm::fmi::log::Log;

@@ -1,5 +1,6 @@
 """Every example of coupling runs, and all masters agree."""
 
+import csv
 import math
 import shutil
 import subprocess
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import PACKAGE, Archive
+from conftest import PACKAGE, Archive, program
 
 EXAMPLES = PACKAGE / "fmu" / "examples"
 
@@ -223,3 +224,25 @@ def test_examples_say_what_is_wrong(mcm: Path, tmp_path: Path) -> None:
     inputs = tmp_path / "uneven.csv"
     inputs.write_text("time,magnet.strength\n0,1\n1,1\n1.5,1\n")
     assert "evenly" in refused("fmpy_plain.py", mcm, "--inputs", inputs, "--out", out)
+
+
+def test_a_shaft_is_pushed_into_an_aorta(mcm: Path, tmp_path: Path) -> None:
+    scene, fmu = tmp_path / "aorta.toml", tmp_path / "aorta.fmu"
+    for command in [("init", "--vessel", "aorta", "--out", scene), ("pack", "--scene", scene, "--out", fmu)]:
+        done = run(program(), *command)
+        assert done.returncode == 0, done.stderr
+    pushed = tmp_path / "pushed.csv"
+    example("push_in.py", fmu, "--to", "20", "--out", pushed, "--picture", tmp_path / "pushed.png")
+    assert (tmp_path / "pushed.png").stat().st_size > 10_000
+    with pushed.open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 41
+    depth, force = (
+        np.array([float(row[name]) for row in rows])
+        for name in ("contact.largest_indentation", "contact.largest_force")
+    )
+    assert depth.max() > 0
+    # No deeper than Hertz has it for a ball of the rings' radius under the force of one contact.
+    hertz = (force / (4 / 3 * 1e6 / 0.75 * math.sqrt(2e-3))) ** (2 / 3)
+    assert (depth < 1.1 * hertz + 1e-6).all()
+    assert "has no shaft in a vessel" in refused("push_in.py", mcm, "--out", pushed)

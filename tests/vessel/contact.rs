@@ -83,7 +83,7 @@ fn compressed_column_rests_on_the_wall_as_in_closed_form() {
     }
 }
 
-/// Hertz for a ball of 2 mm in a silicone of 1.7 MPa.
+/// Hertz for a ball of 2 mm in a silicone of 1.7e6 Pa.
 #[test]
 fn a_ball_sinks_in_as_in_hertz() {
     let wall = Wall::new(1.7e6).expect("allowed");

@@ -107,7 +107,7 @@ impl Field {
 /// Source of the field.
 enum Source {
     Ring(AxialSource),
-    External { inputs: Inputs, magnet: Option<Assembly> },
+    External { inputs: Box<Inputs>, magnet: Option<Assembly> },
 }
 
 impl Source {
@@ -120,7 +120,7 @@ impl Source {
 
     fn external(scene: Scene) -> Result<Self, Failure> {
         let magnet = scene.assembly()?;
-        Ok(Self::External { inputs: scene.inputs, magnet })
+        Ok(Self::External { inputs: Box::new(scene.inputs), magnet })
     }
 
     /// Field (T) and gradient (T/m) at a point (m) in the world frame.
