@@ -32,7 +32,7 @@ OUTPUTS = [
 
 def drive(fmu: Path, reach: float, beneath: float) -> tuple[list[list[float]], list[np.ndarray]]:
     """Rows of time, insertion and outputs, and some shapes, up to a reach (m)."""
-    device = Component("pushed", fmu, {"feed.insertion": 0.0, "magnet.position[2]": -beneath})
+    device = Component("pushed", fmu, {"magnet.position[2]": -beneath})
     if "feed.insertion" not in device.references or "contact.count" not in device.references:
         raise SystemExit(f"{fmu} has no shaft in a vessel: pack one from `mcm init --vessel aorta`")
     points = sum(name.startswith("shape.arc_length") for name in device.references)
