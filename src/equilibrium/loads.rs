@@ -57,12 +57,14 @@ impl Potential<'_> {
                 let own;
                 (own, near) = near.split_at(self.terms.magnet.points_on(station));
                 let (frame, pose) = (Frame::Station(station, own), self.work.station(k, index));
-                let mut wrenches = TermWrenches::none();
-                let load = self.terms.load(&frame, &pose, &axes, order, (&base, &mut wrenches))?;
-                // The inserted part of a shaft is as heavy as it is long.
-                let share = if k < self.chain.shaft { self.work.growth } else { 1.0 };
-                self.work.wrenches.add(&wrenches, share);
-                let load = if k < self.chain.shaft { load.times(share) } else { load };
+                let (mut inserted, shaft) = (TermWrenches::none(), k < self.chain.shaft);
+                let wrenches = if shaft { &mut inserted } else { &mut self.work.wrenches };
+                let mut load = self.terms.load(&frame, &pose, &axes, order, (&base, wrenches))?;
+                if shaft {
+                    // The inserted part of a shaft is as heavy as it is long.
+                    self.work.wrenches.add(&inserted, self.work.growth);
+                    load = load.times(self.work.growth);
+                }
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;
             }

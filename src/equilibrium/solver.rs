@@ -386,10 +386,10 @@ fn point_at(chain: &Chain, growth: f64, s: f64) -> ShapePoint {
         }
         start += element.offset;
         if growth > 0.0 && s <= start + growth * element.length {
-            return ShapePoint {
-                arc_length: s,
-                place: Site::Elastic(k, chain.tables()[k].row_at((s - start) / growth)),
-            };
+            let along = (s - start) / growth;
+            // The tables pay where the points move with the insertion.
+            let row = if chain.shaft > 0 { chain.tables()[k].row_at(along) } else { element.row(along) };
+            return ShapePoint { arc_length: s, place: Site::Elastic(k, row) };
         }
         start += growth * element.length;
     }
