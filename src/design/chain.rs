@@ -110,10 +110,7 @@ impl Design {
     /// Largest radius of its bodies without a shaft, m.
     #[must_use]
     pub fn largest_radius(&self) -> f64 {
-        let spans = self.segments.iter().flat_map(|segment| &segment.spans).map(|span| {
-            let windings = span.spiral.map_or(0.0, |spiral| spiral.outer_radius);
-            span.outer_radius.max(windings)
-        });
+        let spans = self.segments.iter().flat_map(|segment| &segment.spans).map(Span::widest_radius);
         self.rings().map(|ring| ring.outer_radius).chain(spans).fold(0.0, f64::max)
     }
 

@@ -158,6 +158,12 @@ impl Span {
         annulus_area(self.inner_radius, self.outer_radius)
     }
 
+    /// Outer radius, including the spiral, m.
+    #[must_use]
+    pub fn widest_radius(&self) -> f64 {
+        self.spiral.map_or(self.outer_radius, |spiral| self.outer_radius.max(spiral.outer_radius))
+    }
+
     /// Volume of magnetised material, including the spiral, m3.
     #[must_use]
     pub fn volume(&self) -> f64 {

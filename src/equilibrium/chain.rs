@@ -135,10 +135,7 @@ impl Chain {
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
         let span_quadratures = SpanQuadratures::new(&elements, &chains, &rings, settings);
-        let skin = |piece: &Piece<'_>| {
-            let windings = piece.span.spiral.map_or(0.0, |spiral| spiral.outer_radius);
-            [piece.length, piece.span.outer_radius.max(windings)]
-        };
+        let skin = |piece: &Piece<'_>| [piece.length, piece.span.widest_radius()];
         let skins: Vec<Vec<[f64; 2]>> =
             chains.iter().map(|pieces| pieces.iter().map(skin).collect()).collect();
         let radii = skins.iter().map(|skin| skin.iter().map(|piece| piece[1]).fold(0.0, f64::max)).collect();
@@ -180,8 +177,7 @@ impl Chain {
 
     /// Length of the shaft's elements relative to that of their tables, for an inserted length (m); 1 without a shaft.
     pub(super) fn growth(&self, insertion: f64) -> f64 {
-        let tabulated: f64 = self.elements[..self.shaft].iter().map(|element| element.length).sum();
-        if self.shaft == 0 { 1.0 } else { insertion.max(SHORTEST) / tabulated }
+        if self.shaft == 0 { 1.0 } else { insertion.max(SHORTEST) / self.inserted(1.0) }
     }
 
     /// Length of the shaft (m) at that growth.

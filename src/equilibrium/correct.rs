@@ -212,12 +212,8 @@ impl Search<'_> {
         let reach = self.model.settings.follow_step;
         let mut found = led && self.correct(inputs, &mut trial, reach);
         if found {
-            let apart = |a: &[f64], b: &[f64]| {
-                let square = a.iter().zip(b).zip(self.model.metric).map(|((a, b), k)| k * (a - b).powi(2));
-                square.sum::<f64>()
-            };
             // Found where the tangent leads; the way back would meet other contacts than the way there.
-            let expected = apart(&trial, &predicted) <= MISSED * MISSED * apart(&predicted, unknowns);
+            let expected = self.apart(&trial, &predicted) <= MISSED * self.apart(&predicted, unknowns);
             found = self.kept || expected || self.goes_on([before, inputs], [unknowns, &trial]);
         }
         if found {

@@ -136,7 +136,7 @@ impl Search<'_> {
     }
 
     /// Distance of two shapes in the elastic energy norm.
-    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+    pub(super) fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
         norm(self.model.metric, &between)
     }

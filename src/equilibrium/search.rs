@@ -53,7 +53,7 @@ impl<'a> Model<'a> {
     ) -> Potential<'a> {
         let Self { chain, metric, settings, magnet, around } = *self;
         let vessel = around.map(|around| &around.vessel);
-        let mut terms = Terms::new(chain, settings, magnet, inputs, rules).in_vessel(vessel);
+        let mut terms = Terms::new(chain, settings, magnet, vessel, inputs, rules);
         terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
         let surface = around.map(|around| &around.surface);
         Potential { chain, metric, settings, inputs, terms, rules, surface, work }

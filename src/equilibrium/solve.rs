@@ -200,11 +200,11 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            let nearby = at((done + TANGENT * (next - done)).min(1.0));
             let corrected = !neutral
-                && (self.model.around.is_some()
-                    && self.try_to_correct_along((&nearby, TANGENT), [&here, &inputs], unknowns)
-                    || self.try_to_correct(Some(&here), &inputs, unknowns));
+                && (self.model.around.is_some() && {
+                    let nearby = at(done + TANGENT * (next - done));
+                    self.try_to_correct_along((&nearby, TANGENT), [&here, &inputs], unknowns)
+                } || self.try_to_correct(Some(&here), &inputs, unknowns));
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);

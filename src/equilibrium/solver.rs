@@ -174,28 +174,20 @@ impl Equilibrium {
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.chain.rings.len())?;
         self.lay_out(inputs);
-        let model = Model {
-            chain: &self.chain,
-            metric: &self.metric,
-            settings: &self.settings,
-            magnet: self.magnet.as_ref(),
-            around: self.around.as_deref(),
-        };
-        let (work, rules, scratch) = (&mut self.work, &mut self.rules, &mut self.scratch);
-        let report = Report::start();
+        let Self { chain, metric, settings, magnet, around, branch, work, rules, scratch, .. } = self;
         let mut search = Search {
-            model,
+            model: Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() },
             work,
             rules,
             scratch,
-            report,
+            report: Report::start(),
             deadline,
             reached: None,
             reach: 0.0,
             passing: false,
             kept: false,
         };
-        Ok(search.solve(&mut self.branch, inputs))
+        Ok(search.solve(branch, inputs))
     }
 
     /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape. It
@@ -269,14 +261,9 @@ impl Equilibrium {
 
     /// The potential with the quadrature rules chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        let model = Model {
-            chain: &self.chain,
-            metric: &self.metric,
-            settings: &self.settings,
-            magnet: self.magnet.as_ref(),
-            around: self.around.as_deref(),
-        };
-        model.potential(inputs, &self.rules, &mut self.work)
+        let Self { chain, metric, settings, magnet, around, work, rules, .. } = self;
+        Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() }
+            .potential(inputs, rules, work)
     }
 
     /// Copy of the branch with its own workspace, whose evaluations do not change the original.
@@ -298,7 +285,8 @@ impl Equilibrium {
 
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
-        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), inputs, &self.rules)
+        let vessel = self.around.as_deref().map(|around| &around.vessel);
+        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), vessel, inputs, &self.rules)
     }
 
     /// Adapts stiffness and shape points to the inserted length of a shaft.

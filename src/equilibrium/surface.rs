@@ -18,16 +18,10 @@ pub(super) struct InVessel {
     pub(super) surface: Surface,
 }
 
-/// The surfaces of all elements.
+/// The surfaces of all elements, by element and piece.
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
-    pub(super) elements: Vec<ElementSurface>,
-}
-
-/// The surface of one element.
-#[derive(Debug, Clone)]
-pub(super) struct ElementSurface {
-    pub(super) pieces: Vec<Skin>,
+    pub(super) elements: Vec<Vec<Skin>>,
 }
 
 /// The surface of a piece of constant radius.
@@ -42,22 +36,20 @@ pub(super) struct Skin {
 impl Surface {
     pub(super) fn new(chain: &Chain) -> Self {
         let elements = chain.tables().iter().zip(&chain.skins);
-        Self { elements: elements.map(|(table, skin)| ElementSurface::new(table, skin)).collect() }
+        Self { elements: elements.map(|(table, pieces)| skins(table, pieces)).collect() }
     }
 }
 
-impl ElementSurface {
-    fn new(table: &RowTable, skin: &[[f64; 2]]) -> Self {
-        let mut start = 0.0;
-        let pieces = skin.iter().enumerate().map(|(piece, [length, radius])| {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-            let parts = ((length / SPACING).ceil() as usize).clamp(1, MOST_PLACES);
-            let places = (0..=parts).map(|i| table.row(piece, start + length * i as f64 / parts as f64));
-            let places = places.collect();
-            start += length;
-            Skin { radius: *radius, places }
-        });
-        let pieces = pieces.collect();
-        Self { pieces }
-    }
+/// The surfaces of an element's pieces, each of this length and radius (m).
+fn skins(table: &RowTable, pieces: &[[f64; 2]]) -> Vec<Skin> {
+    let mut start = 0.0;
+    let skin = |(piece, [length, radius]): (usize, &[f64; 2])| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let parts = ((length / SPACING).ceil() as usize).clamp(1, MOST_PLACES);
+        let places = (0..=parts).map(|i| table.row(piece, start + length * i as f64 / parts as f64));
+        let places = places.collect();
+        start += length;
+        Skin { radius: *radius, places }
+    };
+    pieces.iter().enumerate().map(skin).collect()
 }

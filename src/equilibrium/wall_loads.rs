@@ -71,7 +71,7 @@ impl Potential<'_> {
                 let row = self.chain.tables()[*k].row(*piece, from + half * (1.0 + x));
                 let frame = work.configurations[*k].frame_at(element, &row, amplitudes);
                 let point = node.transform(&frame.pose.position);
-                let radius = surface.pieces[*piece].radius;
+                let radius = surface[*piece].radius;
                 let touch = self.terms.walls.rod(&point, radius, growth * half * weight);
                 let Some(touch) = touch.filter(|touch| touch.depth > 0.0) else { continue };
                 energy += touch.load.energy;

@@ -34,7 +34,7 @@ impl Potential<'_> {
         let mut seen = Seen { clearance: f64::NEG_INFINITY, arc_length: 0.0 };
         for (k, own) in surface.elements.iter().enumerate() {
             start += self.chain.elements[k].offset;
-            for (piece, skin) in own.pieces.iter().enumerate() {
+            for (piece, skin) in own.iter().enumerate() {
                 self.find_arcs_on((k, piece), (start, skin), unknowns, &mut seen, found);
             }
             start += self.chain.elements[k].length * self.work.configurations[k].growth;
@@ -52,7 +52,7 @@ impl Potential<'_> {
         self.work.place(self.chain, self.inputs, unknowns);
         let mut missing = 0.0_f64;
         for (k, own) in surface.elements.iter().enumerate() {
-            for skin in &own.pieces {
+            for skin in own {
                 for row in &skin.places {
                     let amplitudes = self.chain.part(k, unknowns);
                     let (position, _) =

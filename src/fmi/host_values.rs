@@ -1,11 +1,13 @@
 //! Host values: the inputs and parameters as the host has set them.
 
+use std::sync::Arc;
+
 use crate::design::{Backbone, Design, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
-use crate::manipulator::{Inputs, Manipulator, Scene, SceneFile};
+use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile};
 use crate::methods::Method;
 use crate::vessel::{Vessel, Wall};
 
@@ -54,23 +56,14 @@ pub struct HostValues {
     pub backbone_present: bool,
     /// The shaft of a scene that has one.
     pub shaft: Option<Backbone>,
-    /// The vessel of a scene that has one.
-    pub vessel: Option<Vessel>,
+    /// The vessel of a scene that has one; copies of the values, made in every step whose inputs move, share it.
+    pub vessel: Option<Arc<Vessel>>,
     /// Young's modulus of its wall, Pa.
     pub wall_modulus: f64,
     /// The cylinders of the external magnet.
     pub magnets: Vec<AxialMagnet>,
     /// Settings of model and solver.
     pub settings: Settings,
-}
-
-/// How a device is held at its base. Its number is that of the FMU's enumeration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FeedMode {
-    /// The base holds the first body.
-    Clamped = 0,
-    /// The base is a port through which a shaft of given length is pushed in.
-    Insertion = 1,
 }
 
 /// The magnet of a scene that states none: the usual assembly at its usual place, switched off.
@@ -125,7 +118,7 @@ impl HostValues {
             backbone: backbone.unwrap_or_else(Backbone::silicone),
             backbone_present: backbone.is_some(),
             specification: scene.specification,
-            vessel: scene.vessel,
+            vessel: scene.vessel.map(Arc::new),
             magnets,
             settings: scene.settings,
         })
@@ -179,7 +172,7 @@ impl HostValues {
         Ok(match &self.vessel {
             Some(vessel) => {
                 let wall = Wall::new(self.wall_modulus)?;
-                made.in_vessel(&Vessel { wall, ..vessel.clone() })
+                made.in_vessel(&Vessel { wall, lumen: vessel.lumen.clone() })
             }
             None => made,
         })

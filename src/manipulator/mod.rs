@@ -17,5 +17,5 @@ pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
 pub use models::models_of_auto;
 pub use outputs::{Outputs, Status};
-pub use scene::{Scene, SceneFile};
+pub use scene::{FeedMode, Scene, SceneFile};
 pub use solve::Solve;

@@ -142,7 +142,7 @@ impl Outputs {
         }
     }
 
-    /// Reads the shape and wrenches of the last solve, at `inputs`, without allocating.
+    /// Reads the shape and wrenches of the last solve, at `inputs`, without allocating but for the forces of a wall.
     pub(super) fn read(&mut self, solution: &impl Solution, inputs: &Inputs, resolution: Resolution) {
         self.tip = solution.tip();
         self.tip_angle = inputs.base.axis().angle(&self.tip.axis());

@@ -203,7 +203,7 @@ impl Comparison {
         Surroundings {
             line: &self.line,
             inputs,
-            terms: Terms::new(&self.line.chain, &self.model, self.magnet.as_ref(), inputs, &self.rules),
+            terms: Terms::new(&self.line.chain, &self.model, self.magnet.as_ref(), None, inputs, &self.rules),
         }
     }
 

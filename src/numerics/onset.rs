@@ -1,11 +1,24 @@
-//! A ramp that sets in smoothly.
+//! A ramp that sets in smoothly, and its slope: a smooth step.
+
+/// From 0 at `t = 0` to 1 at `t = 1`, with two derivatives that vanish at both ends, and constant beyond:
+/// `6 t^5 - 15 t^4 + 10 t^3`.
+///
+/// ```
+/// use mcm::numerics::onset::smooth_step;
+/// assert_eq!([-1.0, 0.5, 2.0].map(smooth_step), [0.0, 0.5, 1.0]);
+/// ```
+#[must_use]
+pub fn smooth_step(t: f64) -> f64 {
+    let t = t.clamp(0.0, 1.0);
+    t * t * t * (6.0 * t * t - 15.0 * t + 10.0)
+}
 
 /// The integral of a ramp, the ramp and its slope at `x`; `None` before it sets in.
 ///
 /// The slope rises from 0 at `-width` to 1 at `width` and stays there; the integral has four continuous derivatives:
 ///
 /// ```text
-/// slope = 6 t^5 - 15 t^4 + 10 t^3      t = (x + width) / (2 width)
+/// slope = smooth_step(t)      t = (x + width) / (2 width)
 /// ```
 ///
 /// so that the ramp is `x` beyond the transition.
@@ -28,6 +41,6 @@ pub fn onset(x: f64, width: f64) -> Option<[f64; 3]> {
     Some([
         full * full * cube * t * t * (t * t / 7.0 - 0.5 * t + 0.5),
         full * cube * t * (t * t - 3.0 * t + 2.5),
-        cube * (6.0 * t * t - 15.0 * t + 10.0),
+        smooth_step(t),
     ])
 }

@@ -45,10 +45,10 @@ pub struct Branch {
     /// Centre (m) and radius (m) over the length of the chords between the points.
     curve: Spline<4>,
     pieces: Vec<Piece>,
-    /// Balls around groups of pieces.
-    groups: Vec<Group>,
-    /// A ball around all of it.
-    whole: Group,
+    /// Pieces that follow one another, with a hull around them.
+    groups: Vec<(Range<usize>, Hull)>,
+    /// The hull of all of it.
+    whole: Hull,
 }
 
 /// A part of the centreline within one interval of its points.
@@ -56,43 +56,40 @@ pub struct Branch {
 struct Piece {
     interval: usize,
     range: [f64; 2],
-    /// A ball around this part: centre and radius, m.
-    centre: Vector3<f64>,
-    around: f64,
-    /// Largest radius of the vessel here, m.
-    widest: f64,
+    hull: Hull,
 }
 
-/// Pieces that follow one another, with a ball around them.
+/// What is around a part of the vessel.
 #[derive(Debug, Clone, PartialEq)]
-struct Group {
-    pieces: Range<usize>,
+struct Hull {
+    /// A ball around the centreline: centre and radius, m.
     centre: Vector3<f64>,
     around: f64,
+    /// Largest radius of the vessel, m.
     widest: f64,
 }
 
-impl Group {
-    fn of(all: &[Piece], pieces: Range<usize>) -> Self {
-        let own = &all[pieces.clone()];
-        let centre = own.iter().map(|piece| piece.centre).sum::<Vector3<f64>>() / own.len() as f64;
-        let around =
-            own.iter().map(|piece| (piece.centre - centre).norm() + piece.around).fold(0.0, f64::max);
-        let widest = own.iter().map(|piece| piece.widest).fold(0.0, f64::max);
-        Self { pieces, centre, around, widest }
+impl Hull {
+    /// Around these pieces.
+    fn of(pieces: &[Piece]) -> Self {
+        let hulls = || pieces.iter().map(|piece| &piece.hull);
+        let centre = hulls().map(|hull| hull.centre).sum::<Vector3<f64>>() / pieces.len() as f64;
+        let around = hulls().map(|hull| (hull.centre - centre).norm() + hull.around).fold(0.0, f64::max);
+        let widest = hulls().map(|hull| hull.widest).fold(0.0, f64::max);
+        Self { centre, around, widest }
     }
 
-    /// Upper bound of the clearance of a point in its balls.
+    /// Upper bound of the clearance of a point in the balls inside.
     fn bound(&self, point: &Vector3<f64>) -> f64 {
         self.widest + self.around - (point - self.centre).norm()
     }
 }
 
-impl Piece {
-    /// The same of a piece.
-    fn bound(&self, point: &Vector3<f64>) -> f64 {
-        self.widest + self.around - (point - self.centre).norm()
-    }
+/// Numbers with their bounds, that of the largest bound first, which counts as unbounded.
+fn largest_first(bounds: impl Iterator<Item = (f64, usize)> + Clone) -> impl Iterator<Item = (f64, usize)> {
+    let first = bounds.clone().max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, number)| number);
+    let others = bounds.filter(move |(_, number)| Some(*number) != first);
+    first.map(|number| (f64::INFINITY, number)).into_iter().chain(others)
 }
 
 /// The ball that is locally the nearest to a point.
@@ -136,9 +133,9 @@ impl Branch {
         let values = points.iter().zip(radii).map(|(c, r)| Vector4::new(c.x, c.y, c.z, *r)).collect();
         let curve = Spline::new(knots, values)?;
         let pieces = pieces(&curve);
-        let starts = (0..pieces.len()).step_by(GROUPED);
-        let groups = starts.map(|i| Group::of(&pieces, i..(i + GROUPED).min(pieces.len()))).collect();
-        let whole = Group::of(&pieces, 0..pieces.len());
+        let starts = (0..pieces.len()).step_by(GROUPED).map(|i| i..(i + GROUPED).min(pieces.len()));
+        let groups = starts.map(|range| (range.clone(), Hull::of(&pieces[range]))).collect();
+        let whole = Hull::of(&pieces);
         let branch = Self { name: name.into(), curve, pieces, groups, whole };
         branch.check_radii()?;
         Ok(branch)
@@ -185,7 +182,8 @@ impl Branch {
     /// Upper bound of the clearance of a point (m), at little cost.
     pub(super) fn bound(&self, point: &Vector3<f64>) -> f64 {
         let whole = self.whole.bound(point);
-        let groups = || self.groups.iter().map(|group| group.bound(point)).fold(f64::NEG_INFINITY, f64::max);
+        let groups =
+            || self.groups.iter().map(|(_, hull)| hull.bound(point)).fold(f64::NEG_INFINITY, f64::max);
         if whole < 0.0 { whole } else { groups() }
     }
 
@@ -201,25 +199,22 @@ impl Branch {
             }
         }
         // What may be nearest comes first, so that most of the rest needs no search.
-        let by_bound = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0);
-        let groups = || self.groups.iter().enumerate().map(|(number, group)| (group.bound(point), number));
-        let first = groups().max_by(by_bound).map_or(0, |(_, number)| number);
-        let others = groups().filter(|(_, number)| *number != first);
-        for (bound, number) in [(f64::INFINITY, first)].into_iter().chain(others) {
-            if best.as_ref().is_some_and(|best| bound <= best.value) {
+        let reaches =
+            |bound: f64, best: &Option<Nearest>| best.as_ref().is_none_or(|best| bound > best.value);
+        let groups = self.groups.iter().enumerate();
+        for (bound, group) in largest_first(groups.map(|(number, (_, hull))| (hull.bound(point), number))) {
+            if !reaches(bound, &best) {
                 continue;
             }
-            let range = self.groups[number].pieces.clone();
-            let pieces = || range.clone().map(|number| (self.pieces[number].bound(point), number));
-            let first = pieces().max_by(by_bound).map_or(0, |(_, number)| number);
-            let others = pieces().filter(|(_, number)| *number != first);
-            for (bound, number) in [(f64::INFINITY, first)].into_iter().chain(others) {
-                if best.as_ref().is_some_and(|best| bound <= best.value) {
+            let pieces = self.groups[group].0.clone();
+            let bounds = pieces.map(|number| (self.pieces[number].hull.bound(point), number));
+            for (bound, number) in largest_first(bounds) {
+                if !reaches(bound, &best) {
                     continue;
                 }
                 if let Some(place) = self.local_maximum(&self.pieces[number], point) {
                     let value = value(&place);
-                    if best.as_ref().is_none_or(|best| value > best.value) {
+                    if reaches(value, &best) {
                         best = Some(Nearest { place, moves: true, value });
                     }
                 }
@@ -329,7 +324,8 @@ fn pieces(curve: &Spline<4>) -> Vec<Piece> {
             }
             // Between two samples neither can change by more than half their distance at the fastest rate.
             let slack = fastest * (range[1] - range[0]) / (4 * CHECKED) as f64;
-            out.push(Piece { interval, range, centre, around: around + slack, widest: widest + slack });
+            let hull = Hull { centre, around: around + slack, widest: widest + slack };
+            out.push(Piece { interval, range, hull });
         }
     }
     out

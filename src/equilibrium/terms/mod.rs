@@ -80,6 +80,7 @@ impl<'a> Terms<'a> {
         chain: &'a Chain,
         settings: &Settings,
         magnet: Option<&'a Assembly>,
+        vessel: Option<&'a Vessel>,
         inputs: &'a Inputs,
         rules: &'a PairQuadrature,
     ) -> Self {
@@ -91,13 +92,8 @@ impl<'a> Terms<'a> {
             pairs: RingPairs::new(chain, settings.interaction, rules),
             spans: RingsOnSpans::new(chain, settings.interaction, rules),
             stops: BendingStops::new(settings),
-            walls: Walls::new(inputs),
+            walls: Walls::new(vessel, inputs),
         }
-    }
-
-    /// The same in a vessel.
-    pub(crate) fn in_vessel(self, vessel: Option<&'a Vessel>) -> Self {
-        Self { walls: self.walls.of(vessel), ..self }
     }
 
     /// The terms that act on single frames.

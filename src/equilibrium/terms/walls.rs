@@ -29,8 +29,6 @@ pub(crate) struct Walls<'a> {
     lumen: Option<(&'a Lumen, Wall)>,
     /// Uniform widening of the lumen, m.
     widening: f64,
-    /// Softening of the wall, see [`Inputs::softening`].
-    softening: f64,
 }
 
 /// Contact at one place.
@@ -45,15 +43,9 @@ pub(crate) struct Touch {
 }
 
 impl<'a> Walls<'a> {
-    /// Without a vessel.
-    pub(super) fn new(inputs: &Inputs) -> Self {
-        Self { lumen: None, widening: inputs.widening, softening: inputs.softening }
-    }
-
-    /// The walls of this vessel.
-    pub(super) fn of(self, vessel: Option<&'a Vessel>) -> Self {
-        let softened = |vessel: &'a Vessel| (&vessel.lumen, vessel.wall.softened(self.softening));
-        Self { lumen: vessel.map(softened), ..self }
+    pub(super) fn new(vessel: Option<&'a Vessel>, inputs: &Inputs) -> Self {
+        let softened = |vessel: &'a Vessel| (&vessel.lumen, vessel.wall.softened(inputs.softening));
+        Self { lumen: vessel.map(softened), widening: inputs.widening }
     }
 
     /// Whether there is a vessel.

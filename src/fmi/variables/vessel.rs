@@ -1,14 +1,14 @@
 //! Variables of shaft and vessel: only the FMU of a scene that has them has these.
 
 use super::super::derivative_role::DerivativeRole;
-use super::super::host_values::{FeedMode, HostValues};
+use super::super::host_values::HostValues;
 use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS};
 use super::super::value::{DataType, Enumeration, Item};
 use super::super::variable::Access;
 use super::outputs::{count, integer, real};
 use super::rows::{Draft, Rows};
 use super::{Counts, access};
-use crate::manipulator::Input;
+use crate::manipulator::{FeedMode, Input, Outputs};
 
 /// How the device is held at its base.
 static FEED: Enumeration = Enumeration {
@@ -91,12 +91,10 @@ impl Rows {
         });
         self.array(3, &force);
         let description = "Force of the contact with the largest one";
-        let largest =
-            |o: &crate::manipulator::Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_force);
+        let largest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_force);
         self.scalar(real("contact.largest_force", FORCE, description, largest).min(0.0));
         let description = "Largest depth in the wall";
-        let deepest =
-            |o: &crate::manipulator::Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_indentation);
+        let deepest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_indentation);
         self.scalar(real("contact.largest_indentation", LENGTH, description, deepest).min(0.0));
         for ring in 0..counts.rings {
             let name = format!("ring[{}].contact_force", ring + 1);

@@ -12,6 +12,7 @@ mod units;
 mod vessel;
 
 pub use file::SceneFile;
+pub use vessel::FeedMode;
 
 use super::{Compared, Inputs, Manipulator, Solve};
 use crate::design::{Backbone, Design, Specification};

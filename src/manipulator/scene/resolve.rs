@@ -79,7 +79,8 @@ impl SceneFile {
 
     fn in_si(&self) -> Result<Scene, Error> {
         let specification = self.design.specification()?;
-        let inputs = self.inputs(&Design::new(specification.clone())?)?;
+        let design = Design::new(specification.clone())?;
+        let inputs = self.inputs(&design)?;
         let magnets: Option<Vec<_>> =
             self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
         magnets.clone().map(Assembly::new).transpose().map_err(|error| match error {
@@ -89,10 +90,10 @@ impl SceneFile {
         let vessel = self.vessel.as_ref().map(VesselEntries::si).transpose()?;
         let shaft = self.shaft(&specification)?;
         if let Some(shaft) = &shaft {
-            Design::new(specification.clone())?.with_shaft(shaft)?;
+            design.clone().with_shaft(shaft)?;
         }
         if let Some(vessel) = &vessel {
-            fits(&Design::new(specification.clone())?, vessel, &inputs)?;
+            fits(&design, vessel, &inputs)?;
         }
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         Ok(Scene { specification, magnets, vessel, shaft, inputs, settings: self.settings()?, solver })

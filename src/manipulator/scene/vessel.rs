@@ -39,12 +39,15 @@ pub(super) enum RadiusEntry {
     Each(Vec<f64>),
 }
 
+/// How a device is held at its base. Its number is that of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum FeedMode {
+pub enum FeedMode {
+    /// The base holds the first body.
     #[default]
-    Clamped,
-    Insertion,
+    Clamped = 0,
+    /// The base is a port through which a shaft of given length is pushed in.
+    Insertion = 1,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

@@ -3,9 +3,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::anatomy::{Aorta, Iliac, SideArtery};
-use super::course::{Bend, Course, Place, smooth};
+use super::course::{Bend, Course, Place};
 use crate::error::{Error, check};
 use crate::numerics::bisection::bisect;
+use crate::numerics::onset::smooth_step;
 use crate::vessel::branch::Branch;
 
 /// Length over which the common iliac arteries turn away from the aorta, m: a natural arc.
@@ -174,7 +175,7 @@ impl Aorta {
     /// Radius (m) of the aorta at this length (m) above the centrelines' parting.
     fn radius(&self, layout: &Layout, station: f64) -> f64 {
         let share = station / (self.celiac.height - layout.below);
-        0.5 * (self.bottom_width + (self.top_width - self.bottom_width) * smooth(share))
+        0.5 * (self.bottom_width + (self.top_width - self.bottom_width) * smooth_step(share))
     }
 
     /// The centreline of a side artery: from the aorta's straight through the middle of the mouth, then bending.
@@ -263,7 +264,9 @@ impl Layout {
     fn iliac_radius(&self, iliac: &Iliac, start: f64, station: f64) -> f64 {
         let (common, external) = (0.5 * iliac.common_width, 0.5 * iliac.external_width);
         let at_fork = (station - self.parting - iliac.common_length) / ILIAC_BEND + 0.5;
-        start + (common - start) * smooth(station / NARROWING) + (external - common) * smooth(at_fork)
+        start
+            + (common - start) * smooth_step(station / NARROWING)
+            + (external - common) * smooth_step(at_fork)
     }
 
     /// The internal iliac artery: it goes on with the common one and turns away where that forks.

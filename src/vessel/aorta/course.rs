@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::numerics::onset::smooth_step;
 use crate::numerics::quadrature::gauss_legendre;
 
 /// Points of the quadrature along one part; they integrate its directions to rounding.
@@ -102,12 +103,6 @@ impl Course {
 
 /// The heading after this share of a bend.
 fn turned([a, b]: [f64; 2], bend: &Bend, share: f64) -> [f64; 2] {
-    let share = smooth(share);
+    let share = smooth_step(share);
     [a + bend.turn[0] * share, b + bend.turn[1] * share]
-}
-
-/// From 0 to 1 as `share` goes there, with two derivatives that vanish at both ends.
-pub(super) fn smooth(share: f64) -> f64 {
-    let t = share.clamp(0.0, 1.0);
-    t * t * t * (10.0 - t * (15.0 - 6.0 * t))
 }
