@@ -20,6 +20,9 @@ const GROUPED: usize = 8;
 /// Steps of the search for the nearest ball; half of them suffice by bisection alone.
 const STEPS: usize = 100;
 
+/// Newton's step, relative to the parameter, after which nothing but rounding is left.
+const FOUND: f64 = 1e-13;
+
 /// Places per piece at which the radius is checked.
 const CHECKED: usize = 4;
 
@@ -56,6 +59,8 @@ pub struct Branch {
 struct Piece {
     interval: usize,
     range: [f64; 2],
+    /// The centreline at both.
+    ends: [CurvePoint<4>; 2],
     hull: Hull,
 }
 
@@ -167,7 +172,16 @@ impl Branch {
     /// `phi'' = r'' + n.c'' - |P c'|^2 / rho`; at an end the second part is missing.
     #[must_use]
     pub fn clearance(&self, point: &Vector3<f64>) -> Clearance {
-        let nearest = self.nearest(point);
+        // There are always two ends, whose depths are numbers.
+        self.clearance_above(point, f64::NEG_INFINITY).unwrap_or_else(|| {
+            let (centre, radius) = self.ball(0.0);
+            Clearance::in_ball(radius, &(point - centre))
+        })
+    }
+
+    /// The same; `None` if that is not larger than `least` (m).
+    pub(super) fn clearance_above(&self, point: &Vector3<f64>, least: f64) -> Option<Clearance> {
+        let nearest = self.nearest(point, least)?;
         let offset = point - nearest.place.value.xyz();
         let mut out = Clearance::in_ball(nearest.place.value.w, &offset);
         let distance = offset.norm();
@@ -176,7 +190,7 @@ impl Branch {
             let bend = second(&nearest.place, &offset, distance);
             out.hessian -= across * across.transpose() / (distance * distance * bend);
         }
-        out
+        Some(out)
     }
 
     /// Upper bound of the clearance of a point (m), at little cost.
@@ -187,20 +201,22 @@ impl Branch {
         if whole < 0.0 { whole } else { groups() }
     }
 
-    /// The ball in which the point is deepest.
-    fn nearest(&self, point: &Vector3<f64>) -> Nearest {
-        let value = |place: &CurvePoint<4>| place.value.w - (point - place.value.xyz()).norm();
+    /// The ball in which the point is deepest; `None` if that is not deeper than `least` (m).
+    fn nearest(&self, point: &Vector3<f64>, least: f64) -> Option<Nearest> {
         let mut best: Option<Nearest> = None;
-        for end in [self.range().start(), self.range().end()] {
-            let place = self.curve.at(*end);
-            let value = value(&place);
-            if best.as_ref().is_none_or(|best| value > best.value) {
+        let reaches =
+            |bound: f64, best: &Option<Nearest>| bound > best.as_ref().map_or(least, |best| best.value);
+        if !reaches(self.whole.bound(point), &best) {
+            return None;
+        }
+        for (piece, end) in [(self.pieces.first()?, 0), (self.pieces.last()?, 1)] {
+            let place = piece.ends[end];
+            let value = depth(&place, point);
+            if reaches(value, &best) {
                 best = Some(Nearest { place, moves: false, value });
             }
         }
         // What may be nearest comes first, so that most of the rest needs no search.
-        let reaches =
-            |bound: f64, best: &Option<Nearest>| best.as_ref().is_none_or(|best| bound > best.value);
         let groups = self.groups.iter().enumerate();
         for (bound, group) in largest_first(groups.map(|(number, (_, hull))| (hull.bound(point), number))) {
             if !reaches(bound, &best) {
@@ -213,15 +229,14 @@ impl Branch {
                     continue;
                 }
                 if let Some(place) = self.local_maximum(&self.pieces[number], point) {
-                    let value = value(&place);
+                    let value = depth(&place, point);
                     if reaches(value, &best) {
                         best = Some(Nearest { place, moves: true, value });
                     }
                 }
             }
         }
-        // There are always two ends.
-        best.unwrap_or_else(|| Nearest { place: self.curve.at(0.0), moves: false, value: f64::NAN })
+        best
     }
 
     /// The place within a piece where the point is deepest in the ball; `None` where that is deeper in a neighbouring piece.
@@ -238,11 +253,12 @@ impl Branch {
             }
         };
         let [mut low, mut high] = piece.range;
-        let at = |t: f64| self.curve.within(piece.interval, t);
-        if slope(&at(low)) < 0.0 || slope(&at(high)) > 0.0 {
+        let [rise, fall] = [slope(&piece.ends[0]), slope(&piece.ends[1])];
+        if rise < 0.0 || fall > 0.0 {
             return None;
         }
-        let mut t = 0.5 * (low + high);
+        let at = |t: f64| self.curve.within(piece.interval, t);
+        let mut t = if rise > fall { low + (high - low) * rise / (rise - fall) } else { low };
         let mut place = at(t);
         for _ in 0..STEPS {
             let rise = slope(&place);
@@ -250,12 +266,13 @@ impl Branch {
             let offset = point - place.value.xyz();
             let bend = second(&place, &offset, offset.norm());
             let newton = t - rise / bend;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            let step = (next - t).abs();
-            (t, place) = (next, at(next));
-            if step <= f64::EPSILON * piece.range[1] {
+            let found = (newton - t).abs() <= FOUND * piece.range[1];
+            let next = if found || newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if found || (next - t).abs() <= f64::EPSILON * piece.range[1] {
+                place = at(next);
                 break;
             }
+            (t, place) = (next, at(next));
         }
         Some(place)
     }
@@ -286,6 +303,11 @@ impl Branch {
         }
         Ok(())
     }
+}
+
+/// Depth (m) of a point in the ball at a place.
+fn depth(place: &CurvePoint<4>, point: &Vector3<f64>) -> f64 {
+    place.value.w - (point - place.value.xyz()).norm()
 }
 
 /// `P c'`: how the nearest ball's centre moves across the direction to the point.
@@ -325,7 +347,7 @@ fn pieces(curve: &Spline<4>) -> Vec<Piece> {
             // Between two samples neither can change by more than half their distance at the fastest rate.
             let slack = fastest * (range[1] - range[0]) / (4 * CHECKED) as f64;
             let hull = Hull { centre, around: around + slack, widest: widest + slack };
-            out.push(Piece { interval, range, hull });
+            out.push(Piece { interval, range, ends: range.map(place), hull });
         }
     }
     out

@@ -13,8 +13,8 @@ use crate::error::{Error, check};
 /// Length over which the walls of branches merge where they meet, m. It widens a mouth by at most this times ln 2.
 const MERGED: f64 = 0.5e-3;
 
-/// Share of a branch in the union below which it is left out: that of rounding.
-const NEGLIGIBLE: f64 = 1e-17;
+/// Share of a branch in the union below which it is left out.
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// The space inside a vessel with its branches.
 ///
@@ -143,28 +143,32 @@ impl Lumen {
 
 /// The smooth maximum of several clearances.
 fn union(branches: &[Branch], merged: f64, point: &Vector3<f64>) -> Clearance {
-    // Branches too far away to count are left out.
-    let bounds: Vec<f64> = branches.iter().map(|branch| branch.bound(point)).collect();
-    let nearest = (0..bounds.len()).max_by(|a, b| bounds[*a].total_cmp(&bounds[*b])).unwrap_or(0);
-    let mut each = vec![branches[nearest].clearance(point)];
-    let mut largest = each[0].value;
+    let bounds = branches.iter().map(|branch| branch.bound(point)).enumerate();
+    let nearest = bounds.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(number, _)| number);
+    let first = branches[nearest].clearance(point);
+    let (mut largest, mut sum) = (first.value, 1.0);
+    let (mut gradient, mut hessian) = (first.gradient, moment(&first, merged));
     for (number, branch) in branches.iter().enumerate() {
-        if number != nearest && bounds[number] > largest + merged * NEGLIGIBLE.ln() {
-            let own = branch.clearance(point);
-            largest = largest.max(own.value);
-            each.push(own);
-        }
+        // Branches too far away to count are left out.
+        let least = largest + merged * NEGLIGIBLE.ln();
+        let Some(own) = Some(branch)
+            .filter(|_| number != nearest)
+            .and_then(|branch| branch.clearance_above(point, least))
+        else {
+            continue;
+        };
+        let share = ((own.value - first.value) / merged).exp();
+        largest = largest.max(own.value);
+        sum += share;
+        gradient += own.gradient * share;
+        hessian += moment(&own, merged) * share;
     }
-    let shares = each.iter().map(|own| ((own.value - largest) / merged).exp());
-    let sum: f64 = shares.clone().sum();
-    let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
-    for (own, share) in each.iter().zip(shares) {
-        let share = share / sum;
-        if share > NEGLIGIBLE {
-            gradient += own.gradient * share;
-            hessian += (own.hessian + own.gradient * own.gradient.transpose() / merged) * share;
-        }
-    }
-    hessian -= gradient * gradient.transpose() / merged;
-    Clearance { value: largest + merged * sum.ln(), gradient, hessian }
+    gradient /= sum;
+    hessian = hessian / sum - gradient * gradient.transpose() / merged;
+    Clearance { value: first.value + merged * sum.ln(), gradient, hessian }
+}
+
+/// What a clearance adds to the second derivative of the smooth maximum.
+fn moment(own: &Clearance, merged: f64) -> Matrix3<f64> {
+    own.hessian + own.gradient * own.gradient.transpose() / merged
 }

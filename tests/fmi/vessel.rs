@@ -53,3 +53,25 @@ fn other_scenes_have_no_such_variables() {
         assert_eq!(table.reference(name), None, "{name}");
     }
 }
+
+/// The same in mode force, with a magnet that takes the device along.
+#[test]
+fn a_shaft_under_a_given_push_tells_its_length_and_derivatives() {
+    let text = PUSHED.replace("\"insertion\"", "\"force\"").replace("uniform_mt = [0.0, 3.0, 0.0]", "");
+    let magnet = "[magnet]\nposition_mm = [0.0, -70.0, 40.0]\norientation_wxyz = [0.0, 1.0, 0.0, 0.0]\n";
+    let (mut pushed, table, told) = initialised(&format!("{text}{magnet}"));
+    let mut at = |push: f64, time: f64| {
+        assert_eq!(set(&mut pushed, &table, "feed.force", push), Ending::Ok);
+        assert_eq!(pushed.do_step(time, 0.1), Ending::Ok, "{}", last(&told));
+        let force = get(&mut pushed, &table, "feed.reaction_force");
+        assert_close("push", &[force], &[push], SAME_SHAPE);
+        let [length, given] = ["feed.length", "feed.force"].map(|name| table.reference(name).unwrap());
+        let slope = pushed.directional_derivative(&[length], &[given], &[1.0]).unwrap()[0];
+        (get(&mut pushed, &table, "feed.length"), slope)
+    };
+    let (first, slope) = at(0.0, 0.0);
+    let (second, beyond) = at(1e-4, 0.1);
+    assert!(first > 5e-3 && slope > 0.0, "{first}, {slope}");
+    let mean = 0.5 * (slope + beyond);
+    assert!(((second - first) / 1e-4 - mean).abs() < 1e-3 * mean, "{first} {second} {slope} {beyond}");
+}

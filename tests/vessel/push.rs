@@ -96,7 +96,10 @@ fn a_free_shaft_stays_where_it_is() {
 #[test]
 fn a_push_without_its_mode_is_refused() {
     for (mode, told) in [
-        ("mode = \"insertion\"\nforce_n = 0.1", "feed.force_n = 0.1 is not allowed: it must be 0 unless feed.mode = \"force\""),
+        (
+            "mode = \"insertion\"\nforce_n = 0.1",
+            "feed.force_n = 0.1 is not allowed: it must be 0 unless feed.mode = \"force\"",
+        ),
         ("mode = \"force\"\nforce_n = nan", "force"),
     ] {
         let text = format!("[design]\nsegments = 1\n[feed]\n{mode}\n{SHAFT}");

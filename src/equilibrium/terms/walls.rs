@@ -14,7 +14,7 @@ const SIDES: usize = 6;
 const STEPS: usize = 25;
 
 /// Step (rad) at which that place is found.
-const FOUND: f64 = 1e-12;
+const FOUND: f64 = 1e-10;
 
 /// Angle (rad) within which two places of a rim are one.
 const SAME: f64 = 0.1;
