@@ -32,12 +32,17 @@ fn a_ball_sinks_in_as_in_hertz() {
 /// Multiple of the elastic stiffness that makes the Hessian away from equilibrium definite.
 const SHIFT: f64 = 100.0;
 
-const SEGMENTS: &str = "[design]\nsegments = 3\n[field]\nuniform_mt = [-3.0, 3.0, 0.0]\n\
+const SEGMENTS: &str = "[field]\nuniform_mt = [-3.0, 3.0, 0.0]\n\
     [gravity]\nacceleration_m_s2 = [0.0, -9.81, 0.0]\n[load]\ntip_force_n = [0.001, 0.0, -0.002]\n\
     [model]\ninteraction = \"rings\"\ntime_budget_s = 60.0\n[vessel]\n[[vessel.branch]]\nname = \"arc\"\n";
 
 /// Three segments in a bent vessel, in which they touch the wall with rings and windings.
 fn segments() -> Scene {
+    segments_with("")
+}
+
+/// The same with these entries of the design.
+fn segments_with(entries: &str) -> Scene {
     let points: Vec<String> = (-10..=30)
         .map(|i| {
             let angle = f64::from(i) * 0.02;
@@ -49,7 +54,10 @@ fn segments() -> Scene {
             )
         })
         .collect();
-    let text = format!("{SEGMENTS}points_mm = [{}]\nradius_mm = 2.2\n", points.join(", "));
+    let text = format!(
+        "[design]\nsegments = 3\n{entries}{SEGMENTS}points_mm = [{}]\nradius_mm = 2.2\n",
+        points.join(", ")
+    );
     Scene::parse(&text, "segments").expect("a scene")
 }
 
@@ -187,19 +195,14 @@ fn a_moved_scene_has_the_same_answer() {
 /// do.
 #[test]
 fn a_mirrored_scene_has_the_mirrored_answer() {
-    let mut scene = segments();
-    let axisymmetric = SEGMENTS.replace("[field]", "spiral = \"axisymmetric\"\n[field]");
-    scene.specification =
-        Scene::parse(&axisymmetric.split("[vessel]").next().expect("one").to_owned(), "alike")
-            .expect("a scene")
-            .specification;
+    let scene = segments_with("spiral = \"axisymmetric\"\n");
     let vessel = scene.vessel.as_ref().expect("a vessel").clone();
     let branch = &vessel.lumen.branches()[0];
     let across = Vector3::new(-1.0, 1.0, 1.0);
     let count = 60;
     let balls = (0..=count).map(|i| branch.ball(branch.range().end() * f64::from(i) / f64::from(count)));
     let (points, radii): (Vec<_>, Vec<_>) = balls.unzip();
-    let mut made = |mirror: &Vector3<f64>| {
+    let made = |mirror: &Vector3<f64>| {
         let points: Vec<_> = points.iter().map(|point: &Vector3<f64>| point.component_mul(mirror)).collect();
         let branch = Branch::new("arc", &points, &radii).expect("allowed");
         let mut other = scene.clone();

@@ -189,10 +189,9 @@ fn a_rod_bent_over_a_former_lifts_off_as_in_closed_form() {
         println!("slopes to {:.1e}: force {force:.1e}, tip {tip:.1e}, lift-off {place:.1e}", LENGTH / former);
         assert!(tip.abs() < 0.3 * last && tip.abs() < 0.1 * (LENGTH / former).powi(2), "{tip} after {last}");
         last = tip.abs();
-        if former == 8.0 {
-            assert!(force.abs() < WALL_CLOSED_FORM && tip.abs() < WALL_CLOSED_FORM, "{force} {tip}");
-            assert!(place.abs() < LIFT_OFF, "{place}");
-        }
+        let wanted = WALL_CLOSED_FORM * (8.0 / former).powi(2);
+        assert!(force.abs() < wanted && tip.abs() < wanted, "{force} {tip}");
+        assert!(place.abs() < LIFT_OFF * (8.0 / former).powi(2), "{place}");
     }
 }
 
