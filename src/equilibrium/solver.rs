@@ -27,6 +27,9 @@ use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
 use crate::vessel::Vessel;
 
+/// Ratio by which a shaft must become shorter in a step for the margin, relative to the elastic energy, to be measured anew.
+const PULLED_OUT: f64 = 1.02;
+
 /// Point of the centreline at which the shape is reported.
 #[derive(Debug, Clone)]
 pub(super) struct ShapePoint {
@@ -174,6 +177,9 @@ impl Equilibrium {
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         self.check(inputs)?;
         self.lay_out(inputs);
+        // Steps are measured by the longest shaft on the way: by one that is all but pulled out, none would be short.
+        let longest = self.branch.inputs.as_ref().map_or(0.0, |last| last.insertion).max(inputs.insertion);
+        self.chain.stiffness_at(longest, &mut self.metric);
         let Self { chain, metric, settings, magnet, around, branch, work, rules, scratch, .. } = self;
         let mut search = Search {
             model: Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() },
@@ -187,7 +193,13 @@ impl Equilibrium {
             passing: false,
             kept: false,
         };
-        Ok(search.solve(branch, inputs))
+        let mut report = search.solve(branch, inputs);
+        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+        if report.solved() && self.chain.shaft > 0 && longest > PULLED_OUT * inputs.insertion {
+            let margin = self.margin().unwrap_or(report.margin);
+            (report.margin, self.branch.margin) = (margin, margin);
+        }
+        Ok(report)
     }
 
     /// Checks the numbers of inputs.

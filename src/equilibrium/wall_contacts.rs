@@ -12,6 +12,8 @@ pub(super) struct ArcPart {
     pub(super) on: (usize, usize),
     /// Its ends along the element, m.
     pub(super) ends: [f64; 2],
+    /// Its greatest depth in the wall, m.
+    pub(super) deepest: f64,
     /// Number of the arc that it belongs to.
     pub(super) arc: usize,
 }

@@ -62,7 +62,7 @@ impl Potential<'_> {
         self.find_arcs(surface, unknowns, &mut parts);
         let (places, weights) = gauss_legendre(POINTS);
         let (mut energy, work) = (0.0, &mut *self.work);
-        for ArcPart { on: (k, piece), ends: [from, to], arc } in &parts {
+        for ArcPart { on: (k, piece), ends: [from, to], deepest, arc } in &parts {
             let (element, amplitudes, node) =
                 (&self.chain.elements[*k], self.chain.part(*k, unknowns), work.nodes[*k]);
             let (surface, half) = (&surface.elements[*k], 0.5 * (to - from));
@@ -75,7 +75,9 @@ impl Potential<'_> {
                 let touch = self.terms.walls.rod(&point, radius, growth * half * weight);
                 let Some(touch) = touch.filter(|touch| touch.depth > 0.0) else { continue };
                 energy += touch.load.energy;
-                work.walls.contacts.push(WallContact::new(Site::Arc(*arc), &touch));
+                // The part is deeper in the wall between the points than at them.
+                let contact = WallContact::new(Site::Arc(*arc), &touch);
+                work.walls.contacts.push(WallContact { depth: touch.depth.max(*deepest), ..contact });
                 let placed = &mut work.placed_loads[*k];
                 placed.abrupt += touch.stiffness * (growth * element.length).powi(2);
                 let load = touch.load.in_axes(&node.rotation);

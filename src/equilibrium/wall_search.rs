@@ -99,6 +99,7 @@ impl Potential<'_> {
                     found.extend(parts.map(|ends| ArcPart {
                         on: (k, piece),
                         ends: ends.map(|x| from + x * length),
+                        deepest: -cubic.least(ends),
                         arc: 0,
                     }));
                 }

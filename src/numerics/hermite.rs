@@ -39,17 +39,34 @@ impl Cubic {
         self.coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
     }
 
+    /// Where its slope changes sign, on either side of the interval too.
+    fn extrema(&self) -> impl Iterator<Item = f64> + use<> {
+        let [_, b, c, d] = self.coefficients;
+        let discriminant = c * c - 3.0 * b * d;
+        let q = -(c + c.signum() * discriminant.max(0.0).sqrt());
+        [q / (3.0 * d), b / q].into_iter().filter(move |_| discriminant > 0.0)
+    }
+
+    /// Its least value between two places.
+    ///
+    /// ```
+    /// use mcm::numerics::hermite::Cubic;
+    /// let cubic = Cubic::through([1.0, 1.0], [-6.0, 6.0]); // 1 - 6 x + 6 x^2
+    /// assert!((cubic.least([0.0, 1.0]) + 0.5).abs() < 1e-12);
+    /// assert_eq!(cubic.least([0.0, 0.2]), cubic.at(0.2));
+    /// ```
+    #[must_use]
+    pub fn least(&self, [from, to]: [f64; 2]) -> f64 {
+        let inside = self.extrema().filter(|x| *x > from && *x < to);
+        inside.chain([from, to]).map(|x| self.at(x)).fold(f64::INFINITY, f64::min)
+    }
+
     /// The places inside `(0, 1)`, ascending, where it changes from one side of `level` to the other.
     #[must_use]
     pub fn crossings(&self, level: f64) -> Vec<f64> {
-        let [_, b, c, d] = self.coefficients;
         // Between its extrema it is monotone.
         let mut ends = vec![0.0];
-        let (half, discriminant) = (c, c * c - 3.0 * b * d);
-        if discriminant > 0.0 {
-            let q = -(half + half.signum() * discriminant.sqrt());
-            ends.extend([q / (3.0 * d), b / q].into_iter().filter(|x| *x > 0.0 && *x < 1.0));
-        }
+        ends.extend(self.extrema().filter(|x| *x > 0.0 && *x < 1.0));
         ends.push(1.0);
         ends.sort_by(f64::total_cmp);
         let below = |x: f64| self.at(x) < level;

@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "the functions under test take raw pointers")]
 
 pub(crate) mod host;
+mod insertions;
 #[allow(dead_code, reason = "the recorded run uses all of it")]
 pub(crate) mod judge;
 

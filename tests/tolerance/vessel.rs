@@ -29,6 +29,18 @@ pub(crate) const FEED_FORCE: f64 = 1e-4;
 /// Closed forms of small slopes, relative.
 pub(crate) const WALL_CLOSED_FORM: f64 = 1e-4;
 
+/// Push of a sleeve at a slope of a hundredth, relative: half of the slope's square.
+pub(crate) const SLEEVE: f64 = 1e-4;
+
+/// Place where a rod lifts off a former, relative to its length.
+pub(crate) const LIFT_OFF: f64 = 1e-4;
+
+/// Pitch of a helix in a tube whose slopes squared are 3e-4, relative.
+pub(crate) const HELIX: f64 = 1e-3;
+
+/// Force per length of a helix on its tube, relative.
+pub(crate) const LINE_FORCE: f64 = 1e-2;
+
 /// Balance of all forces, relative to the sum of the wall's: the residual of a solve.
 pub(crate) const WALL_BALANCE: f64 = 1e-9;
 

@@ -1,87 +1,11 @@
-//! Contact with the wall: closed forms, laws and derivatives.
+//! Contact with the wall: laws, derivatives and symmetries.
 
-use core::f64::consts::PI;
-
-use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Solution};
 use mcm::manipulator::{Input, Output, Scene};
 use mcm::vessel::{Branch, Lumen, Vessel, Wall};
 use nalgebra::Vector3;
 
-use crate::tolerance::{CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_CLOSED_FORM, WALL_MOVED};
-
-const LENGTH: f64 = 0.06;
-const RADIUS: f64 = 0.3e-3;
-const MODULUS: f64 = 3e6;
-/// Gap between rod and wall, m.
-const GAP: f64 = 0.02e-3;
-
-fn bending_stiffness() -> f64 {
-    MODULUS * PI * RADIUS.powi(4) / 4.0
-}
-
-fn tube(radius: f64, modulus: f64) -> Vessel {
-    let points = [-0.02, 0.03, 0.08].map(|z| Vector3::new(0.0, 0.0, z));
-    let branch = Branch::new("tube", &points, &[radius; 3]).expect("allowed");
-    Vessel { lumen: Lumen::new(vec![branch]).expect("one"), wall: Wall::new(modulus).expect("allowed") }
-}
-
-/// A thin rod in a straight tube.
-fn rod(modulus: f64) -> Equilibrium {
-    let material = CylinderMaterial::Bulk { elastic_modulus: MODULUS, poisson: 0.45, remanence: 0.0 };
-    let cylinder =
-        Cylinder { length: LENGTH, radius: RADIUS, inner_radius: 0.0, material, density: Some(0.0) };
-    let design = Design::new(Specification::Cylinder(cylinder)).expect("allowed");
-    let settings = Settings {
-        cylinder_elements: 16,
-        interaction: Interaction::None,
-        time_budget: 60.0,
-        ..Settings::default()
-    };
-    Equilibrium::new(&design, None, settings, 2).expect("allowed").in_vessel(&tube(RADIUS + GAP, modulus))
-}
-
-/// The tip force of a clamped rod whose tip is bent against the wall by a moment: `3 (M - M1) / (2 L)` beyond
-/// `M1 = 2 K c / L^2`.
-#[test]
-fn bent_rod_presses_its_tip_as_in_closed_form() {
-    let touching = 2.0 * bending_stiffness() * GAP / (LENGTH * LENGTH);
-    let mut last = f64::INFINITY;
-    for modulus in [1e5, 1e7, 1e9] {
-        let mut model = rod(modulus);
-        let mut worst = 0.0_f64;
-        for times in [2.0, 5.0, 10.0] {
-            let moment = times * touching;
-            let inputs = Inputs { tip_moment: Vector3::new(0.0, moment, 0.0), ..Inputs::unloaded(0) };
-            assert!(model.solve(&inputs).expect("finite").solved());
-            let wanted = 1.5 * (moment - touching) / LENGTH;
-            let wall = model.wall().expect("a vessel");
-            worst = worst.max((wall.force.norm() / wanted - 1.0).abs());
-        }
-        println!("wall of {modulus:.0e} Pa: {worst:.1e}");
-        assert!(worst < 0.2 * last || worst < WALL_CLOSED_FORM, "{worst} after {last}");
-        last = worst;
-    }
-    assert!(last < WALL_CLOSED_FORM, "{last}");
-}
-
-/// A compressed column whose tip rests on the wall: `N = P (c/L) kL / (kL - tan kL)`.
-#[test]
-fn compressed_column_rests_on_the_wall_as_in_closed_form() {
-    for (angle, wanted) in [(2.0, 1.91157), (2.5, 4.81210), (PI, PI * PI), (4.0, 22.51794)] {
-        let axial = bending_stiffness() * (angle / LENGTH).powi(2);
-        let mut model = rod(1e9);
-        let aside = 1e-3 * axial;
-        let mut inputs = Inputs { tip_force: Vector3::new(aside, 0.0, -axial), ..Inputs::unloaded(0) };
-        assert!(model.solve(&inputs).expect("finite").solved());
-        inputs.tip_force.x = 0.0;
-        assert!(model.solve(&inputs).expect("finite").solved());
-        let force = model.wall().expect("a vessel").force.norm();
-        let scaled = force * LENGTH.powi(3) / (bending_stiffness() * GAP);
-        println!("kL = {angle}: {scaled}, {wanted}");
-        assert!((scaled / wanted - 1.0).abs() < 10.0 * WALL_CLOSED_FORM, "kL = {angle}: {scaled}, {wanted}");
-    }
-}
+use crate::tolerance::{CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_MOVED};
 
 /// Hertz for a ball of 2 mm in a silicone of 1.7e6 Pa.
 #[test]
@@ -108,12 +32,17 @@ fn a_ball_sinks_in_as_in_hertz() {
 /// Multiple of the elastic stiffness that makes the Hessian away from equilibrium definite.
 const SHIFT: f64 = 100.0;
 
-const SEGMENTS: &str = "[design]\nsegments = 3\n[field]\nuniform_mt = [-3.0, 3.0, 0.0]\n\
+const SEGMENTS: &str = "[field]\nuniform_mt = [-3.0, 3.0, 0.0]\n\
     [gravity]\nacceleration_m_s2 = [0.0, -9.81, 0.0]\n[load]\ntip_force_n = [0.001, 0.0, -0.002]\n\
     [model]\ninteraction = \"rings\"\ntime_budget_s = 60.0\n[vessel]\n[[vessel.branch]]\nname = \"arc\"\n";
 
 /// Three segments in a bent vessel, in which they touch the wall with rings and windings.
 fn segments() -> Scene {
+    segments_with("")
+}
+
+/// The same with these entries of the design.
+fn segments_with(entries: &str) -> Scene {
     let points: Vec<String> = (-10..=30)
         .map(|i| {
             let angle = f64::from(i) * 0.02;
@@ -125,7 +54,10 @@ fn segments() -> Scene {
             )
         })
         .collect();
-    let text = format!("{SEGMENTS}points_mm = [{}]\nradius_mm = 2.2\n", points.join(", "));
+    let text = format!(
+        "[design]\nsegments = 3\n{entries}{SEGMENTS}points_mm = [{}]\nradius_mm = 2.2\n",
+        points.join(", ")
+    );
     Scene::parse(&text, "segments").expect("a scene")
 }
 
@@ -257,6 +189,39 @@ fn a_moved_scene_has_the_same_answer() {
     let apart = (turn * first.tip().position + shift - second.tip().position).norm();
     assert!(apart < WALL_MOVED, "{apart}");
     assert!((model.tip().position - first.tip().position).norm() < 1e-7);
+}
+
+/// The same scene in a mirror. Fields and moments turn the other way round there; with every magnet reversed they mirror as forces
+/// do.
+#[test]
+fn a_mirrored_scene_has_the_mirrored_answer() {
+    let scene = segments_with("spiral = \"axisymmetric\"\n");
+    let vessel = scene.vessel.as_ref().expect("a vessel").clone();
+    let branch = &vessel.lumen.branches()[0];
+    let across = Vector3::new(-1.0, 1.0, 1.0);
+    let count = 60;
+    let balls = (0..=count).map(|i| branch.ball(branch.range().end() * f64::from(i) / f64::from(count)));
+    let (points, radii): (Vec<_>, Vec<_>) = balls.unzip();
+    let made = |mirror: &Vector3<f64>| {
+        let points: Vec<_> = points.iter().map(|point: &Vector3<f64>| point.component_mul(mirror)).collect();
+        let branch = Branch::new("arc", &points, &radii).expect("allowed");
+        let mut other = scene.clone();
+        other.vessel = Some(Vessel { lumen: Lumen::new(vec![branch]).expect("one"), wall: vessel.wall });
+        let inputs = &mut other.inputs;
+        for vector in [&mut inputs.uniform_field, &mut inputs.gravity, &mut inputs.tip_force] {
+            vector.component_mul_assign(mirror);
+        }
+        solved(&other)
+    };
+    let (first, second) = (made(&Vector3::repeat(1.0)), made(&across));
+    let [one, other] = [&first, &second].map(|model| model.wall().expect("a vessel"));
+    assert!(one.count >= 1 && one.force.x.abs() > 1e-4, "{one:?}");
+    let apart = (first.tip().position.component_mul(&across) - second.tip().position).norm();
+    assert!(apart < WALL_MOVED, "{apart}");
+    assert!(
+        (one.force.component_mul(&across) - other.force).norm() < WALL_BALANCE * one.sum,
+        "{one:?} {other:?}"
+    );
 }
 
 /// Without contact a vessel changes nothing.

@@ -55,6 +55,24 @@ fn nothing_jumps_from_0_to_600_mm() {
     }
 }
 
+/// Pulled back to its port at once the device is that which is clamped, found in a few steps.
+#[test]
+fn a_shaft_is_pulled_back_to_its_port_at_once() {
+    let fed = scene(SHAFT);
+    let mut clamped = fed.manipulator(21).expect("allowed");
+    let tip = solve(&mut clamped, &fed.inputs).tip.position;
+    let margin = clamped.measure_margin().stability_margin;
+    for from in [0.5e-3, 5e-3, 20e-3, 60e-3] {
+        let mut manipulator = fed.manipulator(21).expect("allowed");
+        solve(&mut manipulator, &Inputs { insertion: from, ..fed.inputs.clone() });
+        let out = solve(&mut manipulator, &fed.inputs);
+        println!("from {from}: {} iterations, margin {} {margin}", out.iterations, out.stability_margin);
+        assert!((out.tip.position - tip).norm() < CLAMPED, "{from}");
+        assert!(out.iterations < 200, "{from}: {}", out.iterations);
+        assert!((out.stability_margin - margin).abs() < 0.02 * margin, "{from}: {}", out.stability_margin);
+    }
+}
+
 /// A shaft of the same material as a rod at its end is one rod: however long each part is.
 #[test]
 fn shaft_and_rod_of_one_material_are_one_rod() {

@@ -2,6 +2,7 @@
 
 mod aorta;
 mod branch;
+mod closed_forms;
 mod contact;
 mod feed;
 mod grid;
