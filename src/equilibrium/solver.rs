@@ -283,10 +283,13 @@ impl Equilibrium {
         }
     }
 
+    pub(super) fn vessel(&self) -> Option<&Vessel> {
+        self.around.as_deref().map(|around| &around.vessel)
+    }
+
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
-        let vessel = self.around.as_deref().map(|around| &around.vessel);
-        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), vessel, inputs, &self.rules)
+        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), self.vessel(), inputs, &self.rules)
     }
 
     /// Adapts stiffness and shape points to the inserted length of a shaft.

@@ -8,8 +8,9 @@ mod grid;
 mod lumen;
 mod mesh;
 mod rods;
+mod scene;
 mod stl;
-mod tube;
+pub(crate) mod tube;
 
 use nalgebra::{Matrix3, Vector3};
 use rand::rngs::StdRng;
