@@ -2,10 +2,10 @@
 
 use allocation_counter::measure;
 use mcm::equilibrium::Interaction;
-use mcm::fmi::{Instance, Package};
 use mcm::fmi::state::{Ending, State};
 use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
+use mcm::fmi::{Instance, Package};
 
 use super::{BENT, Told, instance, last};
 use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, TWO_DECIMALS_DEG, assert_close};
