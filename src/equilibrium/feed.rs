@@ -1,11 +1,55 @@
-//! Force that holds a shaft in its port.
+//! Force that holds a shaft in its port, and what the inserted length changes.
+
+use nalgebra::{DMatrix, Vector3};
 
 use super::inputs::Inputs;
+use super::layout::Input;
+use super::response::{Response, transport_base};
 use super::solver::Equilibrium;
+use crate::numerics::trust_region::Objective;
+use crate::rod::{ElementLoads, Load, Order, START};
 
 /// Number of the mode of constant extension among the amplitudes of an element: growth of an element is such an extension
 /// without stress.
 const EXTENSION: usize = 5;
+
+/// Half the difference of inserted lengths from which derivatives are taken, m: short beside the width over which a wall's force
+/// sets in, long beside the rounding of positions.
+const APART: f64 = 2e-7;
+
+/// Part of a step of the inputs from which the derivatives along it are taken.
+const NEARBY: f64 = 1e-3;
+
+/// Derivatives with respect to the inserted length at a fixed shape of the elements.
+#[derive(Debug, Clone)]
+pub(super) struct ByInsertion {
+    /// Of the gradient.
+    pub(super) gradient: Vec<f64>,
+    /// Of the force and the moment on the base.
+    pub(super) base: [f64; 6],
+    /// Of the push, N/m.
+    pub(super) push: f64,
+}
+
+/// First derivatives of the energy, as [`Equilibrium::slopes`] gives them.
+struct Slopes {
+    gradient: Vec<f64>,
+    base: [f64; 6],
+    push: f64,
+}
+
+/// How a fed shaft responds at a solved shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct FeedResponse {
+    /// Push that holds the shaft, N.
+    pub(crate) push: f64,
+    /// Its derivative with respect to the inserted length, N/m: positive where a constant push holds the shaft.
+    pub(crate) stiffness: f64,
+    /// Change of the push, N, along a step of the other inputs, to first order.
+    pub(crate) along: f64,
+    /// Axial stiffness of the shaft and what follows, were that all shaft, N/m.
+    pub(crate) elastic: f64,
+}
 
 impl Equilibrium {
     /// Derivative of the potential energy with respect to the inserted length at the last solved shape, N: the push that holds the
@@ -15,13 +59,18 @@ impl Equilibrium {
     /// 2015, doi:10.1016/j.ijsolstr.2014.10.014). The unstressed shaft outside counts for nothing, and the weight of what comes in
     /// is that of the port.
     pub(super) fn feed_push(&self, inputs: &Inputs) -> Option<f64> {
+        (self.chain.shaft > 0).then(|| self.push_of(inputs, &self.branch.unknowns))
+    }
+
+    /// The same at the equilibrium `unknowns`, evaluated last.
+    fn push_of(&self, inputs: &Inputs, unknowns: &[f64]) -> f64 {
         let (chain, work) = (&self.chain, &self.work);
         let growth = chain.growth(inputs.insertion);
         let inserted = chain.inserted(growth);
         let port = inputs.gravity.dot(&inputs.base.position);
         let (mut extension, mut energy) = (0.0, 0.0);
         for (k, element) in chain.elements[..chain.shaft].iter().enumerate() {
-            let amplitudes = chain.part(k, &self.branch.unknowns);
+            let amplitudes = chain.part(k, unknowns);
             extension += element.metric[EXTENSION] / growth * amplitudes[EXTENSION];
             energy -= work.configurations[k].elastic_energy(element, amplitudes);
             for (station, load) in element.stations.iter().zip(&work.station_loads[k]) {
@@ -31,6 +80,156 @@ impl Equilibrium {
             }
             energy += work.placed_loads[k].loads.iter().map(|placed| placed.load.energy).sum::<f64>();
         }
-        (chain.shaft > 0).then(|| energy / inserted - extension / chain.shaft as f64)
+        energy / inserted - extension / chain.shaft as f64
+    }
+
+    /// Derivatives of the energy without the elastic one of the shaft at any shape: the gradient, the wrench on the base, and that
+    /// with respect to the inserted length.
+    fn slopes(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<Slopes> {
+        let mut potential = self.potential(inputs, unknowns);
+        potential.slope(unknowns)?;
+        let mut gradient = potential.gradient().to_vec();
+        let stretching = self.growing().map(|(unknown, rate)| gradient[unknown] * rate).sum::<f64>();
+        let (elastic, energy) = self.elastic(unknowns);
+        gradient.iter_mut().zip(&elastic).for_each(|(all, elastic)| *all -= elastic);
+        let (force, moment) = self.work.base;
+        let base = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
+        let push = self.push_of(inputs, unknowns) + stretching + energy / self.inserted(inputs);
+        Some(Slopes { gradient, base, push })
+    }
+
+    /// Elastic gradient, of the shaft's unknowns alone, and elastic energy (J) of the shaft at the shape evaluated last. Both are
+    /// inversely proportional to the inserted length.
+    fn elastic(&mut self, unknowns: &[f64]) -> (Vec<f64>, f64) {
+        let (chain, work) = (&self.chain, &mut self.work);
+        let (mut gradient, mut energy) = (Vec::new(), 0.0);
+        for (k, element) in chain.elements[..chain.shaft].iter().enumerate() {
+            let (configuration, amplitudes) = (&work.configurations[k], chain.part(k, unknowns));
+            let unloaded = ElementLoads {
+                stations: &vec![Load::zero(); element.stations.len()],
+                placed: &[],
+                couplings: &[],
+                end: (Vector3::zeros(), Vector3::zeros()),
+            };
+            work.derivatives[k].assemble(element, configuration, amplitudes, &unloaded, Order::Gradient);
+            gradient.extend_from_slice(&work.derivatives[k].gradient[START..]);
+            energy += configuration.elastic_energy(element, amplitudes);
+        }
+        (gradient, energy)
+    }
+
+    /// Length (m) that counts as inserted.
+    fn inserted(&self, inputs: &Inputs) -> f64 {
+        self.chain.inserted(self.chain.growth(inputs.insertion))
+    }
+
+    /// The unknowns whose change moves a shape as a growing inserted length does, and their rates.
+    pub(super) fn growing(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let shaft = self.chain.shaft;
+        let first = self.chain.first[..shaft].to_vec();
+        first.into_iter().map(move |first| (first + EXTENSION, 1.0 / shaft as f64))
+    }
+
+    /// Derivatives by the inserted length at a fixed shape, by central differences of exact ones; `None` without a shaft and
+    /// where bodies touch.
+    pub(super) fn by_insertion(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<ByInsertion> {
+        if self.chain.shaft == 0 {
+            return None;
+        }
+        let middle = inputs.insertion.max(APART);
+        let mut at = |insertion| self.slopes(&Inputs { insertion, ..inputs.clone() }, unknowns);
+        let (before, after) = (at(middle - APART)?, at(middle + APART)?);
+        let rate = |(a, b): (&f64, &f64)| (b - a) / (2.0 * APART);
+        let mut gradient: Vec<f64> = before.gradient.iter().zip(&after.gradient).map(rate).collect();
+        self.potential(inputs, unknowns).slope(unknowns)?;
+        let (elastic, energy) = self.elastic(unknowns);
+        let length = self.inserted(inputs);
+        gradient.iter_mut().zip(&elastic).for_each(|(all, elastic)| *all -= elastic / length);
+        Some(ByInsertion {
+            gradient,
+            base: core::array::from_fn(|i| rate((&before.base[i], &after.base[i]))),
+            push: rate((&before.push, &after.push)) + 2.0 * energy / (length * length),
+        })
+    }
+
+    /// How the shaft responds at the last solved shape, and along a step from its inputs towards `toward` at a constant inserted
+    /// length; `None` without a shaft, before the first solve and at a fold.
+    pub(crate) fn feed_response(&self, toward: &Inputs) -> Option<FeedResponse> {
+        let inputs = self.branch.inputs.as_ref()?;
+        let unknowns = &self.branch.unknowns;
+        let mut apart = self.apart();
+        let by_insertion = apart.by_insertion(inputs, unknowns)?;
+        let here = apart.slopes(inputs, unknowns)?;
+        let level = Inputs { insertion: inputs.insertion, ..toward.clone() };
+        let near = apart.slopes(&inputs.between(&level, NEARBY), unknowns)?;
+        let push = self.push_of(inputs, unknowns);
+        let mut potential = apart.potential(inputs, unknowns);
+        potential.linearise(unknowns)?;
+        let regular = potential.factorise(0.0);
+        let mut yielding = |load: Vec<f64>| {
+            let mut shape = load;
+            potential.solve(&mut shape);
+            by_insertion.gradient.iter().zip(&shape).map(|(rate, by)| rate * by).sum::<f64>()
+        };
+        let moved = near.gradient.iter().zip(&here.gradient).map(|(after, before)| after - before).collect();
+        let along = (near.push - here.push - yielding(moved)) / NEARBY;
+        let stiffness = by_insertion.push - yielding(by_insertion.gradient.clone());
+        let first = self.chain.elements.first()?;
+        let tension = first.metric[EXTENSION] * first.length;
+        Some(FeedResponse {
+            push,
+            stiffness,
+            along,
+            elastic: tension / (inputs.insertion + self.chain.length()),
+        })
+        .filter(|_| regular)
+    }
+
+    /// Rates of the push, one for each input.
+    ///
+    /// Second derivatives are symmetric: what the shape changes in the push is what the length changes in the gradient.
+    pub(super) fn push_rates(
+        &self,
+        response: &Response,
+        inputs: &Inputs,
+        by_insertion: &ByInsertion,
+    ) -> DMatrix<f64> {
+        let Response { columns, unknowns, by_base, .. } = response;
+        let mut out = self.weighted_rates(inputs, columns.gradient.ncols());
+        transport_base(&mut out, by_base);
+        for (unknown, rate) in self.growing() {
+            out += columns.gradient.row(unknown) * rate;
+        }
+        out[Input::Insertion.columns().start] = by_insertion.push;
+        out + DMatrix::from_row_slice(1, unknowns.nrows(), &by_insertion.gradient) * unknowns
+    }
+
+    /// The same at a fixed shape and without what grows, which moves the shape: more length weighs more and touches more.
+    fn weighted_rates(&self, inputs: &Inputs, columns: usize) -> DMatrix<f64> {
+        let (chain, work) = (&self.chain, &self.work);
+        let growth = chain.growth(inputs.insertion);
+        let (mut by_gravity, mut by_shift, mut by_spin) =
+            (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        for (k, element) in chain.elements[..chain.shaft].iter().enumerate() {
+            let node = &work.nodes[k];
+            for (station, state) in element.stations.iter().zip(&work.configurations[k].stations) {
+                let mass = station.material.line_mass + station.material.density * station.material.moments.volume;
+                by_gravity -= (node.transform(&state.position) - inputs.base.position) * (growth * mass);
+            }
+            for placed in &work.placed_loads[k].loads {
+                let arm = node.transform(&placed.frame.pose.position) - inputs.base.position;
+                let force = node.rotation * placed.load.force;
+                by_shift -= force;
+                by_spin -= arm.cross(&force) + node.rotation * placed.load.moment();
+            }
+        }
+        let mut out = DMatrix::zeros(1, columns);
+        let inserted = chain.inserted(growth);
+        for (input, rates) in
+            [(Input::Gravity, by_gravity), (Input::VesselPosition, by_shift), (Input::VesselRotation, by_spin)]
+        {
+            out.columns_range_mut(input.columns()).copy_from(&(rates / inserted).transpose());
+        }
+        out
     }
 }

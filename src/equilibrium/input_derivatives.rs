@@ -42,7 +42,8 @@ impl Potential<'_> {
             let element = &self.chain.elements[k];
             for (index, station) in element.stations.iter().enumerate() {
                 let (frame, pose) = (Frame::Station(station, &[]), self.work.station(k, index));
-                let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0);
+                let growth = self.work.configurations[k].growth;
+                let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0) * growth;
                 let state = &self.work.configurations[k].stations[index];
                 let tangent = &mut self.work.derivatives[k];
                 let size = tangent.size;
@@ -125,6 +126,7 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         field_gradient,
         base,
         insertion: _, // these do not change
+        feed_force: _,
         roll: _,
         tip_force,
         tip_moment,

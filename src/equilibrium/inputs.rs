@@ -7,7 +7,7 @@ use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
 
 /// Longest inserted part of a shaft, m.
-const LONGEST: f64 = 1.0;
+pub(crate) const LONGEST_INSERTION: f64 = 1.0;
 
 /// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
@@ -30,6 +30,9 @@ pub struct Inputs {
     pub base: Pose,
     /// Length of shaft inside the port, m; without effect where there is no shaft.
     pub insertion: f64,
+    /// Push on the shaft at its port, N: the inserted length then follows from it, and `insertion` is where the first solve begins.
+    /// `None` where the length is given.
+    pub feed_force: Option<f64>,
     /// Turn of what the base clamps, or of the shaft in its port, about its axis, rad.
     pub roll: f64,
     /// Force on the tip, N.
@@ -57,6 +60,7 @@ impl Inputs {
             field_gradient: [0.0; 5],
             base: Pose::identity(),
             insertion: 0.0,
+            feed_force: None,
             roll: 0.0,
             tip_force: Vector3::zeros(),
             tip_moment: Vector3::zeros(),
@@ -111,6 +115,7 @@ impl Inputs {
             field_gradient: core::array::from_fn(|i| number(self.field_gradient[i], other.field_gradient[i])),
             base: self.base.between(&other.base, t),
             insertion: number(self.insertion, other.insertion),
+            feed_force: self.feed_force.zip(other.feed_force).map(|(a, b)| number(a, b)).or(other.feed_force),
             roll: number(self.roll, other.roll),
             tip_force: mix(&self.tip_force, &other.tip_force),
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
@@ -154,6 +159,7 @@ impl Inputs {
             field_gradient,
             base,
             insertion,
+            feed_force,
             roll,
             tip_force,
             tip_moment,
@@ -171,6 +177,7 @@ impl Inputs {
             ("base position (m)", base.position.as_slice()),
             ("base orientation", base.rotation.as_slice()),
             ("insertion (m)", std::slice::from_ref(insertion)),
+            ("feed force (N)", feed_force.as_slice()),
             ("roll (rad)", std::slice::from_ref(roll)),
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
@@ -191,7 +198,7 @@ impl Inputs {
                 check(name, *value, |_| true, "finite")?;
             }
         }
-        check("insertion (m)", self.insertion, |v| (0.0..=LONGEST).contains(&v), "from 0 to 1")?;
+        check("insertion (m)", self.insertion, |v| (0.0..=LONGEST_INSERTION).contains(&v), "from 0 to 1")?;
         let given = self.ring_forces.len();
         if given == rings {
             return Ok(());

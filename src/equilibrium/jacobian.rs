@@ -77,6 +77,21 @@ impl Jacobian {
         Err(crate::error::Error::Count { quantity, given, expected: self.matrix.ncols().to_string() })
     }
 
+    /// The same where the push on the shaft is given and its length follows; as it is without a shaft.
+    #[must_use]
+    pub(crate) fn at_given_push(mut self) -> Self {
+        let (insertion, given) = (Input::Insertion.columns().start, Input::FeedForce.columns().start);
+        let Some(push) = self.rows(Output::FeedReaction).map(|rows| rows.start) else { return self };
+        let stiffness = self.matrix[(push, insertion)];
+        if stiffness != 0.0 {
+            let by_push = self.matrix.column(insertion) / stiffness;
+            let follows = &by_push * self.matrix.row(push);
+            self.matrix -= follows;
+            self.matrix.set_column(given, &by_push);
+        }
+        self
+    }
+
     /// The actuation Jacobian: displacement (m) and rotation (rad) of the tip with respect to displacement and rotation
     /// of the magnet about its centre, world axes.
     #[must_use]

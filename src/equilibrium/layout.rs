@@ -30,6 +30,10 @@ pub enum Input {
     BaseRotation,
     /// Turn of the base or shaft about its axis, rad.
     Roll,
+    /// Length of shaft inside the port, m; nothing changes with it where the push is given, or without a shaft.
+    Insertion,
+    /// Push on the shaft, N, where that is given instead of the length.
+    FeedForce,
     /// Displacement of the vessel, m.
     VesselPosition,
     /// Rotation of the vessel about the base position, rad.
@@ -62,6 +66,10 @@ pub enum Output {
     MagnetReactionTorque,
     /// External field at the tip, T.
     TipField,
+    /// Length of shaft inside the port, m.
+    FeedLength,
+    /// Push that holds the shaft, N.
+    FeedReaction,
     /// Point of the centreline, m.
     ShapePoint(usize),
     /// Centre of a ring, m.
@@ -76,7 +84,7 @@ pub enum Output {
 }
 
 /// Inputs of every design in the order of their columns; the forces on the rings follow.
-const INPUTS: [Input; 13] = [
+const INPUTS: [Input; 15] = [
     Input::MagnetPosition,
     Input::MagnetRotation,
     Input::MagnetStrength,
@@ -88,12 +96,14 @@ const INPUTS: [Input; 13] = [
     Input::BasePosition,
     Input::BaseRotation,
     Input::Roll,
+    Input::Insertion,
+    Input::FeedForce,
     Input::VesselPosition,
     Input::VesselRotation,
 ];
 
 /// Outputs of every design in the order of their rows; shape points, rings and cores follow.
-const OUTPUTS: [Output; 10] = [
+const OUTPUTS: [Output; 12] = [
     Output::TipAngle,
     Output::TipPosition,
     Output::TipRotation,
@@ -104,6 +114,8 @@ const OUTPUTS: [Output; 10] = [
     Output::MagnetReactionForce,
     Output::MagnetReactionTorque,
     Output::TipField,
+    Output::FeedLength,
+    Output::FeedReaction,
 ];
 
 /// Outputs of each ring in the order of their rows.
@@ -116,7 +128,7 @@ impl Input {
     /// Number of columns of this input.
     pub(super) const fn width(self) -> usize {
         match self {
-            Self::MagnetStrength | Self::Roll => 1,
+            Self::MagnetStrength | Self::Roll | Self::Insertion | Self::FeedForce => 1,
             Self::FieldGradient => 5,
             _ => VECTOR,
         }
@@ -189,6 +201,9 @@ impl Counts {
 impl Output {
     /// Number of rows of this output.
     fn width(self) -> usize {
-        if matches!(self, Self::TipAngle | Self::CoreAngle(_)) { 1 } else { VECTOR }
+        match self {
+            Self::TipAngle | Self::CoreAngle(_) | Self::FeedLength | Self::FeedReaction => 1,
+            _ => VECTOR,
+        }
     }
 }

@@ -53,6 +53,7 @@ pub(crate) use contact::Placed;
 pub use continuation::{Diagram, Shape};
 pub(crate) use deadline::Deadline;
 pub use inputs::Inputs;
+pub(crate) use inputs::LONGEST_INSERTION;
 pub use jacobian::Jacobian;
 pub use layout::{Input, Output};
 pub use model_transfer::TipDeviation;

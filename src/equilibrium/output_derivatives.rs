@@ -91,11 +91,11 @@ impl Equilibrium {
 
     /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
     pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        let Response { by_base, columns, unknowns, .. } = response;
+        let Response { by_base, columns, moving, .. } = response;
         let inputs = rows.inputs;
         let mut with_field = by_base.clone();
         with_field.rows_mut(FIELD_INPUTS, by_base.nrows() - FIELD_INPUTS).fill(0.0);
-        let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
+        let by_shape = (&columns.gradient * with_field).tr_mul(moving);
         let mut on_field = first(&columns.clamp, FIELD_INPUTS);
         transport_base(&mut on_field, by_base);
         let magnetic = [Output::MagneticForce, Output::MagneticTorque];
@@ -105,7 +105,7 @@ impl Equilibrium {
 
         let reaction = self.magnet_reaction(inputs);
         let (position, rotation) = (Input::MagnetPosition.columns(), Input::MagnetRotation.columns());
-        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(unknowns);
+        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(moving);
         let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
         // The torque is moved from the base to the magnet's centre, which may move.
         let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);
@@ -116,6 +116,16 @@ impl Equilibrium {
         transport_base(&mut on_magnet, by_base);
         let magnet = [Output::MagnetReactionForce, Output::MagnetReactionTorque];
         rows.set_wrench(magnet, &(on_magnet - by_shape), &reaction);
+    }
+
+    /// Length of the shaft, and the push that holds it.
+    pub(super) fn add_feed(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
+        if self.chain.shaft > 0 {
+            let mut length = DMatrix::zeros(1, response.counts.inputs());
+            length.columns_range_mut(Input::Insertion.columns()).fill(1.0);
+            rows.set(Output::FeedLength, &length, Transport::Not);
+            rows.set(Output::FeedReaction, &response.push, Transport::Not);
+        }
     }
 
     /// The external field at the tip.
@@ -148,8 +158,9 @@ impl Equilibrium {
 
     /// Positions of the centreline points.
     pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
+        let last = (self.shape.len() - 1) as f64;
         for (number, point) in self.shape.clone().iter().enumerate() {
-            let (pose, rates) = match &point.place {
+            let (pose, mut rates) = match &point.place {
                 Site::Rigid(node, distance) => {
                     let pose = self.work.nodes[*node];
                     let rates = moved(&response.motion.nodes[*node], &(pose.axis() * *distance));
@@ -157,6 +168,12 @@ impl Equilibrium {
                 }
                 Site::Elastic(element, row) => self.place(*element, row, &response.motion),
             };
+            if self.chain.shaft > 0 {
+                // The points stay at equal parts of the length.
+                let slide = self.slide(&point.place, number as f64 / last);
+                let mut by_insertion = rates.fixed_view_mut::<3, 1>(0, Input::Insertion.columns().start);
+                by_insertion += slide;
+            }
             rows.set(Output::ShapePoint(number), &rates.rows(0, 3), Transport::Position(pose.position));
         }
     }
@@ -184,6 +201,26 @@ impl Equilibrium {
             let open = bending(&from.axis(), &to.axis());
             let rates = open.transpose() * (to_rates - from_rates).rows(3, 3);
             rows.set(Output::CoreAngle(number), &rates, Transport::Not);
+        }
+    }
+
+    /// Displacement of a shape point along the chain as the shaft grows, per length: `share` is the part of the whole length before
+    /// it.
+    fn slide(&self, place: &Site, share: f64) -> Vector3<f64> {
+        match place {
+            Site::Rigid(node, _) => self.work.nodes[*node].axis() * (share - 1.0),
+            Site::Elastic(element, row) => {
+                let (chain, k) = (&self.chain, *element);
+                let amplitudes = chain.part(k, &self.branch.unknowns);
+                let (_, local) = self.work.configurations[k].curve_at(&chain.elements[k], row, amplitudes);
+                // Of a tabulated length: that of the shaft's elements has grown.
+                let along = if k < chain.shaft {
+                    -share * chain.length() / (chain.inserted(self.work.growth) * self.work.growth)
+                } else {
+                    share - 1.0
+                };
+                self.work.nodes[k].rotation * local * along
+            }
         }
     }
 

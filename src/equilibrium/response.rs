@@ -18,6 +18,10 @@ pub(super) struct Response {
     pub(super) columns: InputDerivatives,
     /// Rates of the unknowns.
     pub(super) unknowns: DMatrix<f64>,
+    /// The same with what moves the shape as the growing shaft does.
+    pub(super) moving: DMatrix<f64>,
+    /// Rates of the push that holds the shaft.
+    pub(super) push: DMatrix<f64>,
     pub(super) motion: Motion,
     /// Rates of the clamp's wrench.
     pub(super) clamp: DMatrix<f64>,

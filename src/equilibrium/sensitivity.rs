@@ -43,6 +43,7 @@ impl Equilibrium {
         let mut rows = OutputDerivatives::new(&inputs, &response.counts);
         copy.add_tip(&mut rows, &response);
         copy.add_wrenches(&mut rows, &response);
+        copy.add_feed(&mut rows, &response);
         copy.add_tip_field(&mut rows, &response)?;
         copy.add_shape(&mut rows, &response);
         copy.add_rings(&mut rows, &response);
@@ -60,6 +61,8 @@ impl Equilibrium {
             cores: self.chain.cores.len(),
         };
         let shape = self.branch.unknowns.clone();
+        let by_insertion = self.by_insertion(inputs, &shape);
+        let growing: Vec<_> = self.growing().collect();
         let mut potential = self.potential(inputs, &shape);
         let stiffness = match potential.linearise(&shape) {
             Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
@@ -79,6 +82,11 @@ impl Equilibrium {
             columns = potential.columns(&counts);
         }
         let mut columns = columns.ok_or_else(inside)?;
+        let insertion = Input::Insertion.columns().start;
+        if let Some(by_insertion) = &by_insertion {
+            columns.gradient.column_mut(insertion).copy_from_slice(&by_insertion.gradient);
+            columns.clamp.column_mut(insertion).copy_from_slice(&by_insertion.base);
+        }
         let by_base = base_transport(inputs, &counts);
         transport_base(&mut columns.gradient, &by_base);
         transport_base(&mut columns.clamp, &by_base);
@@ -86,10 +94,27 @@ impl Equilibrium {
         for column in unknowns.as_mut_slice().chunks_exact_mut(shape.len()) {
             potential.solve(column);
         }
-        let motion = potential.motion(&unknowns);
-        let mut response =
-            Response { counts, with_magnet, by_base, columns, unknowns, motion, clamp: DMatrix::zeros(0, 0) };
+        let mut moving = unknowns.clone();
+        for (unknown, rate) in &growing {
+            moving[(*unknown, insertion)] += rate;
+        }
+        let motion = potential.motion(&moving);
+        let none = || DMatrix::zeros(0, 0);
+        let mut response = Response {
+            counts,
+            with_magnet,
+            by_base,
+            columns,
+            unknowns,
+            moving,
+            motion,
+            push: none(),
+            clamp: none(),
+        };
         response.clamp = potential.clamp_rates(&response);
+        if let Some(by_insertion) = &by_insertion {
+            response.push = self.push_rates(&response, inputs, by_insertion);
+        }
         Ok(response)
     }
 }
@@ -132,7 +157,9 @@ impl Potential<'_> {
     fn clamp_rates(&mut self, response: &Response) -> DMatrix<f64> {
         let columns = &response.columns;
         if self.settings.interaction == Interaction::Preceding {
-            return self.clamp_without_reciprocity(&response.motion) + &columns.clamp;
+            // What the inserted length moves is in the columns.
+            let motion = self.motion(&response.unknowns);
+            return self.clamp_without_reciprocity(&motion) + &columns.clamp;
         }
         // No internal force acts on the clamp: its wrench is the energy's derivative with respect to a motion of all that
         // surrounds the chain. A fixed tip moment has no energy and does not follow the tip.

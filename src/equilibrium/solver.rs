@@ -172,7 +172,7 @@ impl Equilibrium {
 
     /// As [`Self::solve`], within a time budget that other solves may share.
     pub(crate) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
-        inputs.check(self.chain.rings.len())?;
+        self.check(inputs)?;
         self.lay_out(inputs);
         let Self { chain, metric, settings, magnet, around, branch, work, rules, scratch, .. } = self;
         let mut search = Search {
@@ -188,6 +188,14 @@ impl Equilibrium {
             kept: false,
         };
         Ok(search.solve(branch, inputs))
+    }
+
+    /// Checks the numbers of inputs.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub(crate) fn check(&self, inputs: &Inputs) -> Result<(), Error> {
+        inputs.check(self.chain.rings.len())
     }
 
     /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape. It

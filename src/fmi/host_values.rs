@@ -35,8 +35,10 @@ pub struct HostValues {
     pub base: UncheckedPose,
     /// Whether the shaft is pushed in, or the device clamped at its base.
     pub feed_mode: FeedMode,
-    /// Length of shaft inside the port, m.
+    /// Length of shaft inside the port, m; under a given push, that at which the first solve begins.
     pub insertion: f64,
+    /// Push on the shaft where that is given instead of the length, N.
+    pub feed_force: f64,
     /// Turn about the axis of the base, rad.
     pub roll: f64,
     /// Force on the tip, N, world frame.
@@ -106,8 +108,13 @@ impl HostValues {
             uniform_field: inputs.uniform_field.into(),
             field_gradient: inputs.field_gradient,
             base: inputs.base.into(),
-            feed_mode: if scene.shaft.is_some() { FeedMode::Insertion } else { FeedMode::Clamped },
+            feed_mode: match (&scene.shaft, inputs.feed_force) {
+                (None, _) => FeedMode::Clamped,
+                (Some(_), None) => FeedMode::Insertion,
+                (Some(_), Some(_)) => FeedMode::Force,
+            },
             insertion: inputs.insertion,
+            feed_force: inputs.feed_force.unwrap_or(0.0),
             roll: inputs.roll,
             shaft: scene.shaft,
             wall_modulus: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.modulus()),
@@ -136,6 +143,7 @@ impl HostValues {
             field_gradient: self.field_gradient,
             base: self.base.pose("base.orientation")?,
             insertion: self.insertion,
+            feed_force: (self.feed_mode == FeedMode::Force).then_some(self.feed_force),
             roll: self.roll,
             tip_force: self.tip_force.into(),
             tip_moment: self.tip_moment.into(),
@@ -157,7 +165,7 @@ impl HostValues {
         }
         let design = Design::new(specification)?;
         match &self.shaft {
-            Some(shaft) if self.feed_mode == FeedMode::Insertion => design.with_shaft(shaft),
+            Some(shaft) if self.feed_mode != FeedMode::Clamped => design.with_shaft(shaft),
             _ => Ok(design),
         }
     }

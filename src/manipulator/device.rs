@@ -81,10 +81,14 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
-        let report = self.hierarchy.solve(inputs)?;
+        let report = match inputs.feed_force {
+            Some(push) => self.hierarchy.solve_pushed(inputs, push)?,
+            None => self.hierarchy.solve(inputs)?,
+        };
         if report.solved() {
             self.has_shape = true;
-            self.outputs.read(self.hierarchy.present(), inputs, resolution(&self.hierarchy));
+            let model = self.hierarchy.present();
+            self.outputs.read(model, model.inputs().unwrap_or(inputs), resolution(&self.hierarchy));
         }
         self.outputs.record(&report, self.hierarchy.fold_margin());
         Ok(&self.outputs)
@@ -221,7 +225,10 @@ impl Manipulator {
         if self.outputs.status == Status::NotSolved {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
-        self.hierarchy.present().jacobian()
+        let equilibrium = self.hierarchy.present();
+        let jacobian = equilibrium.jacobian()?;
+        let pushed = equilibrium.inputs().is_some_and(|inputs| inputs.feed_force.is_some());
+        Ok(if pushed { jacobian.at_given_push() } else { jacobian })
     }
 
     /// Sets the tolerances of tip position (m) and angle (rad) relative to the converged model, from the next solve on.

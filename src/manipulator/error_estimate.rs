@@ -67,6 +67,7 @@ impl ErrorEstimate {
             uniform_field: _,
             base: _,
             insertion: _,
+            feed_force: _,
             roll: _,
             field_gradient,
             tip_force,

@@ -167,48 +167,59 @@ impl Hierarchy {
     /// # Errors
     /// As [`Equilibrium::solve`].
     pub(super) fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
+        self.solve_before(&self.deadline(), inputs)
+    }
+
+    /// The end of the time budget of a solve that begins now.
+    pub(super) fn deadline(&self) -> Deadline {
+        Deadline::new(self.time_budget)
+    }
+
+    /// As [`Self::solve`]: all models, and all solves that belong together, share one time budget.
+    ///
+    /// # Errors
+    /// As [`Equilibrium::solve`].
+    pub(super) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         let (from, richest) = (self.present, self.models.richest());
-        // All models of one solve share its time budget.
-        let deadline = Deadline::new(self.time_budget);
         let Some(before) = self.present().inputs() else {
-            return self.ascend(0, inputs, &deadline, |models, level, from| {
+            return self.ascend(0, inputs, deadline, |models, level, from| {
                 if let Some(from) = from
                     && models.is_refinement(level, from)
                 {
                     models.warm_start(level, from, inputs);
-                    let report = models.at_mut(level).solve_before(&deadline, inputs)?;
+                    let report = models.at_mut(level).solve_before(deadline, inputs)?;
                     if report.solved() && report.snaps == 0 {
                         return Ok(report);
                     }
                 }
                 let model = models.at_mut(level);
                 model.reset();
-                model.solve_before(&deadline, inputs)
+                model.solve_before(deadline, inputs)
             });
         };
         // If a cheaper model fails, a richer one starts from the shape before this solve; for the richest it is not needed.
         let way_back = (from < richest).then(|| (before.clone(), self.present().unknowns().to_vec()));
-        let report = self.models.at_mut(from).solve_before(&deadline, inputs)?;
+        let report = self.models.at_mut(from).solve_before(deadline, inputs)?;
         let changed = report.solved() && self.has_changed(inputs);
         let due = report.solved() && from > 0 && self.wait.is_over(self.age);
         if let Some((before, shape)) = way_back
-            && !(self.is_sound(&report) && (!changed || self.is_accurate(inputs, &deadline)?))
+            && !(self.is_sound(&report) && (!changed || self.is_accurate(inputs, deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
-            return self.ascend(next, inputs, &deadline, |models, level, _| {
+            return self.ascend(next, inputs, deadline, |models, level, _| {
                 models.adopt(level, from, &shape, &before);
                 let model = models.at_mut(level);
-                let settled = model.solve_before(&deadline, &before)?;
-                let report = model.solve_before(&deadline, inputs)?;
+                let settled = model.solve_before(deadline, &before)?;
+                let report = model.solve_before(deadline, inputs)?;
                 let (iterations, snaps) =
                     (settled.iterations + report.iterations, settled.snaps + report.snaps);
                 Ok(Report { iterations, snaps, ..report })
             });
         }
-        if changed && from >= richest && !self.is_accurate(inputs, &deadline)? {
-            return self.refine(inputs, report, &deadline);
+        if changed && from >= richest && !self.is_accurate(inputs, deadline)? {
+            return self.refine(inputs, report, deadline);
         }
-        if due { self.descend(inputs, report, &deadline) } else { Ok(report) }
+        if due { self.descend(inputs, report, deadline) } else { Ok(report) }
     }
 
     /// Ascends from model `first` until the error is small enough.

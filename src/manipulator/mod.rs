@@ -8,6 +8,7 @@ mod hierarchy;
 mod models;
 mod outputs;
 mod prediction;
+mod pushed;
 mod scene;
 mod solve;
 

@@ -2,7 +2,7 @@
 
 use core::cell::Cell;
 
-use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
+use mcm::design::{Backbone, Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector, rotation_log};
 use mcm::manipulator::{Input, Inputs, Jacobian, Manipulator, Output, Outputs, Status};
@@ -74,6 +74,8 @@ fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
         Input::BasePosition => out.base.position[axis] += by,
         Input::BaseRotation => out.base.rotation = turn() * out.base.rotation,
         Input::Roll => out.roll += by,
+        Input::Insertion => out.insertion += by,
+        Input::FeedForce => out.feed_force = out.feed_force.map(|force| force + by),
         Input::VesselPosition | Input::VesselRotation => unreachable!("not among the inputs"),
         Input::RingForce(ring) => out.ring_forces[ring][axis] += by,
     }
@@ -96,6 +98,9 @@ fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f64>)> {
         (Output::MagnetReactionTorque, vector(&plus.magnet_reaction_torque, &minus.magnet_reaction_torque)),
         (Output::TipField, vector(&plus.tip_field, &minus.tip_field)),
     ];
+    let number = |a: Option<f64>, b: Option<f64>| vec![a.unwrap_or(0.0) - b.unwrap_or(0.0)];
+    out.push((Output::FeedLength, number(plus.feed_length, minus.feed_length)));
+    out.push((Output::FeedReaction, number(plus.feed_reaction, minus.feed_reaction)));
     for (index, (a, b)) in plus.shape.iter().zip(&minus.shape).enumerate() {
         out.push((Output::ShapePoint(index), vector(a, b)));
     }
@@ -141,7 +146,13 @@ fn by_differences(
 /// that output, and where it is.
 fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
     let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
-    for (input, size) in inputs_and_sizes(inputs.ring_forces.len()) {
+    let mut all = inputs_and_sizes(inputs.ring_forces.len());
+    if manipulator.outputs().feed_length.is_some() {
+        all.push(if inputs.feed_force.is_some() { (Input::FeedForce, 0.005) } else { (Input::Insertion, 0.02) });
+    }
+    // Displacement and rotation of a vessel are columns, but no inputs; length and push of a shaft are never both.
+    let others = 6 + if manipulator.outputs().feed_length.is_some() { 1 } else { 2 };
+    for (input, size) in all {
         for axis in 0..jacobian.columns(input).expect("of this design").len() {
             for (output, expected) in by_differences(manipulator, inputs, input, axis, STEP * size) {
                 let got = jacobian.block(output, input).expect("of this design").column(axis).into_owned();
@@ -160,8 +171,7 @@ fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f6
             out = (error / scale, format!("{output:?} by {input:?} {axis}"));
         }
     }
-    // Displacement and rotation of a vessel are columns, but no inputs.
-    assert_eq!(entries.len(), (jacobian.matrix().ncols() - 6) * differences_of(manipulator));
+    assert_eq!(entries.len(), (jacobian.matrix().ncols() - others) * differences_of(manipulator));
     out
 }
 
@@ -216,6 +226,43 @@ fn every_output_by_every_input_at_every_level() {
 fn every_output_by_every_input_of_a_plain_rod() {
     let (design, inputs) = (rod(), everything(0));
     check("rod", &ready(&design, Interaction::None, &inputs), &inputs);
+}
+
+/// Everything acts on a device at the end of 20 mm of shaft, gently.
+fn gently() -> Inputs {
+    let mut inputs = Inputs { insertion: 0.02, magnet_strength: 0.1, ..everything(3) };
+    inputs.tip_force *= 0.3;
+    inputs.gravity *= 0.3;
+    inputs.ring_forces.iter_mut().for_each(|force| *force *= 0.3);
+    inputs
+}
+
+/// On a silicone tube.
+fn on_a_shaft(interaction: Interaction, inputs: &Inputs) -> Manipulator {
+    let design = Design::new(Specification::paper(2)).unwrap().with_shaft(&Backbone::silicone()).unwrap();
+    ready(&design, interaction, inputs)
+}
+
+#[test]
+fn every_output_by_every_input_of_a_device_on_a_shaft() {
+    let inputs = gently();
+    for &(interaction, level, _) in Interaction::ALL {
+        // Forces without their reactions bend so long and soft a tube without end.
+        if interaction != Interaction::Preceding {
+            check(&format!("on a shaft, {level}"), &on_a_shaft(interaction, &inputs), &inputs);
+        }
+    }
+}
+
+#[test]
+fn every_output_by_every_input_of_a_device_that_is_pushed() {
+    let inputs = gently();
+    let push = on_a_shaft(Interaction::Rings, &inputs).outputs().feed_reaction;
+    let pushed = Inputs { feed_force: push, insertion: 0.021, ..inputs.clone() };
+    let manipulator = on_a_shaft(Interaction::Rings, &pushed);
+    let length = manipulator.outputs().feed_length.expect("a shaft");
+    assert!((length - inputs.insertion).abs() < 1e-8, "{length}");
+    check("pushed", &manipulator, &pushed);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod feed;
 mod grid;
 mod lumen;
 mod mesh;
+mod push;
 mod rods;
 mod scene;
 mod stl;

@@ -8,7 +8,7 @@ use super::super::variable::Access;
 use super::outputs::{count, integer, real};
 use super::rows::{Draft, Rows};
 use super::{Counts, access};
-use crate::manipulator::{FeedMode, Input, Outputs};
+use crate::manipulator::{FeedMode, Input, Output, Outputs};
 
 /// How the device is held at its base.
 static FEED: Enumeration = Enumeration {
@@ -25,6 +25,11 @@ static FEED: Enumeration = Enumeration {
             value: FeedMode::Insertion as i32,
             description: "The base is a port through which a shaft of given length is pushed in",
         },
+        Item {
+            name: "force",
+            value: FeedMode::Force as i32,
+            description: "A given force pushes the shaft in through the port",
+        },
     ],
 };
 
@@ -36,10 +41,14 @@ impl Rows {
         }
         let insertion = access!(|values| values.insertion);
         let description = "Length of shaft inside the port, whose pose is that of the base";
-        self.scalar(Draft::input("feed.insertion", LENGTH, description, insertion).min(0.0).max(1.0));
+        let draft = Draft::input("feed.insertion", LENGTH, description, insertion).min(0.0).max(1.0);
+        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::Insertion)));
         let roll = access!(|values| values.roll);
         let draft = Draft::input("feed.roll", ANGLE, "Turn of the shaft about its axis in the port", roll);
         self.scalar(draft.derivative_role(DerivativeRole::Input(Input::Roll)));
+        let force = access!(|values| values.feed_force);
+        let draft = Draft::input("feed.force", FORCE, "Push on the shaft in mode force", force);
+        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::FeedForce)));
     }
 
     /// Parameters of shaft and vessel.
@@ -48,8 +57,9 @@ impl Rows {
             let mode = Access::Enumeration {
                 get: |values| values.feed_mode as i32,
                 set: |values, number| {
-                    let clamped = number == FeedMode::Clamped as i32;
-                    values.feed_mode = if clamped { FeedMode::Clamped } else { FeedMode::Insertion };
+                    let modes = [FeedMode::Clamped, FeedMode::Insertion, FeedMode::Force];
+                    let named = modes.into_iter().find(|mode| *mode as i32 == number);
+                    values.feed_mode = named.unwrap_or(values.feed_mode);
                 },
             };
             let description = "How the device is held at its base";
@@ -68,13 +78,15 @@ impl Rows {
         if start.shaft.is_some() {
             let description = "Length of shaft inside the port";
             self.scalar(
-                real("feed.length", LENGTH, description, |o, _| o.feed_length.unwrap_or(0.0)).min(0.0),
+                real("feed.length", LENGTH, description, |o, _| o.feed_length.unwrap_or(0.0))
+                    .min(0.0)
+                    .derivative_role(DerivativeRole::Output(Output::FeedLength)),
             );
             let description =
                 "Push that holds the shaft: derivative of the potential energy by the inserted length";
-            self.scalar(real("feed.reaction_force", FORCE, description, |o, _| {
-                o.feed_reaction.unwrap_or(0.0)
-            }));
+            let draft =
+                real("feed.reaction_force", FORCE, description, |o, _| o.feed_reaction.unwrap_or(0.0));
+            self.scalar(draft.derivative_role(DerivativeRole::Output(Output::FeedReaction)));
         }
         if start.vessel.is_none() {
             return;

@@ -134,6 +134,7 @@ impl SceneFile {
         inputs.base = turned(&turn("base", self.base.turn_axis, self.base.turn_deg)?, base);
         if let Some(feed) = &self.feed {
             (inputs.insertion, inputs.roll) = (feed.insertion_mm / MM_PER_M, feed.roll_deg.to_radians());
+            inputs.feed_force = (feed.mode == FeedMode::Force).then(|| feed.force_n.unwrap_or(0.0));
         }
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
@@ -156,15 +157,18 @@ impl SceneFile {
         let Some(feed) = &self.feed else { return Ok(None) };
         let turn = |v: f64| v.abs() <= LARGEST_TURN;
         check("feed.roll_deg", feed.roll_deg, turn, "from -36000 to 36000")?;
+        if let Some(force) = feed.force_n.filter(|_| feed.mode != FeedMode::Force) {
+            check("feed.force_n", force, |v| v == 0.0, "0 unless feed.mode = \"force\"")?;
+        }
         if feed.mode == FeedMode::Clamped {
             check(
                 "feed.insertion_mm",
                 feed.insertion_mm,
                 |v| v == 0.0,
-                "0 unless feed.mode = \"insertion\"",
+                "0 unless feed.mode = \"insertion\" or \"force\"",
             )?;
             return match feed.shaft {
-                Some(_) => Err(Error::Unsupported("feed.shaft needs feed.mode = \"insertion\"".into())),
+                Some(_) => Err(Error::Unsupported("feed.shaft needs feed.mode = \"insertion\" or \"force\"".into())),
                 None => Ok(None),
             };
         }

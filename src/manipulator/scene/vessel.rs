@@ -51,6 +51,8 @@ pub enum FeedMode {
     Clamped = 0,
     /// The base is a port through which a shaft of given length is pushed in.
     Insertion = 1,
+    /// A given force pushes the shaft in through the port; the length follows.
+    Force = 2,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -59,6 +61,8 @@ pub(super) struct FeedEntries {
     pub(super) mode: FeedMode,
     pub(super) insertion_mm: f64,
     pub(super) roll_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) force_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) shaft: Option<BackboneEntries>,
 }
