@@ -13,6 +13,9 @@ use crate::error::{Error, check};
 /// Length over which the walls of branches merge where they meet, m. It widens a mouth by at most this times ln 2.
 const MERGED: f64 = 0.5e-3;
 
+/// Largest error of a grid in the middle of a vessel, in its spacing: see [`DistanceGrid`].
+const ROUNDED: f64 = 0.4;
+
 /// Share of a branch in the union below which it is left out: that of rounding.
 const NEGLIGIBLE: f64 = 1e-17;
 
@@ -153,6 +156,12 @@ impl Lumen {
             Shape::Branches(..) => None,
             Shape::Grid(grid) => Some(grid),
         }
+    }
+
+    /// How far the clearance may be from the distance to the wall, m: that of a grid rounds off the middle of a vessel.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.grid().map_or(0.0, |grid| ROUNDED * grid.spacing())
     }
 
     /// A number that differs for other lumens, but for one in four thousand million of them (CRC-32).

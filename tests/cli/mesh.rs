@@ -20,7 +20,7 @@ const BRANCH: &str =
 fn meshed(test: &str) -> PathBuf {
     let place = folder(test);
     fs::create_dir(place.join("scenes")).unwrap();
-    let triangles = shifted(tube(straight(0.06, 2.2e-3), 120, 60), Vector3::new(0.0, 0.0, -0.02));
+    let triangles = shifted(tube(straight(0.06, 2.2e-3), 120, 120), Vector3::new(0.0, 0.0, -0.02));
     fs::write(place.join("scenes/tube.stl"), stl(&triangles, "")).unwrap();
     fs::write(place.join("scenes/mesh.toml"), format!("{PRESSED}mesh_stl = \"tube.stl\"\n")).unwrap();
     fs::write(place.join("scenes/branch.toml"), format!("{PRESSED}{BRANCH}")).unwrap();
@@ -83,7 +83,7 @@ fn a_sweep_in_a_vessel_has_columns_of_its_contacts() {
     super::interrupt(&child, true);
     child.wait().unwrap();
     if place.join("cut.csv.part").exists() {
-        let wider = shifted(tube(straight(0.06, 2.3e-3), 120, 60), Vector3::new(0.0, 0.0, -0.02));
+        let wider = shifted(tube(straight(0.06, 2.3e-3), 120, 120), Vector3::new(0.0, 0.0, -0.02));
         fs::write(place.join("scenes/tube.stl"), stl(&wider, "")).unwrap();
         let other = mcm(&place, &[&vary[..], &["--resume"]].concat());
         assert_status(&other, 1);

@@ -83,10 +83,11 @@ impl<'a> Walls<'a> {
 
     /// All contacts of a rim of this radius around the axis of `frame`, at `height` (m) from its origin.
     pub(crate) fn rim(&self, frame: &Pose, height: f64, radius: f64, found: &mut Vec<Touch>) -> Option<()> {
-        let (_, wall) = self.lumen?;
+        let (lumen, wall) = self.lumen?;
         let centre = frame.advanced(height).position;
         let clearance = self.clearance(&centre)?;
-        if clearance.value >= radius {
+        // Of a wider place nothing on the rim can touch.
+        if clearance.value >= radius + lumen.rounding() {
             return Some(());
         }
         let rim = Rim { walls: self, frame, height, radius };

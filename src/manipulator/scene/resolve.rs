@@ -168,7 +168,9 @@ impl SceneFile {
                 "0 unless feed.mode = \"insertion\" or \"force\"",
             )?;
             return match feed.shaft {
-                Some(_) => Err(Error::Unsupported("feed.shaft needs feed.mode = \"insertion\" or \"force\"".into())),
+                Some(_) => {
+                    Err(Error::Unsupported("feed.shaft needs feed.mode = \"insertion\" or \"force\"".into()))
+                }
                 None => Ok(None),
             };
         }
