@@ -213,8 +213,7 @@ impl Equilibrium {
         for (k, element) in chain.elements[..chain.shaft].iter().enumerate() {
             let node = &work.nodes[k];
             for (station, state) in element.stations.iter().zip(&work.configurations[k].stations) {
-                let mass =
-                    station.material.line_mass + station.material.density * station.material.moments.volume;
+                let mass = station.material.line_mass + station.material.density * station.material.moments.volume;
                 by_gravity -= (node.transform(&state.position) - inputs.base.position) * (growth * mass);
             }
             for placed in &work.placed_loads[k].loads {
@@ -226,11 +225,9 @@ impl Equilibrium {
         }
         let mut out = DMatrix::zeros(1, columns);
         let inserted = chain.inserted(growth);
-        for (input, rates) in [
-            (Input::Gravity, by_gravity),
-            (Input::VesselPosition, by_shift),
-            (Input::VesselRotation, by_spin),
-        ] {
+        for (input, rates) in
+            [(Input::Gravity, by_gravity), (Input::VesselPosition, by_shift), (Input::VesselRotation, by_spin)]
+        {
             out.columns_range_mut(input.columns()).copy_from(&(rates / inserted).transpose());
         }
         out

@@ -43,8 +43,7 @@ impl Potential<'_> {
             for (index, station) in element.stations.iter().enumerate() {
                 let (frame, pose) = (Frame::Station(station, &[]), self.work.station(k, index));
                 let growth = self.work.configurations[k].growth;
-                let load =
-                    turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0) * growth;
+                let load = turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0) * growth;
                 let state = &self.work.configurations[k].stations[index];
                 let tangent = &mut self.work.derivatives[k];
                 let size = tangent.size;

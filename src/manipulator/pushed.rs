@@ -52,8 +52,7 @@ impl Hierarchy {
         let deadline = self.deadline();
         let known = self.present().inputs().map(|last| last.insertion);
         let mut length = known.unwrap_or(inputs.insertion);
-        let mut balance =
-            Balance { between: [0.0, LONGEST_INSERTION], last: None, stiffness: 0.0, ran: false };
+        let mut balance = Balance { between: [0.0, LONGEST_INSERTION], last: None, stiffness: 0.0, ran: false };
         if known.is_some()
             && let Some(response) = self.present().feed_response(inputs)
             && response.stiffness > FREE * response.elastic
@@ -96,8 +95,7 @@ impl Balance {
         if missing.abs() <= BALANCED || here == 0.0 && missing > 0.0 {
             return None;
         }
-        if self.last.is_some_and(|last| 2.0 * missing.abs() > last[1].abs()) && missing.abs() <= UNDETERMINED
-        {
+        if self.last.is_some_and(|last| 2.0 * missing.abs() > last[1].abs()) && missing.abs() <= UNDETERMINED {
             return None;
         }
         let by_difference = self.last.map(|last| [here - last[0], missing - last[1]]);

@@ -148,11 +148,7 @@ fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f6
     let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
     let mut all = inputs_and_sizes(inputs.ring_forces.len());
     if manipulator.outputs().feed_length.is_some() {
-        all.push(if inputs.feed_force.is_some() {
-            (Input::FeedForce, 0.005)
-        } else {
-            (Input::Insertion, 0.02)
-        });
+        all.push(if inputs.feed_force.is_some() { (Input::FeedForce, 0.005) } else { (Input::Insertion, 0.02) });
     }
     // Displacement and rotation of a vessel are columns, but no inputs; length and push of a shaft are never both.
     let others = 6 + if manipulator.outputs().feed_length.is_some() { 1 } else { 2 };

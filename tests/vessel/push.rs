@@ -82,7 +82,7 @@ fn what_no_push_holds_comes_out_or_is_lost() {
     assert_eq!(solve(&mut pushed, &scene.inputs).status, Status::NotSolved);
     let mut pulled = scene.manipulator(2).expect("allowed");
     let outputs = solve(&mut pulled, &Inputs { feed_force: Some(-0.01), ..scene.inputs.clone() });
-    println!("{outputs:?}");
+println!("{outputs:?}");
     assert_eq!((outputs.feed_length, outputs.stable), (Some(0.0), Some(true)));
 }
 
@@ -99,10 +99,7 @@ fn a_free_shaft_stays_where_it_is() {
 #[test]
 fn a_push_without_its_mode_is_refused() {
     for (mode, told) in [
-        (
-            "mode = \"insertion\"\nforce_n = 0.1",
-            "feed.force_n = 0.1 is not allowed: it must be 0 unless feed.mode = \"force\"",
-        ),
+        ("mode = \"insertion\"\nforce_n = 0.1", "feed.force_n = 0.1 is not allowed: it must be 0 unless feed.mode = \"force\""),
         ("mode = \"force\"\nforce_n = nan", "force"),
     ] {
         let text = format!("[design]\nsegments = 1\n[feed]\n{mode}\n{SHAFT}");
