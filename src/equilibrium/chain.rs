@@ -17,10 +17,6 @@ const SHAFT_ELEMENTS: usize = 16;
 /// Least inserted length of a shaft, m: below it the shaft counts as this long.
 const SHORTEST: f64 = 1e-9;
 
-/// Inserted length below which a shaft counts as this long where shapes are measured, m: those on the way to nothing are no longer
-/// than others.
-const MEASURED: f64 = 1e-3;
-
 /// Degrees added to the setting's where rings act on spans: their field varies over less than a core.
 const EXTRA_DEGREES: usize = 4;
 
@@ -196,7 +192,7 @@ impl Chain {
 
     /// Writes the diagonal elastic stiffness of all unknowns for an inserted length (m).
     pub(super) fn stiffness_at(&self, insertion: f64, metric: &mut [f64]) {
-        let (growth, shaft) = (self.growth(insertion.max(MEASURED)), self.first[self.shaft]);
+        let (growth, shaft) = (self.growth(insertion), self.first[self.shaft]);
         for (unknown, (own, stiffness)) in metric.iter_mut().zip(&self.metric).enumerate() {
             *own = if unknown < shaft { stiffness / growth } else { *stiffness };
         }

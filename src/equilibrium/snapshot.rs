@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::numerics::trust_region::Objective;
 
-/// Stored state of a branch, from which another equilibrium of the same design continues bit for bit.
+/// Stored state of a branch, from which another equilibrium of the same design in the same vessel continues bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BranchSnapshot {
-    /// What tells the equilibria of one design, discretisation and magnet from others.
+    /// What tells the equilibria of one design, discretisation, magnet and vessel from others.
     device: u32,
     branch: History,
     /// Shape and inputs of the Hessian whose factorisation the next solve starts with.
@@ -33,17 +33,17 @@ impl Equilibrium {
         }
     }
 
-    /// Restores the snapshot of another equilibrium of the same design, discretisation and magnet.
+    /// Restores the snapshot of another equilibrium of the same design, discretisation, magnet and vessel.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a snapshot of another design; the branch is then forgotten.
+    /// [`Error::Unsupported`] for a snapshot of another design or vessel; the branch is then forgotten.
     pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
         let BranchSnapshot { device, branch, origin, rules } = snapshot;
         let fits = *device == self.mark()
             && branch.fits(self.chain.freedoms())
             && origin.as_ref().is_none_or(|origin| are_finite(&origin.unknowns, self.chain.freedoms()));
-        let foreign = || Error::Unsupported("the snapshot is not of this design".into());
+        let foreign = || Error::Unsupported("the snapshot is not of this design, magnet and vessel".into());
         if !fits || !self.rules.restore(rules) {
             return Err(foreign());
         }
@@ -62,10 +62,11 @@ impl Equilibrium {
         Ok(())
     }
 
-    /// A number that equilibria of one design, discretisation and magnet have in common: a checksum of all their numbers.
+    /// A number that equilibria of one design, discretisation, magnet and vessel have in common: a checksum of all their numbers.
     fn mark(&self) -> u32 {
         let magnets = self.magnet.as_ref().map(Assembly::magnets);
-        crc32fast::hash(format!("{:?} {magnets:?}", self.chain.made_from()).as_bytes())
+        let vessel = self.vessel().map(|vessel| (vessel.lumen.checksum(), vessel.wall.modulus()));
+        crc32fast::hash(format!("{:?} {magnets:?} {vessel:?}", self.chain.made_from()).as_bytes())
     }
 
     /// Computes and factorises the Hessian of `origin` again.

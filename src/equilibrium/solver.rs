@@ -179,7 +179,10 @@ impl Equilibrium {
         self.lay_out(inputs);
         // Steps are measured by the longest shaft on the way: by one that is all but pulled out, none would be short.
         let longest = self.branch.inputs.as_ref().map_or(0.0, |last| last.insertion).max(inputs.insertion);
-        self.chain.stiffness_at(longest, &mut self.metric);
+        let pulled_out = self.chain.shaft > 0 && longest > PULLED_OUT * inputs.insertion;
+        if pulled_out {
+            self.chain.stiffness_at(longest, &mut self.metric);
+        }
         let Self { chain, metric, settings, magnet, around, branch, work, rules, scratch, .. } = self;
         let mut search = Search {
             model: Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() },
@@ -194,10 +197,13 @@ impl Equilibrium {
             kept: false,
         };
         let mut report = search.solve(branch, inputs);
-        self.chain.stiffness_at(inputs.insertion, &mut self.metric);
-        if report.solved() && self.chain.shaft > 0 && longest > PULLED_OUT * inputs.insertion {
-            let margin = self.margin().unwrap_or(report.margin);
-            (report.margin, self.branch.margin) = (margin, margin);
+        if pulled_out {
+            self.chain.stiffness_at(inputs.insertion, &mut self.metric);
+            if report.solved()
+                && let Some(margin) = self.margin()
+            {
+                (report.margin, self.branch.margin) = (margin, margin);
+            }
         }
         Ok(report)
     }
@@ -303,10 +309,13 @@ impl Equilibrium {
         }
     }
 
+    pub(super) fn vessel(&self) -> Option<&Vessel> {
+        self.around.as_deref().map(|around| &around.vessel)
+    }
+
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
-        let vessel = self.around.as_deref().map(|around| &around.vessel);
-        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), vessel, inputs, &self.rules)
+        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), self.vessel(), inputs, &self.rules)
     }
 
     /// Adapts stiffness and shape points to the inserted length of a shaft.

@@ -33,6 +33,8 @@ pub(super) enum Site {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WallContact {
     pub(super) site: Site,
+    /// The place on the wall, m, world axes.
+    pub(super) at: Vector3<f64>,
     /// Force of the wall on the chain, N, world axes.
     pub(super) force: Vector3<f64>,
     /// Depth in the wall, m.
@@ -41,7 +43,7 @@ pub(super) struct WallContact {
 
 impl WallContact {
     pub(super) fn new(site: Site, touch: &Touch) -> Self {
-        Self { site, force: -touch.load.force, depth: touch.depth }
+        Self { site, at: touch.at, force: -touch.load.force, depth: touch.depth }
     }
 }
 

@@ -20,6 +20,8 @@ pub struct WallForces {
     pub largest_indentation: f64,
     /// Force on each ring, base to tip, N.
     pub rings: Vec<Vector3<f64>>,
+    /// Place on the wall (m, the mean weighted by force) and force (N) of each separate contact.
+    pub places: Vec<[Vector3<f64>; 2]>,
 }
 
 impl WallForces {
@@ -32,9 +34,14 @@ impl WallForces {
             largest_force: 0.0,
             largest_indentation: 0.0,
             rings: vec![Vector3::zeros(); rings],
+            places: Vec::new(),
         };
         for own in contacts.chunk_by(|a, b| a.site == b.site) {
             let force: Vector3<f64> = own.iter().map(|contact| contact.force).sum();
+            let weight: f64 = own.iter().map(|contact| contact.force.norm()).sum();
+            let middle: Vector3<f64> = own.iter().map(|contact| contact.at * contact.force.norm()).sum();
+            // Without weight the force is too small to be told from zero.
+            out.places.push([if weight > 0.0 { middle / weight } else { own[0].at }, force]);
             out.count += 1;
             out.force += force;
             out.largest_force = out.largest_force.max(force.norm());

@@ -11,6 +11,7 @@ use super::variables::Table;
 use super::{documentation, xml};
 use crate::error::Error;
 use crate::manipulator::SceneFile;
+use crate::vessel::{DistanceGrid, Lumen};
 
 /// The scene of the default FMU, which is also built into the library for hosts that pass no resources.
 pub const DEFAULT_SCENE: &str = include_str!("../../fmu/default.toml");
@@ -20,6 +21,10 @@ pub const DEFAULT_SHAPE_POINTS: usize = 21;
 
 const SCENE_FILE: &str = "scene.toml";
 const STAMP_FILE: &str = "package.toml";
+
+/// The distances to the wall of a vessel that is given by a mesh: sampled once, when packing, since that takes half a minute for a
+/// long vessel. Reading them takes some ten milliseconds.
+const VESSEL_FILE: &str = "vessel.grid";
 
 /// A packed design: its scene, table of variables, start values and GUID.
 ///
@@ -52,14 +57,24 @@ impl Package {
     /// in messages.
     ///
     /// # Errors
-    /// Those of [`SceneFile::parse`], [`HostValues::start`] and [`Table::new`].
+    /// Those of [`SceneFile::parse`] and [`Package::of`].
     pub fn new(scene: &str, what: &str, shape_points: usize) -> Result<Self, Error> {
-        let file = SceneFile::parse(scene, what)?;
-        let start = HostValues::start(&file)?;
-        let scene = file.to_toml()?;
+        Self::of(&SceneFile::parse(scene, what)?, shape_points)
+    }
+
+    /// The package of a scene that has been read, with the mesh that it may name.
+    ///
+    /// # Errors
+    /// Those of [`HostValues::start`] and [`Table::new`].
+    pub fn of(file: &SceneFile, shape_points: usize) -> Result<Self, Error> {
+        let start = HostValues::start(file)?;
+        let scene = file.without_folders().to_toml()?;
         let table = Table::new(&start, shape_points)?;
         let unnamed = xml::model_description(&table, &start, "", None)?;
-        Ok(Self { guid: guid([unnamed.as_str(), scene.as_str()]), scene, table, start })
+        let mesh = start.vessel.as_ref().filter(|vessel| vessel.lumen.grid().is_some());
+        let mesh = mesh.map(|vessel| format!("{:08x}", vessel.lumen.checksum()));
+        let texts = [unnamed.as_str(), scene.as_str()].into_iter().chain(mesh.as_deref());
+        Ok(Self { guid: guid(texts), scene, table, start })
     }
 
     /// The package of the default design, which is built into the library.
@@ -79,24 +94,29 @@ impl Package {
         if !path(SCENE_FILE).exists() && !path(STAMP_FILE).exists() {
             return Ok(None);
         }
-        let text = |path: PathBuf| {
-            fs::read_to_string(&path).map_err(|error| Error::Syntax {
-                what: path.display().to_string(),
-                reason: error.to_string(),
-            })
+        let unreadable =
+            |path: &Path, reason: String| Error::Syntax { what: path.display().to_string(), reason };
+        let text =
+            |path: PathBuf| fs::read_to_string(&path).map_err(|error| unreadable(&path, error.to_string()));
+        let lumen = |_: &str| {
+            let path = path(VESSEL_FILE);
+            let bytes = fs::read(&path).map_err(|error| unreadable(&path, error.to_string()))?;
+            let grid = DistanceGrid::from_bytes(&bytes);
+            grid.map(Lumen::of_grid).map_err(|error| unreadable(&path, error.to_string()))
         };
         let stamp_path = path(STAMP_FILE).display().to_string();
         let stamp: Stamp = toml::from_str(&text(path(STAMP_FILE))?)
             .map_err(|error| Error::Syntax { what: stamp_path.clone(), reason: error.message().into() })?;
         let scene = path(SCENE_FILE).display().to_string();
-        let package = Self::new(&text(path(SCENE_FILE))?, &scene, stamp.shape_points)?;
+        let file = SceneFile::parse_with(&text(path(SCENE_FILE))?, &scene, lumen)?;
+        let package = Self::of(&file, stamp.shape_points)?;
         if package.guid == stamp.guid {
             Ok(Some(package))
         } else {
             Err(Error::Syntax {
                 what: stamp_path,
                 reason: format!(
-                    "its GUID {} is not {}, that of the scene beside it: altered, or packed by another version",
+                    "its GUID {} is not {}, that of the scene and vessel beside it: altered, or packed by another version",
                     stamp.guid, package.guid
                 ),
             })
@@ -135,14 +155,18 @@ impl Package {
         documentation::page(&self.table, &self.start)
     }
 
-    /// The files in `resources/`: their names and texts.
+    /// The files in `resources/`, by name.
     ///
     /// # Errors
-    /// [`Error::Syntax`] if a text cannot be written.
-    pub fn resources(&self) -> Result<[(&'static str, String); 2], Error> {
+    /// [`Error::Syntax`] if one cannot be written.
+    pub fn resources(&self) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
         let stamp = Stamp { guid: self.guid.clone(), shape_points: self.table.counts().shape_points };
         let stamp = toml::to_string(&stamp)
             .map_err(|error| Error::Syntax { what: STAMP_FILE.into(), reason: error.to_string() })?;
-        Ok([(SCENE_FILE, self.scene.clone()), (STAMP_FILE, stamp)])
+        let mut files = vec![(SCENE_FILE, self.scene.clone().into()), (STAMP_FILE, stamp.into())];
+        if let Some(grid) = self.start.vessel.as_ref().and_then(|vessel| vessel.lumen.grid()) {
+            files.push((VESSEL_FILE, grid.to_bytes()?));
+        }
+        Ok(files)
     }
 }

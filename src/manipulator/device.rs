@@ -173,10 +173,10 @@ impl Manipulator {
         Snapshot { models, outputs, has_shape: self.has_shape }
     }
 
-    /// Restores the state of another manipulator of the same design, magnet and settings.
+    /// Restores the state of another manipulator of the same design, magnet, vessel and settings.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a snapshot that is not of this design; the manipulator is then reset.
+    /// [`Error::Unsupported`] for a snapshot that is not of this design and vessel; the manipulator is then reset.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         self.reset();
         let lengths = |out: &Outputs| {

@@ -110,6 +110,18 @@ impl Refinement {
         self.coefficients.len() + self.coarse.counts().iter().product::<usize>()
     }
 
+    /// A number that differs for other functions, but for one in four thousand million of them (CRC-32).
+    #[must_use]
+    pub fn checksum(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        self.coarse.counts().iter().for_each(|count| sum.update(&(*count as u64).to_le_bytes()));
+        self.numbers.iter().for_each(|number| sum.update(&number.to_le_bytes()));
+        for coefficient in self.coarse.coefficients().iter().chain(&self.coefficients) {
+            sum.update(&coefficient.to_le_bytes());
+        }
+        sum.finalize()
+    }
+
     /// Value and derivatives at a point in units of the fine spacing. Its coordinates are between 4 and 4 times the number of
     /// coarse nodes less 8.
     #[must_use]

@@ -79,6 +79,11 @@ impl Tricubic {
         weighted(&self.around(first), &weights)
     }
 
+    /// The coefficients, the first coordinate running fastest.
+    pub(super) fn coefficients(&self) -> &[f32] {
+        &self.coefficients
+    }
+
     /// The 64 coefficients from this node on, row by row.
     pub(super) fn around(&self, first: [usize; 3]) -> [[f32; 4]; 16] {
         core::array::from_fn(|row| {

@@ -146,6 +146,11 @@ impl Branch {
         Ok(branch)
     }
 
+    /// What all else follows from.
+    pub(super) fn course(&self) -> &impl core::fmt::Debug {
+        &self.curve
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::clearance::Clearance;
-use super::sampling::Nodes;
+use super::sampling::{AROUND, Nodes};
 use crate::error::{Error, check};
 use crate::numerics::refinement::{RATIO, Refinement};
 use crate::numerics::tricubic::SpacePoint;
@@ -96,6 +96,22 @@ impl DistanceGrid {
     #[must_use]
     pub fn origin(&self) -> Vector3<f64> {
         self.origin
+    }
+
+    /// Lowest and highest coordinates (m) between which the vessel lies; a side may be longer by four spacings.
+    #[must_use]
+    pub fn bounds(&self) -> [Vector3<f64>; 2] {
+        let cells = self.field.coarse().counts().map(|count| (count - 1) as f64 - AROUND);
+        [[AROUND; 3], cells].map(|at| self.origin + Vector3::from(at) * (RATIO as f64 * self.spacing))
+    }
+
+    /// A number that differs for other grids, but for one in four thousand million of them (CRC-32).
+    #[must_use]
+    pub fn checksum(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        self.origin.iter().chain([&self.spacing]).for_each(|number| sum.update(&number.to_le_bytes()));
+        sum.update(&self.field.checksum().to_le_bytes());
+        sum.finalize()
     }
 
     /// Number of coefficients, of 4 bytes each.

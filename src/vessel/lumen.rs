@@ -13,6 +13,9 @@ use crate::error::{Error, check};
 /// Length over which the walls of branches merge where they meet, m. It widens a mouth by at most this times ln 2.
 const MERGED: f64 = 0.5e-3;
 
+/// Largest error of a grid in the middle of a vessel, in its spacing: see [`DistanceGrid`].
+const ROUNDED: f64 = 0.4;
+
 /// Share of a branch in the union below which it is left out.
 const NEGLIGIBLE: f64 = 1e-12;
 
@@ -34,14 +37,39 @@ const NEGLIGIBLE: f64 = 1e-12;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lumen {
     shape: Shape,
+    /// Differs for other shapes; computed once, since a grid has millions of numbers.
+    checksum: u32,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 enum Shape {
     /// Branches and the length over which they merge, m.
     Branches(Vec<Branch>, f64),
     /// Clones share it.
     Grid(Arc<DistanceGrid>),
+}
+
+impl PartialEq for Shape {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Branches(own, over), Self::Branches(others, other)) => over == other && own == others,
+            (Self::Grid(own), Self::Grid(other)) => Arc::ptr_eq(own, other) || own == other,
+            _ => false,
+        }
+    }
+}
+
+impl From<Shape> for Lumen {
+    fn from(shape: Shape) -> Self {
+        let checksum = match &shape {
+            Shape::Branches(branches, merged) => {
+                let courses: Vec<_> = branches.iter().map(Branch::course).collect();
+                crc32fast::hash(format!("{courses:?} {merged:?}").as_bytes())
+            }
+            Shape::Grid(grid) => grid.checksum(),
+        };
+        Self { shape, checksum }
+    }
 }
 
 impl Lumen {
@@ -65,7 +93,7 @@ impl Lumen {
                 )));
             }
         }
-        Ok(Self { shape: Shape::Branches(branches, MERGED) })
+        Ok(Shape::Branches(branches, MERGED).into())
     }
 
     /// The inside of the wall to which this grid tells the clearance.
@@ -82,7 +110,7 @@ impl Lumen {
     /// ```
     #[must_use]
     pub fn of_grid(grid: DistanceGrid) -> Self {
-        Self { shape: Shape::Grid(Arc::new(grid)) }
+        Shape::Grid(Arc::new(grid)).into()
     }
 
     /// The inside of a mesh; for the spacing (m) of its samples see [`Mesh::distance_grid`].
@@ -105,7 +133,7 @@ impl Lumen {
             "> 0 and <= 0.01",
         )?;
         match self.shape {
-            Shape::Branches(branches, _) => Ok(Self { shape: Shape::Branches(branches, merged) }),
+            Shape::Branches(branches, _) => Ok(Shape::Branches(branches, merged).into()),
             Shape::Grid(_) => {
                 Err(Error::Unsupported("a vessel given by a mesh has no branches that could merge".into()))
             }
@@ -128,6 +156,18 @@ impl Lumen {
             Shape::Branches(..) => None,
             Shape::Grid(grid) => Some(grid),
         }
+    }
+
+    /// How far the clearance may be from the distance to the wall, m: that of a grid rounds off the middle of a vessel.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        self.grid().map_or(0.0, |grid| ROUNDED * grid.spacing())
+    }
+
+    /// A number that differs for other lumens, but for one in four thousand million of them (CRC-32).
+    #[must_use]
+    pub fn checksum(&self) -> u32 {
+        self.checksum
     }
 
     /// Distance from `point` (m) to the wall, with exact derivatives.

@@ -8,7 +8,7 @@ use crate::numerics::refinement::{RATIO, Refinement};
 use crate::numerics::tricubic::{MOST_NODES, Tricubic};
 
 /// Coarse cells around the box.
-const AROUND: f64 = 4.0;
+pub(super) const AROUND: f64 = 4.0;
 
 /// Coarse cells at the border that hold no fine samples.
 const EDGE: usize = 2;

@@ -4,6 +4,7 @@ mod bifurcation;
 mod branches;
 mod field;
 mod init;
+mod mesh;
 mod pack;
 mod solve;
 mod study;

@@ -92,6 +92,8 @@ fn json_has_the_promised_keys() {
         "largest_contact_force_n",
         "largest_indentation_m",
         "ring_contact_forces_n",
+        "contact_places_m",
+        "contact_forces_n",
         "feed_length_m",
         "feed_reaction_force_n",
     ];

@@ -2,12 +2,12 @@
 
 use allocation_counter::measure;
 use mcm::equilibrium::Interaction;
-use mcm::fmi::Instance;
 use mcm::fmi::state::{Ending, State};
 use mcm::fmi::value::Value;
 use mcm::fmi::variables::Table;
+use mcm::fmi::{Instance, Package};
 
-use super::{BENT, instance, last};
+use super::{BENT, Told, instance, last};
 use crate::tolerance::{EFFECT, ROUNDING, SAME_SHAPE, TWO_DECIMALS_DEG, assert_close};
 
 pub(super) fn reference(table: &Table, name: &str) -> u32 {
@@ -22,8 +22,12 @@ pub(super) fn set(instance: &mut Instance, table: &Table, name: &str, value: f64
     instance.set(&[reference(table, name)], [Value::Real(value)].into_iter())
 }
 
-pub(super) fn initialised(scene: &str) -> (Instance, Table, super::Told) {
-    let (mut instance, package, told) = instance(scene);
+pub(super) fn initialised(scene: &str) -> (Instance, Table, Told) {
+    started(instance(scene))
+}
+
+/// An instance from its beginning to the first communication point.
+pub(super) fn started((mut instance, package, told): (Instance, Package, Told)) -> (Instance, Table, Told) {
     assert_eq!(instance.setup_experiment(0.0, None), Ending::Ok);
     assert_eq!(instance.enter_initialization(), Ending::Ok);
     assert_eq!(instance.exit_initialization(), Ending::Ok, "{}", last(&told));

@@ -36,7 +36,11 @@ type Told = Arc<Mutex<Vec<String>>>;
 
 /// An instance of a scene with five shape points, and its log.
 fn instance(scene: &str) -> (Instance, Package, Told) {
-    let package = Package::new(scene, "test scene", 5).unwrap();
+    instance_of(Package::new(scene, "test scene", 5).unwrap())
+}
+
+/// An instance of a package, and its log.
+fn instance_of(package: Package) -> (Instance, Package, Told) {
     let told = Told::default();
     let sink = Arc::clone(&told);
     let log = Log::new(

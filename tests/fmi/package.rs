@@ -10,14 +10,14 @@ use mcm::fmi::location::paths;
 use super::BENT;
 
 /// An empty directory of this test's own.
-fn directory(name: &str) -> PathBuf {
+pub(super) fn directory(name: &str) -> PathBuf {
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = fs::remove_dir_all(&path);
     fs::create_dir_all(&path).unwrap();
     path
 }
 
-fn unpacked(name: &str, package: &Package) -> PathBuf {
+pub(super) fn unpacked(name: &str, package: &Package) -> PathBuf {
     let path = directory(name);
     for (file, text) in package.resources().unwrap() {
         fs::write(path.join(file), text).unwrap();
@@ -86,7 +86,7 @@ fn resources_that_do_not_fit_are_refused() {
     for (name, spoil) in spoiled {
         let path = directory(&format!("fmi {name}"));
         for (file, text) in package.resources().unwrap() {
-            if let Some(text) = spoil(file, &text) {
+            if let Some(text) = spoil(file, str::from_utf8(&text).unwrap()) {
                 fs::write(path.join(file), text).unwrap();
             }
         }

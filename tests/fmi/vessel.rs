@@ -1,11 +1,20 @@
 //! The FMU of a scene with a shaft in a vessel.
 
-use mcm::fmi::state::Ending;
-use mcm::manipulator::Scene;
+use std::fs;
+use std::path::Path;
 
-use super::instance::{get, initialised, set};
-use super::last;
+use mcm::fmi::instance::identify;
+use mcm::fmi::state::Ending;
+use mcm::fmi::variables::Table;
+use mcm::fmi::{Instance, Package};
+use mcm::manipulator::{Scene, SceneFile};
+use nalgebra::Vector3;
+
+use super::instance::{get, initialised, set, started};
+use super::package::{directory, unpacked};
+use super::{instance_of, last};
 use crate::tolerance::{SAME_SHAPE, assert_close};
+use crate::vessel::tube::{shifted, stl, straight, tube};
 
 /// Three segments on a shaft that a field presses against the wall of a tube.
 const PUSHED: &str = "[design]\nsegments = 3\n[field]\nuniform_mt = [0.0, 3.0, 0.0]\n[model]\ninteraction = \"rings\"\n\
@@ -74,4 +83,94 @@ fn a_shaft_under_a_given_push_tells_its_length_and_derivatives() {
     assert!(first > 5e-3 && slope > 0.0, "{first}, {slope}");
     let mean = 0.5 * (slope + beyond);
     assert!(((second - first) / 1e-4 - mean).abs() < 1e-3 * mean, "{first} {second} {slope} {beyond}");
+}
+
+/// The package of [`PUSHED`] in a tube of triangles in the folder `phantom`.
+fn meshed(name: &str) -> Package {
+    let folder = directory(name);
+    fs::create_dir(folder.join("phantom")).unwrap();
+    let triangles = shifted(tube(straight(0.12, 3.5e-3), 120, 48), Vector3::new(0.0, 0.0, -0.02));
+    fs::write(folder.join("phantom/tube.stl"), stl(&triangles, "")).unwrap();
+    let (text, _) = PUSHED.split_once("[[vessel.branch]]").unwrap();
+    let text = format!("{text}mesh_stl = \"phantom/tube.stl\"\n");
+    Package::of(&SceneFile::parse_in(&text, "meshed", &folder).unwrap(), 5).unwrap()
+}
+
+/// A step of 1 mm into the vessel, and what it answers bit for bit.
+fn push(instance: &mut Instance, table: &Table, length: f64) -> Vec<u64> {
+    assert_eq!(set(instance, table, "feed.insertion", length), Ending::Ok);
+    let time = instance.time();
+    assert_eq!(instance.do_step(time, 0.1), Ending::Ok);
+    let names = ["tip.position[2]", "contact.force[2]", "feed.reaction_force"];
+    names.iter().map(|name| get(instance, table, name).to_bits()).collect()
+}
+
+#[test]
+fn a_mesh_travels_in_the_resources() {
+    let package = meshed("fmi mesh");
+    let names: Vec<&str> = package.resources().unwrap().iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["scene.toml", "package.toml", "vessel.grid"]);
+    let [here, there] = ["fmi mesh (here)", "fmi mesh (there)"].map(|name| unpacked(name, &package));
+    let scene = fs::read_to_string(here.join("scene.toml")).unwrap();
+    assert!(scene.contains("mesh_stl = \"tube.stl\"\n"), "without the folder where it was packed: {scene}");
+    let from = |path: &Path| started(instance_of(identify(package.guid(), &[path.to_owned()]).unwrap()));
+    // Two at once, from two places, of which one is removed: they do not need it any more.
+    let ((mut first, table, _), (mut second, ..)) = (from(&here), from(&there));
+    fs::remove_dir_all(&there).unwrap();
+    let (mut packed, ..) = started(instance_of(package.clone()));
+    for step in 1..=3 {
+        let length = 2e-3 + 1e-3 * f64::from(step);
+        let [one, two, three] = [&mut first, &mut second, &mut packed].map(|own| push(own, &table, length));
+        assert_eq!(one, two);
+        assert_eq!(one, three);
+    }
+    assert!(get(&mut first, &table, "contact.force[2]").abs() > 1e-5);
+    // A state as bytes goes on in an instance from elsewhere.
+    assert_eq!(first.save(1), Ending::Ok);
+    let bytes = first.serialised(1).unwrap();
+    let (mut third, ..) = from(&here);
+    assert_eq!(third.deserialise(1, &bytes), Ending::Ok);
+    assert_eq!(third.restore(1), Ending::Ok);
+    assert_eq!(push(&mut third, &table, 6e-3), push(&mut first, &table, 6e-3));
+}
+
+#[test]
+fn a_mesh_that_is_missing_or_another_is_refused() {
+    let package = meshed("fmi mesh refused");
+    let folder = unpacked("fmi mesh spoiled", &package);
+    let path = folder.join("vessel.grid");
+    let whole = fs::read(&path).unwrap();
+    let refused = |content: Option<&[u8]>| {
+        content.map_or_else(|| fs::remove_file(&path).unwrap(), |content| fs::write(&path, content).unwrap());
+        identify(package.guid(), std::slice::from_ref(&folder)).unwrap_err().to_string()
+    };
+    let missing = refused(None);
+    assert!(missing.contains("vessel.grid: No such file"), "{missing}");
+    let mut altered = whole.clone();
+    altered[whole.len() / 2] ^= 1;
+    for (case, content) in [("altered", &altered[..]), ("cut", &whole[..whole.len() - 9]), ("empty", &[])] {
+        let told = refused(Some(content));
+        assert!(told.contains("scene.toml, line") && told.contains("vessel.grid: "), "{case}: {told}");
+    }
+    let box_around = [Vector3::repeat(-0.05), Vector3::repeat(0.05)];
+    let ball = mcm::vessel::DistanceGrid::new(box_around, 5e-3, |at| 0.05 - at.norm()).unwrap();
+    let other = refused(Some(&ball.to_bytes().unwrap()));
+    assert!(other.contains("that of the scene and vessel beside it"), "{other}");
+    fs::write(&path, &whole).unwrap();
+    assert!(identify(package.guid(), &[folder]).is_ok());
+}
+
+#[test]
+fn a_state_with_another_wall_takes_its_wall_along() {
+    let (mut soft, table, _) = initialised(PUSHED);
+    push(&mut soft, &table, 5e-3);
+    assert_eq!(soft.save(1), Ending::Ok);
+    let bytes = soft.serialised(1).unwrap();
+    let (mut stiff, _, told) = super::instance(PUSHED);
+    assert_eq!(set(&mut stiff, &table, "vessel.wall_modulus", 5e6), Ending::Ok);
+    let (mut stiff, ..) = started((stiff, Package::new(PUSHED, "test scene", 5).unwrap(), told));
+    assert_ne!(push(&mut stiff, &table, 5e-3), push(&mut soft, &table, 5e-3));
+    assert_eq!(stiff.deserialise(1, &bytes), Ending::Ok);
+    assert_eq!(stiff.restore(1), Ending::Ok);
+    assert_eq!(push(&mut stiff, &table, 6e-3), push(&mut soft, &table, 6e-3));
 }

@@ -99,6 +99,31 @@ fn a_snapshot_of_another_material_magnet_or_discretisation_is_refused() {
 }
 
 #[test]
+fn a_snapshot_of_another_vessel_is_refused() {
+    let own =
+        "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 12.0, 0.0]\n[model]\ninteraction = \"rings\"\n";
+    let tube = |radius: f64, modulus: f64| {
+        format!(
+            "{own}[vessel]\nwall_modulus_mpa = {modulus}\n[[vessel.branch]]\nname = \"tube\"\n\
+             points_mm = [[0, 0, -20], [0, 0, 40]]\nradius_mm = {radius}\n"
+        )
+    };
+    let (scene, mut first) = started(&tube(2.5, 1.0));
+    first.solve(&scene.inputs).unwrap();
+    let snapshot = first.snapshot();
+    let (_, mut same) = started(&tube(2.5, 1.0).replace("name = \"tube\"", "name = \"another name\""));
+    same.restore(&snapshot).unwrap();
+    assert_eq!(same.outputs(), first.outputs());
+    for other in [own.to_owned(), tube(2.500_001, 1.0), tube(2.5, 1.001)] {
+        let refused = started(&other).1.restore(&snapshot).unwrap_err().to_string();
+        assert!(refused.contains("not of this design, magnet and vessel"), "{other}: {refused}");
+    }
+    let (_, mut free) = started(own);
+    free.solve(&scene.inputs).unwrap();
+    assert!(first.restore(&free.snapshot()).is_err());
+}
+
+#[test]
 fn a_path_ends_where_its_points_lead() {
     let (scene, mut by_points) = started(SCENES[1]);
     let (_, mut by_path) = started(SCENES[1]);

@@ -23,6 +23,10 @@ pub(crate) const STIFF_TIP: f64 = 1e-5;
 /// Sum of the wall's forces there, relative.
 pub(crate) const STIFF_FORCE: f64 = 1e-3;
 
+/// A tube of triangles beside the tube itself, in a grid of an eighth of its radius: tip (m; facets turn the wall by up to 0.03,
+/// and across the tube the device is held softly) and sum of the wall's forces (relative).
+pub(crate) const MESH_TUBE: [f64; 2] = [1e-5, 1e-4];
+
 /// Push that holds a shaft, relative to the force at the port.
 pub(crate) const FEED_FORCE: f64 = 1e-4;
 

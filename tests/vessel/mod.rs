@@ -10,8 +10,9 @@ mod lumen;
 mod mesh;
 mod push;
 mod rods;
+mod scene;
 mod stl;
-mod tube;
+pub(crate) mod tube;
 
 use nalgebra::{Matrix3, Vector3};
 use rand::rngs::StdRng;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use mcm::vessel::Mesh;
 use nalgebra::Vector3;
 
-use super::tube::{Corners, arc, tube};
+use super::tube::{Corners, arc, stl, tube};
 
 /// A bent tube, mm, in numbers that single precision holds.
 fn bent() -> Vec<Corners> {
@@ -13,15 +13,10 @@ fn bent() -> Vec<Corners> {
     tube(arc(0.03, 2.0, 4e-3), 12, 8).into_iter().map(|corners| corners.map(rounded)).collect()
 }
 
+/// Triangles in mm as a binary file.
 fn binary(triangles: &[Corners], header: &str) -> Vec<u8> {
-    let mut out = format!("{header:80}").into_bytes();
-    out.extend(u32::try_from(triangles.len()).unwrap().to_le_bytes());
-    for corners in triangles {
-        let numbers = [0.0; 3].into_iter().chain(corners.iter().flat_map(|corner| corner.iter().copied()));
-        numbers.for_each(|number| out.extend((number as f32).to_le_bytes()));
-        out.extend([0, 0]);
-    }
-    out
+    let metres: Vec<Corners> = triangles.iter().map(|corners| corners.map(|corner| corner * 1e-3)).collect();
+    stl(&metres, header)
 }
 
 fn text(triangles: &[Corners], name: &str) -> String {

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use mcm::manipulator::SceneFile;
 
+use super::doing::Doing;
 use super::failure::Failure;
 use super::output::{folder, place};
 
@@ -15,13 +16,15 @@ const LONGEST_TEXT: u64 = 10_000_000;
 /// Smallest similarity (1: equal) at which another file's name is suggested as a correction.
 const PLAUSIBLE: f64 = 0.5;
 
-/// Reads a scene file.
+/// Reads a scene file, and the mesh that it may name.
 pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
-    Ok(SceneFile::parse(&read_text(path)?, &path.display().to_string())?)
+    let text = read_text(path)?;
+    let _doing = Doing::now(format!("reading {} and its vessel", path.display()));
+    Ok(SceneFile::parse_in(&text, &path.display().to_string(), folder(path))?)
 }
 
 /// Reads a text file, or as much from a pipe.
-pub(crate) fn read_text(path: &Path) -> Result<String, Failure> {
+fn read_text(path: &Path) -> Result<String, Failure> {
     let mut text = String::new();
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
     file.take(LONGEST_TEXT + 1).read_to_string(&mut text).map_err(|error| unreadable(path, &error))?;

@@ -13,7 +13,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::failure::Failure;
-use super::files::{read_text, refuse_same};
+use super::files::{read_scene, refuse_same};
 use super::output::{Output, print};
 use binary::Binary;
 
@@ -51,7 +51,7 @@ impl Pack {
         refuse_same(&read.map(PathBuf::as_path).collect::<Vec<_>>(), &[&self.out])?;
         let out = Output::at(&self.out)?;
         let package = match &self.scene {
-            Some(path) => Package::new(&read_text(path)?, &path.display().to_string(), self.shape_points)?,
+            Some(path) => Package::of(&read_scene(path)?, self.shape_points)?,
             None => Package::new(DEFAULT_SCENE, "default scene", self.shape_points)?,
         };
         let mut files: Vec<(String, Vec<u8>)> = vec![
@@ -62,8 +62,8 @@ impl Pack {
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
         ];
         files.extend(binary::entries(self.library.as_deref(), &self.binary)?);
-        for (name, text) in package.resources()? {
-            files.push((format!("resources/{name}"), text.into()));
+        for (name, content) in package.resources()? {
+            files.push((format!("resources/{name}"), content));
         }
         let bytes = archive(&files).map_err(|reason| Failure::writing(self.out.display(), reason))?;
         out.fill(&bytes)?;

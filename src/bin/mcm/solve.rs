@@ -1,6 +1,6 @@
 //! `mcm solve`: one equilibrium.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use mcm::error::Error;
@@ -10,8 +10,9 @@ use serde_json::{Value, json};
 
 use super::doing::Doing;
 use super::failure::Failure;
-use super::files::read_scene;
+use super::files::{read_scene, refuse_same};
 use super::output::{print, warn};
+use super::picture::ShapeFile;
 use super::verdict;
 
 /// Solves one equilibrium, starting from the unloaded shape.
@@ -35,6 +36,9 @@ pub(crate) struct Solve {
     /// Number of centreline points in the shape
     #[arg(long, value_name = "N", default_value_t = 101)]
     shape_points: usize,
+    /// Draw the shape to scale, with rings, vessel, magnet and forces of the wall, in the plane in which it spreads most
+    #[arg(long, value_name = "OUT.svg|OUT.png")]
+    picture: Option<PathBuf>,
 }
 
 /// Tip angle above which an unloaded shape is explained, rad.
@@ -43,6 +47,9 @@ const REST_ANGLE: f64 = core::f64::consts::PI / 180.0;
 impl Solve {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let written: Vec<&Path> = self.picture.iter().map(PathBuf::as_path).collect();
+        refuse_same(&[&self.scene], &written)?;
+        let picture = self.picture.as_deref().map(ShapeFile::at).transpose()?;
         let scene = read_scene(&self.scene)?.scene()?;
         let level = scene.settings.interaction.name();
         let doing = Doing::now(format!("making the models of level {level}"));
@@ -55,6 +62,10 @@ impl Solve {
         doing.then("derivatives and stability margin");
         let jacobian = manipulator.jacobian();
         let outputs = manipulator.measure_margin();
+        if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
+            doing.then("drawing");
+            picture.draw(&self.scene.display().to_string(), &scene, outputs)?;
+        }
         drop(doing);
         print(if self.json {
             format!("{:#}\n", as_json(outputs, &jacobian, scene.magnets.is_some()))
@@ -102,6 +113,26 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
         (
             "ring_contact_forces_n",
             json!(outputs.wall.as_ref().map(|wall| wall.rings.iter().map(vector).collect::<Vec<_>>())),
+        ),
+        (
+            "contact_places_m",
+            json!(
+                outputs.wall.as_ref().map(|wall| wall
+                    .places
+                    .iter()
+                    .map(|[at, _]| vector(at))
+                    .collect::<Vec<_>>())
+            ),
+        ),
+        (
+            "contact_forces_n",
+            json!(
+                outputs.wall.as_ref().map(|wall| wall
+                    .places
+                    .iter()
+                    .map(|[_, force]| vector(force))
+                    .collect::<Vec<_>>())
+            ),
         ),
         ("feed_length_m", json!(outputs.feed_length)),
         ("feed_reaction_force_n", json!(outputs.feed_reaction)),

@@ -17,7 +17,6 @@ use super::output::{Table, is_stream, print, warn};
 use super::progress::progress_bar;
 use journal::{Journal, Kept};
 use range::{MOST_VALUES, Range};
-use rows::header;
 use walk::{Plan, Walk};
 
 /// Follows one branch along the first key, for every combination of the other keys.
@@ -27,7 +26,8 @@ use walk::{Plan, Walk};
 the shape of the one before, as the device would, in steps of at most a hundredth of the range; the combinations of the \
 others run in parallel, each from the unloaded shape. Where the branch folds and the shape snaps, the value is located \
 to 1e-5 of the range and reported, with the angles before and after. Forces and fields are in the world frame, units \
-are in the column names.\n\n\
+are in the column names. Scenes with a vessel have columns of its contacts (contact_force_*_n, contact_count, \
+largest_contact_force_n, largest_indentation_m), those with a shaft feed_length_m and feed_reaction_force_n.\n\n\
 Examples, a field that grows, for three core lengths; a field that turns there and back; a magnet that turns:\n    \
 mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv\n    \
 mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
@@ -106,7 +106,7 @@ impl Sweep {
         bar.finish_and_clear();
         if let Some(walks) = &walks {
             let keys = self.keys();
-            table.header(header(keys.iter().copied()))?;
+            table.header(plan.columns().header(keys.iter().copied()))?;
             walks.iter().flat_map(|walk| &walk.rows).try_for_each(|row| table.row(row.cells()))?;
             folds.map_or(Ok(()), |folds| summary::write_folds(folds, &keys, walks))?;
             table.complete()?;

@@ -36,6 +36,8 @@ pub(crate) struct Walls<'a> {
 pub(crate) struct Touch {
     /// The load on the frame, in world axes.
     pub(crate) load: Load,
+    /// The place on the wall, world axes, m.
+    pub(crate) at: Vector3<f64>,
     /// Depth in the wall, m.
     pub(crate) depth: f64,
     /// Stiffness, N/m.
@@ -69,22 +71,23 @@ impl<'a> Walls<'a> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
         let law = self.lumen?.1.line(depth).map(|value| weight * value);
-        Some(on_centre(&clearance, depth, law))
+        Some(on_centre(point, &clearance, depth, law))
     }
 
     /// The round end of a rod of this radius at `point`.
     pub(crate) fn tip(&self, point: &Vector3<f64>, radius: f64) -> Option<Touch> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
-        Some(on_centre(&clearance, depth, self.lumen?.1.ball(radius, depth)))
+        Some(on_centre(point, &clearance, depth, self.lumen?.1.ball(radius, depth)))
     }
 
     /// All contacts of a rim of this radius around the axis of `frame`, at `height` (m) from its origin.
     pub(crate) fn rim(&self, frame: &Pose, height: f64, radius: f64, found: &mut Vec<Touch>) -> Option<()> {
-        let (_, wall) = self.lumen?;
+        let (lumen, wall) = self.lumen?;
         let centre = frame.advanced(height).position;
         let clearance = self.clearance(&centre)?;
-        if clearance.value >= radius {
+        // Of a wider place nothing on the rim can touch.
+        if clearance.value >= radius + lumen.rounding() {
             return Some(());
         }
         let rim = Rim { walls: self, frame, height, radius };
@@ -114,8 +117,13 @@ impl<'a> Walls<'a> {
 }
 
 /// Contact by the distance of the frame's origin alone: energy, force and stiffness of `law`.
-fn on_centre(clearance: &Clearance, depth: f64, [energy, force, stiffness]: [f64; 3]) -> Touch {
-    let Clearance { gradient, hessian, .. } = clearance;
+fn on_centre(
+    centre: &Vector3<f64>,
+    clearance: &Clearance,
+    depth: f64,
+    [energy, force, stiffness]: [f64; 3],
+) -> Touch {
+    let Clearance { gradient, hessian, value } = clearance;
     let load = Load {
         energy,
         force: gradient * -force,
@@ -123,7 +131,7 @@ fn on_centre(clearance: &Clearance, depth: f64, [energy, force, stiffness]: [f64
         stiff: true,
         ..Load::zero()
     };
-    Touch { load, depth, stiffness }
+    Touch { load, at: centre - gradient * *value, depth, stiffness }
 }
 
 /// A rim in a vessel.
@@ -197,6 +205,6 @@ impl Rim<'_> {
         load.position_rotation = block(0, 1) + hessian * lever * force;
         load.rotation_rotation = block(1, 1) + lever * hessian * lever * force;
         load.stiff = true;
-        Touch { load, depth: -value, stiffness }
+        Touch { load, at: self.place(angle), depth: -value, stiffness }
     }
 }

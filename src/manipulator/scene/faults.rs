@@ -9,14 +9,19 @@ use toml::{Spanned, Value};
 use super::SceneFile;
 use super::path::{entry, suggestion};
 use crate::error::Error;
+use crate::vessel::Lumen;
 
 /// Largest number of faults that are told of one text.
 const MOST: usize = 20;
 
 /// Reads the scene of a text called `what`.
 ///
-/// An entry at fault is left out, and the rest read again, until no more faults are found.
-pub(super) fn read(text: &str, what: &str) -> Result<SceneFile, Error> {
+/// An entry at fault is left out, and the rest read again, until no more faults are found. `lumen_of` gives the lumen of a mesh.
+pub(super) fn read(
+    text: &str,
+    what: &str,
+    lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>,
+) -> Result<SceneFile, Error> {
     let mut faults = Faults { text, what, found: Vec::new() };
     let (root, broken) = DeTable::parse_recoverable(text);
     for error in &broken {
@@ -30,7 +35,8 @@ pub(super) fn read(text: &str, what: &str) -> Result<SceneFile, Error> {
         return Err(faults.all());
     }
     let file = faults.types_and_keys(&root);
-    let Some(file) = file else { return Err(faults.all()) };
+    let Some(mut file) = file else { return Err(faults.all()) };
+    file.find_mesh(lumen_of);
     faults.values(root.get_ref(), &file)?;
     if faults.found.is_empty() { Ok(file) } else { Err(faults.all()) }
 }
@@ -99,14 +105,15 @@ impl Faults<'_> {
         for (path, number) in infinite(&table, "") {
             self.add(start_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
             forget(&mut table, &path);
-            rest = self.reread(&table)?;
+            rest = self.reread(&table, file)?;
         }
         let mut told: Vec<String> = Vec::new();
         while self.found.len() < MOST {
             let Err(error) = rest.scene() else { return Ok(()) };
             // A combination proves nothing once a part of it has been left out, nor a count where the design is not known.
             let proves = match error {
-                Error::Range { .. } => true,
+                // A syntax error is that of a mesh, which depends on nothing else.
+                Error::Range { .. } | Error::Syntax { .. } => true,
                 Error::Count { .. } => {
                     !self.found.iter().any(|(_, fault)| fault.to_string().contains("`design."))
                 }
@@ -124,18 +131,19 @@ impl Faults<'_> {
                 return Ok(());
             }
             // Nothing can be read without an entry that has no default.
-            let Ok(next) = self.reread(&table) else { return Ok(()) };
+            let Ok(next) = self.reread(&table, file) else { return Ok(()) };
             rest = next;
         }
         Ok(())
     }
 
-    /// The file with these entries.
-    fn reread(&self, table: &Value) -> Result<SceneFile, Error> {
+    /// The file with these entries, and the mesh of `whole`.
+    fn reread(&self, table: &Value, whole: &SceneFile) -> Result<SceneFile, Error> {
         let mut file: SceneFile = table.clone().try_into().map_err(|error: toml::de::Error| {
             Error::Syntax { what: self.what.into(), reason: error.message().into() }
         })?;
         file.design.complete();
+        file.mesh.clone_from(&whole.mesh);
         Ok(file)
     }
 }

@@ -8,6 +8,7 @@ use super::tube::BackboneEntries;
 use super::vessel::{FeedEntries, VesselEntries};
 use crate::equilibrium::{Interaction, Settings};
 use crate::methods::Method;
+use crate::vessel::Lumen;
 
 /// A scene as its file states it, with all omitted entries filled in.
 ///
@@ -27,6 +28,9 @@ pub struct SceneFile {
     pub(super) vessel: Option<VesselEntries>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) feed: Option<FeedEntries>,
+    /// The lumen of the mesh that the vessel names, or why there is none.
+    #[serde(skip)]
+    pub(super) mesh: Option<Result<Lumen, crate::error::Error>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

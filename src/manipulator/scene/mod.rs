@@ -2,6 +2,7 @@
 
 mod faults;
 mod file;
+mod mesh;
 mod names;
 mod path;
 mod resolve;
@@ -13,6 +14,8 @@ mod vessel;
 
 pub use file::SceneFile;
 pub use vessel::FeedMode;
+
+use std::path::Path;
 
 use super::{Compared, Inputs, Manipulator, Solve};
 use crate::design::{Backbone, Design, Specification};
@@ -84,6 +87,18 @@ impl Scene {
     /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for an empty list.
     pub fn assembly(&self) -> Result<Option<Assembly>, Error> {
         self.magnets.clone().map(Assembly::new).transpose()
+    }
+
+    /// Reads a scene file, and the mesh of a vessel that it names, whose path is relative to the scene's folder.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] for a file that cannot be read; as [`SceneFile::parse_in`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let what = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| Error::Syntax { what: what.clone(), reason: error.to_string() })?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        SceneFile::parse_in(&text, &what, folder)?.scene()
     }
 
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.

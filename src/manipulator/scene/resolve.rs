@@ -9,7 +9,7 @@ use super::file::{
 };
 use super::spiral_start::SpiralStartEntry;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
-use super::vessel::{FeedMode, VesselEntries};
+use super::vessel::FeedMode;
 use super::{Scene, names};
 use crate::design::{
     Backbone, Cylinder, CylinderMaterial, Design, Helix, RingMagnet, Segmented, Specification, SpiralKind,
@@ -87,7 +87,7 @@ impl SceneFile {
             Error::Range { .. } => error,
             of_the_list => Error::Unsupported(format!("magnet.cylinders: {of_the_list}")),
         })?;
-        let vessel = self.vessel.as_ref().map(VesselEntries::si).transpose()?;
+        let vessel = self.vessel.as_ref().map(|entries| entries.si(self.mesh.as_ref())).transpose()?;
         let shaft = self.shaft(&specification)?;
         if let Some(shaft) = &shaft {
             design.clone().with_shaft(shaft)?;
@@ -307,8 +307,18 @@ impl DesignEntries {
 fn fits(design: &Design, vessel: &Vessel, inputs: &Inputs) -> Result<(), Error> {
     let radius = design.largest_radius();
     let clearance = vessel.lumen.clearance(&inputs.base.position).value;
-    let allowed =
-        format!(">= {:.4}, the radius of the device: it does not fit in where it starts", radius * MM_PER_M);
+    let place = vessel.lumen.grid().map_or_else(String::new, |grid| {
+        let [low, high] = grid.bounds().map(|at| at.map(|v| (v * MM_PER_M).round()));
+        format!(
+            "; the mesh lies within {:?} to {:?} mm, its ends are walls",
+            <[f64; 3]>::from(low),
+            <[f64; 3]>::from(high)
+        )
+    });
+    let allowed = format!(
+        ">= {:.4}, the radius of the device: it does not fit in where it starts{place}",
+        radius * MM_PER_M
+    );
     let fits = |v: f64| v >= radius * MM_PER_M * (1.0 - ROUNDED);
     check(
         "distance of base.position_mm from the wall of the vessel (mm)",

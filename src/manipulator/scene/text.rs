@@ -2,18 +2,33 @@
 
 use toml::{Table, Value};
 
+use super::mesh::unplaced;
 use super::path::entry;
 use super::{SceneFile, faults};
 use crate::error::Error;
+use crate::vessel::Lumen;
 
 impl SceneFile {
     /// Reads a scene file's text; `what` names it in error messages.
     ///
     /// # Errors
     /// [`Error::Syntax`] with line, key and reason for the one fault of a text, [`Error::Several`] of these for several: what
-    /// is no TOML, unknown keys, values of another type, numbers that are not finite or out of range.
+    /// is no TOML, unknown keys, values of another type, numbers that are not finite or out of range. A mesh is not found from a
+    /// text alone: see [`SceneFile::parse_in`].
     pub fn parse(text: &str, what: &str) -> Result<Self, Error> {
-        faults::read(text, what)
+        Self::parse_with(text, what, |name| Err(unplaced(name)))
+    }
+
+    /// The same where `lumen_of` gives the lumen of the mesh that a scene names as `vessel.mesh_stl`.
+    ///
+    /// # Errors
+    /// As [`SceneFile::parse`]; those of `lumen_of` with their place.
+    pub fn parse_with(
+        text: &str,
+        what: &str,
+        lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>,
+    ) -> Result<Self, Error> {
+        faults::read(text, what, lumen_of)
     }
 
     /// The text of this file with every default written out.
@@ -38,7 +53,10 @@ impl SceneFile {
         let entry = match entry(&mut root, key) {
             Ok(entry) => entry,
             // The key may be one that the file does not state.
-            Err(unknown) => return with_optional(Value::Table(file.table()?), key, value).ok_or(unknown),
+            Err(unknown) => {
+                let varied = with_optional(Value::Table(file.table()?), key, value);
+                return varied.map(|varied| Self { mesh: file.mesh, ..varied }).ok_or(unknown);
+            }
         };
         *entry = match entry {
             Value::Float(_) if value.is_finite() => Value::Float(value),
@@ -51,10 +69,11 @@ impl SceneFile {
             Value::Integer(_) => return Err(Error::range(key, value, "a whole number")),
             _ => return Err(Error::Unsupported(format!("`{key}` holds no number"))),
         };
-        root.try_into().map_err(|error: toml::de::Error| Error::Syntax {
+        let varied: Self = root.try_into().map_err(|error: toml::de::Error| Error::Syntax {
             what: format!("`{key}` = {value}"),
             reason: error.message().into(),
-        })
+        })?;
+        Ok(Self { mesh: file.mesh, ..varied })
     }
 
     pub(super) fn table(&self) -> Result<Table, Error> {

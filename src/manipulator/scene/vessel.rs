@@ -13,13 +13,16 @@ use crate::vessel::{Branch, Lumen, Vessel, Wall};
 pub(super) struct VesselEntries {
     pub(super) wall_modulus_mpa: f64,
     pub(super) friction: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) mesh_stl: Option<String>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) branch: Vec<BranchEntries>,
 }
 
 impl Default for VesselEntries {
     /// A soft silicone, oiled.
     fn default() -> Self {
-        Self { wall_modulus_mpa: 1.0, friction: 0.0, branch: Vec::new() }
+        Self { wall_modulus_mpa: 1.0, friction: 0.0, mesh_stl: None, branch: Vec::new() }
     }
 }
 
@@ -65,20 +68,21 @@ pub(super) struct FeedEntries {
 }
 
 impl VesselEntries {
-    pub(super) fn si(&self) -> Result<Vessel, Error> {
+    /// The vessel; `mesh` is what was found under the name of its mesh.
+    pub(super) fn si(&self, mesh: Option<&Result<Lumen, Error>>) -> Result<Vessel, Error> {
         if self.friction != 0.0 {
             return Err(Error::Unsupported(format!(
                 "vessel.friction = {} is not available in this version: walls are without friction, 0",
                 self.friction
             )));
         }
-        let branches = self.branch.iter().map(BranchEntries::si).collect::<Result<_, _>>()?;
-        Ok(Vessel { lumen: Lumen::new(branches)?, wall: Wall::new(self.wall_modulus_mpa * PA_PER_MPA)? })
+        let wall = Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?;
+        Ok(Vessel { lumen: self.lumen(mesh)?, wall })
     }
 }
 
 impl BranchEntries {
-    fn si(&self) -> Result<Branch, Error> {
+    pub(super) fn si(&self) -> Result<Branch, Error> {
         let points: Vec<Vector3<f64>> =
             self.points_mm.iter().map(|point| Vector3::from(*point) / MM_PER_M).collect();
         let radii: Vec<f64> = match &self.radius_mm {

@@ -1,9 +1,10 @@
-//! The picture of a study: panels with title, legend and axes.
+//! The picture of a study: panels with title, legend and axes; and that of a shape.
 
 mod atlas;
 mod axes;
 mod bars;
 mod legend;
+mod shape;
 
 use std::path::Path;
 
@@ -15,6 +16,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::failure::Failure;
 use super::output::Output;
+pub(super) use shape::ShapeFile;
 
 /// Width and minimum height of a picture, and heights of a row of panels without and with long legends, pixels.
 const WIDTH: u32 = 900;
@@ -32,8 +34,8 @@ const OVERSAMPLING: u32 = 3;
 const SHADE: usize = 5;
 
 /// Name under which the embedded font is registered: Ubuntu Light (Ubuntu Font Licence 1.0, in `epaint_default_fonts`),
-/// so that pictures need no font of the system and look the same everywhere.
-const FONT: &str = "sans";
+/// so that pictures need no font of the system and look the same everywhere; vector graphics are shown in the viewer's own.
+const FONT: &str = "sans-serif";
 
 /// Font heights and line width, pixels of the final picture.
 const TITLE: f64 = 24.0;
@@ -70,21 +72,30 @@ pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
     let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
     draw(study, &mut pixels, large).map_err(|error| failure(error.to_string()))?;
-    let mut file = Output::at(path)?;
+    write_png(Output::at(path)?, &pixels, size)
+}
+
+/// Writes an oversampled picture into a PNG file.
+fn write_png(mut file: Output, pixels: &[u8], size: (u32, u32)) -> Result<(), Failure> {
     let mut encoder = png::Encoder::new(&mut file, size.0, size.1);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_compression(png::Compression::High);
     let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(&averaged(&pixels, size))?;
+        writer.write_image_data(&averaged(pixels, size))?;
         writer.finish()
     });
-    written.map_err(|error| failure(error.to_string()))?;
+    written.map_err(|error| Failure(format!("cannot write a picture: {error}")))?;
     file.complete()
 }
 
-fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
+/// Registers the embedded font.
+fn use_font() -> Drawn {
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| "the embedded font is not readable")?;
+        .map_err(|_| "the embedded font is not readable".into())
+}
+
+fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
+    use_font()?;
     let canvas = BitMapBackend::with_buffer(pixels, size).into_drawing_area();
     let canvas = canvas.margin(scaled(8.0), scaled(8.0), scaled(8.0), scaled(14.0));
     let (heading, body) = canvas.split_vertically(scaled(34.0));

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use mcm::manipulator::{Fold, PathSnapshot};
 use serde::{Deserialize, Serialize};
 
-use super::rows::Row;
+use super::rows::{Columns, Row};
 use super::way::Way;
 use crate::failure::Failure;
 use crate::output::warn;
@@ -70,6 +70,7 @@ pub(super) struct Identity<'a> {
     pub(super) header: &'a [&'a str],
     /// Number of keys that are varied.
     pub(super) keys: usize,
+    pub(super) columns: Columns,
     pub(super) walks: usize,
     pub(super) rows_per_walk: usize,
 }
@@ -171,7 +172,7 @@ impl Identity<'_> {
         let table =
             csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(lines.as_bytes()).into_records();
         for record in table {
-            let (number, row) = numbered(&record.ok()?, self.keys)?;
+            let (number, row) = numbered(&record.ok()?, self.keys, self.columns)?;
             kept.get_mut(number / self.rows_per_walk)?.rows.push((number % self.rows_per_walk, row));
         }
         for line in lines.lines().filter_map(|line| line.strip_prefix(AT)) {
@@ -184,9 +185,9 @@ impl Identity<'_> {
 }
 
 /// The number of a row and the row itself.
-fn numbered(record: &csv::StringRecord, keys: usize) -> Option<(usize, Row)> {
+fn numbered(record: &csv::StringRecord, keys: usize, columns: Columns) -> Option<(usize, Row)> {
     let mut cells = record.iter();
-    Some((cells.next()?.parse().ok()?, Row::read(cells, keys)?))
+    Some((cells.next()?.parse().ok()?, Row::read(cells, keys, columns)?))
 }
 
 /// Bytes as hexadecimal digits.

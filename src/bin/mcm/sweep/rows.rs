@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use mcm::manipulator::Outputs;
+use mcm::manipulator::{Outputs, Scene};
 use nalgebra::Vector3;
 
 use super::way::Way;
@@ -14,8 +14,24 @@ const SAME_TIP: f64 = 1e-4;
 
 const MM_PER_M: f64 = 1e3;
 
+/// Place of the tip's error among the columns of the shape.
+const ERROR: usize = 28;
+
+/// Further columns of a scene with a vessel.
+const CONTACT: [&str; 6] = [
+    "contact_force_x_n",
+    "contact_force_y_n",
+    "contact_force_z_n",
+    "contact_count",
+    "largest_contact_force_n",
+    "largest_indentation_m",
+];
+
+/// Further columns of a scene with a shaft.
+const FEED: [&str; 2] = ["feed_length_m", "feed_reaction_force_n"];
+
 /// Columns of the shape, which are empty in a row that did not converge.
-const NUMBERS: [&str; 29] = [
+const NUMBERS: [&str; ERROR + 1] = [
     "alpha_deg",
     "tip_x_mm",
     "tip_y_mm",
@@ -62,8 +78,34 @@ const SEARCH: [&str; 11] = [
     "reason",
 ];
 
+/// Which columns the scene's table has.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Columns {
+    vessel: bool,
+    shaft: bool,
+}
+
+impl Columns {
+    pub(super) fn of(scene: &Scene) -> Self {
+        Self { vessel: scene.vessel.is_some(), shaft: scene.shaft.is_some() }
+    }
+
+    /// Names of the columns of the shape.
+    fn numbers(self) -> impl Iterator<Item = &'static str> {
+        let contact = CONTACT.into_iter().filter(move |_| self.vessel);
+        NUMBERS.into_iter().chain(contact).chain(FEED.into_iter().filter(move |_| self.shaft))
+    }
+
+    /// The table's header for these keys.
+    pub(super) fn header<'a>(self, keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
+        let numbers = self.numbers().map(|name| -> &'a str { name });
+        keys.chain(["way"]).chain(numbers).chain(SEARCH)
+    }
+}
+
 /// One line of the table.
 pub(super) struct Row {
+    columns: Columns,
     varied: Vec<f64>,
     way: Way,
     /// `None` in a row that did not converge.
@@ -82,17 +124,12 @@ pub(super) struct Row {
     reason: Option<String>,
 }
 
-/// The table's header for these keys.
-pub(super) fn header<'a>(keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
-    keys.chain(["way"]).chain(NUMBERS).chain(SEARCH)
-}
-
 impl Row {
-    /// The cells in the order of [`header`].
+    /// The cells in the order of [`Columns::header`].
     pub(super) fn cells(&self) -> impl serde::Serialize + '_ {
         let converged = self.converged();
         let number = |index| self.numbers.as_ref().map(|numbers| numbers[index]);
-        let numbers: Vec<Option<f64>> = (0..NUMBERS.len()).map(number).collect();
+        let numbers: Vec<Option<f64>> = (0..self.columns.numbers().count()).map(number).collect();
         let verdict = (self.predicted_fold, self.stable, &self.stability, self.snaps);
         let search = (
             converged,
@@ -107,17 +144,22 @@ impl Row {
     }
 
     /// The row with these cells and this number of keys; `None` for anything else.
-    pub(super) fn read<'a>(mut cells: impl Iterator<Item = &'a str>, keys: usize) -> Option<Self> {
+    pub(super) fn read<'a>(
+        mut cells: impl Iterator<Item = &'a str>,
+        keys: usize,
+        columns: Columns,
+    ) -> Option<Self> {
         // An empty cell is a missing value.
         fn some<T: FromStr>(cell: &str) -> Result<Option<T>, T::Err> {
             if cell.is_empty() { Ok(None) } else { cell.parse().map(Some) }
         }
         let mut next = || cells.next();
         Some(Self {
+            columns,
             varied: (0..keys).map(|_| next()?.parse().ok()).collect::<Option<_>>()?,
             way: Way::named(next()?)?,
-            numbers: NUMBERS
-                .iter()
+            numbers: columns
+                .numbers()
                 .map(|_| some(next()?).ok())
                 .collect::<Option<Vec<_>>>()?
                 .into_iter()
@@ -138,7 +180,13 @@ impl Row {
         })
     }
 
-    pub(super) fn new(varied: Vec<f64>, way: Way, outputs: &Outputs, predicted_fold: Option<f64>) -> Self {
+    pub(super) fn new(
+        columns: Columns,
+        varied: Vec<f64>,
+        way: Way,
+        outputs: &Outputs,
+        predicted_fold: Option<f64>,
+    ) -> Self {
         const MT_PER_T: f64 = 1e3;
         let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
         let mut numbers = vec![outputs.tip_angle.to_degrees()];
@@ -156,7 +204,16 @@ impl Row {
             numbers.extend(vector);
         }
         numbers.extend([outputs.energy, outputs.stability_margin, outputs.error_estimate]);
+        if let Some(wall) = outputs.wall.as_ref().filter(|_| columns.vessel) {
+            numbers.extend(&wall.force);
+            numbers.extend([wall.count as f64, wall.largest_force, wall.largest_indentation]);
+        }
+        if let Some((length, push)) = outputs.feed_length.zip(outputs.feed_reaction).filter(|_| columns.shaft)
+        {
+            numbers.extend([length, push]);
+        }
         Self {
+            columns,
             varied,
             way,
             numbers: verdict::converged(outputs).then_some(numbers),
@@ -207,7 +264,7 @@ impl Row {
             return self.converged() != other.converged();
         };
         let tip = |numbers: &[f64]| Vector3::from_row_slice(&numbers[1..4]);
-        let error = |numbers: &[f64]| numbers[NUMBERS.len() - 1] * MM_PER_M;
+        let error = |numbers: &[f64]| numbers[ERROR] * MM_PER_M;
         (tip(own) - tip(other)).norm() > SAME_TIP + error(own) + error(other)
     }
 }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::journal::{Identity, Journal, Kept, Stage, State};
 use super::range::Range;
-use super::rows::{Row, header};
+use super::rows::{Columns, Row};
 use super::way::Way;
 use crate::failure::Failure;
 use crate::interrupt;
@@ -38,6 +38,7 @@ pub(super) struct Plan<'a> {
     back: bool,
     /// Whether the values of the first key are inputs of one device.
     same_device: bool,
+    columns: Columns,
 }
 
 impl<'a> Plan<'a> {
@@ -50,7 +51,8 @@ impl<'a> Plan<'a> {
     ) -> Result<Self, Failure> {
         let along = &along[0];
         let combinations = super::range::grid(others);
-        let mut plan = Self { file, along, others, combinations, back, same_device: true };
+        let columns = Columns::of(&file.scene()?);
+        let mut plan = Self { file, along, others, combinations, back, same_device: true, columns };
         let same = |combination: &Vec<f64>| {
             let varied = plan.with(combination)?;
             let mut first: Option<Scene> = None;
@@ -73,6 +75,11 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
+    /// Which columns the table has.
+    pub(super) fn columns(&self) -> Columns {
+        self.columns
+    }
+
     /// Number of rows of one walk, and of all.
     pub(super) fn rows(&self) -> [usize; 2] {
         let forth = self.along.values.len();
@@ -89,6 +96,8 @@ impl<'a> Plan<'a> {
     pub(super) fn journal(&self, path: &Path, resume: bool) -> Result<(Journal, Vec<Kept>), Failure> {
         let mut stamp = crc32fast::Hasher::new();
         stamp.update(self.file.to_toml()?.as_bytes());
+        let lumen = self.file.scene()?.vessel.map_or(0, |vessel| vessel.lumen.checksum());
+        stamp.update(&lumen.to_le_bytes());
         stamp.update(&[u8::from(self.back)]);
         for range in std::iter::once(self.along).chain(self.others) {
             stamp.update(range.key.as_bytes());
@@ -96,11 +105,12 @@ impl<'a> Plan<'a> {
         }
         let keys: Vec<&str> =
             std::iter::once(self.along).chain(self.others).map(|range| range.key.as_str()).collect();
-        let header: Vec<&str> = header(keys.iter().copied()).collect();
+        let header: Vec<&str> = self.columns.header(keys.iter().copied()).collect();
         let identity = Identity {
             stamp: stamp.finalize(),
             header: &header,
             keys: keys.len(),
+            columns: self.columns,
             walks: self.combinations.len(),
             rows_per_walk: self.rows()[0],
         };
@@ -172,8 +182,13 @@ impl Steps<'_> {
                 return Ok(None);
             }
             branch.to(value)?;
-            let row =
-                Row::new([&[value], &others[..]].concat(), way, branch.outputs(), branch.predicted_fold());
+            let row = Row::new(
+                self.plan.columns,
+                [&[value], &others[..]].concat(),
+                way,
+                branch.outputs(),
+                branch.predicted_fold(),
+            );
             ways.resize(branch.folds().len(), way);
             self.keep(rows.len(), &row)?;
             rows.push(row);
@@ -203,8 +218,13 @@ impl Steps<'_> {
             let scene = file.with(&along.key, *value)?.scene()?;
             let mut manipulator = scene.device(2)?;
             manipulator.solve(&scene.inputs)?;
-            let row =
-                Row::new([&[*value], &others[..]].concat(), Way::Forth, manipulator.measure_margin(), None);
+            let row = Row::new(
+                self.plan.columns,
+                [&[*value], &others[..]].concat(),
+                Way::Forth,
+                manipulator.measure_margin(),
+                None,
+            );
             self.keep(index, &row)?;
             Ok(Some(row))
         };
@@ -252,6 +272,6 @@ fn in_order(rows: Vec<(usize, Row)>, count: usize) -> Vec<Option<Row>> {
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.solver)
-        == (&b.specification, &b.magnets, &b.settings, &b.solver)
+    (&a.specification, &a.magnets, &a.settings, &a.solver, &a.vessel, &a.shaft)
+        == (&b.specification, &b.magnets, &b.settings, &b.solver, &b.vessel, &b.shaft)
 }

@@ -1,0 +1,148 @@
+//! Outlines in a plane: of a vessel, and of cylinders.
+
+use contour::ContourBuilder;
+use mcm::geometry::Pose;
+use mcm::nalgebra::Vector3;
+use mcm::vessel::Lumen;
+use rayon::prelude::*;
+
+use super::view::View;
+
+/// Number of places along the longer side at which the vessel is looked at.
+const COLUMNS: f64 = 320.0;
+
+/// Number of corners with which a circle is drawn.
+const AROUND: usize = 40;
+
+/// Number of places along a branch at which its size is looked at.
+const ALONG: u32 = 200;
+
+/// A closed line in the plane, mm.
+pub(super) type Outline = Vec<(f64, f64)>;
+
+/// What can be seen of a lumen.
+#[derive(Default)]
+pub(super) struct LumenOutline {
+    pub(super) parts: Vec<Outline>,
+    /// Between vessels that part and meet again.
+    pub(super) holes: Vec<Outline>,
+}
+
+/// The outline of a lumen between two corners (mm).
+pub(super) fn of_lumen(
+    lumen: &Lumen,
+    view: &View,
+    [low, high]: [(f64, f64); 2],
+) -> Result<LumenOutline, Box<dyn std::error::Error>> {
+    let step = (high.0 - low.0).max(high.1 - low.1) / COLUMNS;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundred")]
+    let [columns, rows] = [high.0 - low.0, high.1 - low.1].map(|side| (side / step).round() as usize + 1);
+    let depths = depths(lumen, view);
+    let rows_of_values = (0..rows).into_par_iter().map(|row| {
+        let mut values: Vec<f64> = Vec::with_capacity(columns);
+        while values.len() < columns {
+            let place = (low.0 + step * values.len() as f64, low.1 + step * row as f64);
+            let deepest = deepest(lumen, view, place, depths, 1e-3 * step);
+            values.push(deepest);
+            // Beside it the clearance can differ by no more than the distance; between two places along the line of sight it
+            // may be half as far.
+            let mut left = 0.5 * 1e3 * deepest.abs() - step;
+            while left > 2.0 * step && values.len() < columns {
+                values.push(1e-3 * left * deepest.signum());
+                left -= step;
+            }
+        }
+        values
+    });
+    let values: Vec<f64> = rows_of_values.flatten_iter().collect();
+    // The library's coordinates are those of the borders of cells, in whose middle the values are.
+    let found = ContourBuilder::new(columns, rows, true).contours(&values, &[0.0])?;
+    let place = |x: f64, y: f64| (low.0 + step * (x - 0.5), low.1 + step * (y - 0.5));
+    let mut out = LumenOutline::default();
+    for polygon in found.iter().flat_map(|contour| contour.geometry().iter()) {
+        for (number, ring) in std::iter::once(polygon.exterior()).chain(polygon.interiors()).enumerate() {
+            let list = if number == 0 { &mut out.parts } else { &mut out.holes };
+            list.push(ring.coords().map(|at| place(at.x, at.y)).collect());
+        }
+    }
+    Ok(out)
+}
+
+/// Largest clearance (m) along the line of sight through a place, as far as it matters for an outline at this resolution (m).
+fn deepest(lumen: &Lumen, view: &View, place: (f64, f64), [from, to]: [f64; 2], step: f64) -> f64 {
+    let (mut depth, mut largest) = (from, f64::NEG_INFINITY);
+    while depth <= to {
+        let clearance = lumen.clearance(&view.point(place, depth)).value;
+        largest = largest.max(clearance);
+        if clearance > 2.0 * step {
+            break;
+        }
+        // Within its distance from a point there is no wall.
+        depth += clearance.abs().max(0.5 * step);
+    }
+    largest
+}
+
+/// The depths (m) between which a lumen lies.
+fn depths(lumen: &Lumen, view: &View) -> [f64; 2] {
+    let balls = lumen.branches().iter().flat_map(|branch| {
+        let length = *branch.range().end();
+        (0..=ALONG).map(move |i| branch.ball(length * f64::from(i) / f64::from(ALONG)))
+    });
+    let corners = lumen.grid().into_iter().flat_map(|grid| {
+        let ends = grid.bounds();
+        (0..8).map(move |corner: usize| (Vector3::from_fn(|axis, _| ends[corner >> axis & 1][axis]), 0.0))
+    });
+    balls.chain(corners).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (centre, radius)| {
+        let depth = view.towards.dot(&centre);
+        [low.min(depth - radius), high.max(depth + radius)]
+    })
+}
+
+/// Outline of a cylinder around the axis of `pose`, between two heights (m) over its origin.
+pub(super) fn of_cylinder(view: &View, pose: &Pose, heights: [f64; 2], radius: f64) -> Outline {
+    let rim = |height: f64| {
+        (0..AROUND).map(move |i| {
+            let (sine, cosine) = (core::f64::consts::TAU * i as f64 / AROUND as f64).sin_cos();
+            view.at(&pose.transform(&Vector3::new(radius * cosine, radius * sine, height)))
+        })
+    };
+    hull(heights.into_iter().flat_map(rim).collect())
+}
+
+/// Outline of a rod of this radius (m) along these points.
+pub(super) fn of_rod(view: &View, points: &[Vector3<f64>], radius: f64) -> Outline {
+    let places: Vec<(f64, f64)> = points.iter().map(|point| view.at(point)).collect();
+    let side = |sign: f64| {
+        let places = &places;
+        (0..places.len()).map(move |i| {
+            let (before, after) = (places[i.saturating_sub(1)], places[(i + 1).min(places.len() - 1)]);
+            let (x, y) = (after.0 - before.0, after.1 - before.1);
+            let factor = sign * 1e3 * radius / x.hypot(y).max(f64::MIN_POSITIVE);
+            (places[i].0 - factor * y, places[i].1 + factor * x)
+        })
+    };
+    side(1.0).chain(side(-1.0).rev()).collect()
+}
+
+/// Convex hull, by A. M. Andrew, Another efficient algorithm for convex hulls in two dimensions,
+/// doi 10.1016/0020-0190(79)90072-3.
+fn hull(mut points: Outline) -> Outline {
+    points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let chain = |points: &mut dyn Iterator<Item = (f64, f64)>| {
+        let mut out: Vec<(f64, f64)> = Vec::new();
+        for point in points {
+            while let [.., a, b] = out[..]
+                && (b.0 - a.0) * (point.1 - a.1) <= (b.1 - a.1) * (point.0 - a.0)
+            {
+                out.pop();
+            }
+            out.push(point);
+        }
+        out.pop();
+        out
+    };
+    let mut out = chain(&mut points.iter().copied());
+    out.extend(chain(&mut points.iter().rev().copied()));
+    out
+}

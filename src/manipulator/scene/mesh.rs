@@ -1,0 +1,109 @@
+//! The mesh that a scene names instead of branches: where it is found and what is made of it.
+
+use std::path::Path;
+
+use super::SceneFile;
+use super::vessel::{BranchEntries, VesselEntries};
+use crate::error::Error;
+use crate::vessel::Lumen;
+
+/// Key of the mesh.
+const KEY: &str = "vessel.mesh_stl";
+
+impl SceneFile {
+    /// Reads a scene file's text, and the mesh that it names, whose path is relative to `folder`; `what` names the text in error
+    /// messages. Coordinates of the mesh are in mm, as those of the scene.
+    ///
+    /// # Errors
+    /// As [`SceneFile::parse`], as where the mesh is missing or is none: see [`crate::vessel::Mesh`].
+    pub fn parse_in(text: &str, what: &str, folder: &Path) -> Result<Self, Error> {
+        Self::parse_with(text, what, |name| read(&folder.join(name)))
+    }
+
+    /// Whether a mesh is named.
+    #[must_use]
+    pub fn has_mesh(&self) -> bool {
+        self.mesh_stl().is_some()
+    }
+
+    /// The same with the mesh called by its name alone, as it travels without the folders that it was in.
+    #[must_use]
+    pub fn without_folders(&self) -> Self {
+        let mut file = self.clone();
+        if let Some(name) = file.vessel.as_mut().and_then(|vessel| vessel.mesh_stl.as_mut())
+            && let Some(last) = Path::new(name.as_str()).file_name()
+        {
+            *name = last.to_string_lossy().into_owned();
+        }
+        file
+    }
+
+    fn mesh_stl(&self) -> Option<&str> {
+        self.vessel.as_ref()?.mesh_stl.as_deref()
+    }
+
+    /// Gets the lumen of the mesh that is named; what stands in its way is told with the scene's other faults.
+    pub(super) fn find_mesh(&mut self, lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>) {
+        let found = self.mesh_stl().map(lumen_of);
+        self.mesh = found.map(|found| {
+            found.map_err(|error| Error::Syntax { what: KEY.into(), reason: error.to_string() })
+        });
+    }
+}
+
+impl VesselEntries {
+    /// The lumen of the mesh or of the branches; `mesh` is what was found under the name of the mesh.
+    pub(super) fn lumen(&self, mesh: Option<&Result<Lumen, Error>>) -> Result<Lumen, Error> {
+        match (&self.mesh_stl, self.branch.is_empty()) {
+            (Some(name), true) => match mesh {
+                Some(found) => found.clone(),
+                None => Err(Error::Syntax { what: KEY.into(), reason: unplaced(name).to_string() }),
+            },
+            (Some(_), false) => Err(Error::Unsupported(format!(
+                "{KEY} has no meaning beside [[vessel.branch]]: give one or the other"
+            ))),
+            (None, false) => Lumen::new(self.branch.iter().map(BranchEntries::si).collect::<Result<_, _>>()?),
+            (None, true) => Err(Error::Unsupported(
+                "vessel needs mesh_stl, the name of an STL file in mm, or at least one [[vessel.branch]]"
+                    .into(),
+            )),
+        }
+    }
+}
+
+/// Why a text alone does not tell where its mesh is.
+pub(super) fn unplaced(name: &str) -> Error {
+    Error::Unsupported(format!(
+        "{name} is not found from a text alone: read the scene's file (Scene::read), or name the folder (SceneFile::parse_in)"
+    ))
+}
+
+#[cfg(feature = "stl")]
+fn read(path: &Path) -> Result<Lumen, Error> {
+    use std::fs::File;
+    use std::io::Read;
+
+    use super::units::MM_PER_M;
+    use crate::vessel::Mesh;
+
+    /// Largest length of an STL file, bytes: twenty million triangles.
+    const LONGEST: u64 = 1_000_000_000;
+
+    let refused = |reason: String| Error::Syntax { what: path.display().to_string(), reason };
+    let mut bytes = Vec::new();
+    let opened = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
+    opened.map_err(|error| refused(error.to_string()))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(refused(format!("it has more than {LONGEST} bytes")));
+    }
+    let mesh = Mesh::from_stl(&bytes, 1.0 / MM_PER_M);
+    mesh.and_then(|mesh| Lumen::from_mesh(&mesh, None)).map_err(|error| refused(error.to_string()))
+}
+
+#[cfg(not(feature = "stl"))]
+fn read(path: &Path) -> Result<Lumen, Error> {
+    Err(Error::Unsupported(format!(
+        "{} is not read: this build of mcm has no reader for STL files, the feature `stl`",
+        path.display()
+    )))
+}
