@@ -31,6 +31,6 @@ impl Equilibrium {
             }
             energy += work.placed_loads[k].loads.iter().map(|placed| placed.load.energy).sum::<f64>();
         }
-        (chain.shaft > 0).then(|| energy / inserted - extension / chain.shaft as f64)
+        (chain.shaft > 0).then(|| energy / inserted - extension / chain.shaft as f64 + self.friction_push())
     }
 }

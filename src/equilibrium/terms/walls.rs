@@ -40,6 +40,8 @@ pub(crate) struct Touch {
     pub(crate) depth: f64,
     /// Stiffness, N/m.
     pub(crate) stiffness: f64,
+    /// From the frame's origin to where the wall is touched, m, world axes.
+    pub(crate) arm: Vector3<f64>,
 }
 
 impl<'a> Walls<'a> {
@@ -69,14 +71,14 @@ impl<'a> Walls<'a> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
         let law = self.lumen?.1.line(depth).map(|value| weight * value);
-        Some(on_centre(&clearance, depth, law))
+        Some(on_centre(&clearance, radius, law))
     }
 
     /// The round end of a rod of this radius at `point`.
     pub(crate) fn tip(&self, point: &Vector3<f64>, radius: f64) -> Option<Touch> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
-        Some(on_centre(&clearance, depth, self.lumen?.1.ball(radius, depth)))
+        Some(on_centre(&clearance, radius, self.lumen?.1.ball(radius, depth)))
     }
 
     /// All contacts of a rim of this radius around the axis of `frame`, at `height` (m) from its origin.
@@ -113,9 +115,9 @@ impl<'a> Walls<'a> {
     }
 }
 
-/// Contact by the distance of the frame's origin alone: energy, force and stiffness of `law`.
-fn on_centre(clearance: &Clearance, depth: f64, [energy, force, stiffness]: [f64; 3]) -> Touch {
-    let Clearance { gradient, hessian, .. } = clearance;
+/// Contact of a body of this radius by the distance of the frame's origin alone: energy, force and stiffness of the law.
+fn on_centre(clearance: &Clearance, radius: f64, [energy, force, stiffness]: [f64; 3]) -> Touch {
+    let Clearance { value, gradient, hessian } = clearance;
     let load = Load {
         energy,
         force: gradient * -force,
@@ -123,7 +125,7 @@ fn on_centre(clearance: &Clearance, depth: f64, [energy, force, stiffness]: [f64
         stiff: true,
         ..Load::zero()
     };
-    Touch { load, depth, stiffness }
+    Touch { load, depth: radius - value, stiffness, arm: gradient * -radius }
 }
 
 /// A rim in a vessel.
@@ -197,6 +199,6 @@ impl Rim<'_> {
         load.position_rotation = block(0, 1) + hessian * lever * force;
         load.rotation_rotation = block(1, 1) + lever * hessian * lever * force;
         load.stiff = true;
-        Touch { load, depth: -value, stiffness }
+        Touch { load, depth: -value, stiffness, arm }
     }
 }

@@ -62,14 +62,9 @@ pub(super) struct FeedEntries {
 
 impl VesselEntries {
     pub(super) fn si(&self) -> Result<Vessel, Error> {
-        if self.friction != 0.0 {
-            return Err(Error::Unsupported(format!(
-                "vessel.friction = {} is not available in this version: walls are without friction, 0",
-                self.friction
-            )));
-        }
         let branches = self.branch.iter().map(BranchEntries::si).collect::<Result<_, _>>()?;
-        Ok(Vessel { lumen: Lumen::new(branches)?, wall: Wall::new(self.wall_modulus_mpa * PA_PER_MPA)? })
+        let wall = Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?.with_friction(self.friction)?;
+        Ok(Vessel { lumen: Lumen::new(branches)?, wall })
     }
 }
 
