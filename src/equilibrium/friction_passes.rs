@@ -73,7 +73,8 @@ impl Search<'_> {
         start: &[f64],
         unknowns: &mut [f64],
     ) -> bool {
-        if !self.work.friction.holds() {
+        let friction = &self.work.friction;
+        if !friction.holds() || friction.memory.grips.is_empty() && friction.pressures.is_empty() {
             return true;
         }
         self.work.place(self.model.chain, before, start);
