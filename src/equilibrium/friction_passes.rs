@@ -7,6 +7,7 @@ use super::friction_places::{KeptShape, Placing};
 use super::grip::{Grip, Place};
 use super::history::History;
 use super::inputs::Inputs;
+use super::outcome::Outcome;
 use super::search::Search;
 use crate::numerics::trust_region::Objective;
 
@@ -66,12 +67,13 @@ impl Search<'_> {
 
     /// Lets normal forces and their directions follow a shape just found at `inputs`, coming from the shape `start` at `before`,
     /// until friction changes no more, and drags the anchors along; `false` where it does not settle: the shape then is `start`
-    /// again.
+    /// again. With `downhill` it may descend, as a shape may that was found by a descent.
     pub(super) fn settle_friction(
         &mut self,
         [before, inputs]: [&Inputs; 2],
         start: &[f64],
         unknowns: &mut [f64],
+        downhill: bool,
     ) -> bool {
         let friction = &self.work.friction;
         if !friction.holds() || friction.memory.grips.is_empty() && friction.pressures.is_empty() {
@@ -80,7 +82,7 @@ impl Search<'_> {
         self.work.place(self.model.chain, before, start);
         let from = KeptShape::of(self.work);
         let kept = self.work.friction.memory.clone();
-        for pass in 0..PASSES {
+        for _ in 0..PASSES {
             if self.potential(inputs).slope(unknowns).is_none() {
                 break;
             }
@@ -91,10 +93,10 @@ impl Search<'_> {
                 return true;
             }
             self.work.friction.memory.grips = next;
-            if std::env::var("FRICTION").is_ok() {
-                eprintln!("pass {pass}");
-            }
-            if !self.correct(inputs, unknowns, self.model.settings.follow_step) {
+            let mut trial = unknowns.to_vec();
+            if self.correct(inputs, &mut trial, self.model.settings.follow_step) {
+                unknowns.copy_from_slice(&trial);
+            } else if !downhill || self.descend(inputs, unknowns, self.resting()) != Outcome::Solved {
                 break;
             }
         }
@@ -110,7 +112,7 @@ impl Search<'_> {
         }
         let start = self.scratch.last.clone();
         let Some(before) = &branch.inputs else { return true };
-        self.settle_friction([before, target], &start, &mut branch.unknowns)
+        self.settle_friction([before, target], &start, &mut branch.unknowns, false)
     }
 
     /// The grips under the normal forces of the shape evaluated last; new ones are anchored where their places were in the shape

@@ -90,7 +90,7 @@ impl Search<'_> {
         let Some(here) = branch.inputs.as_ref().filter(|_| branch.stable.is_none()) else { return false };
         let start = self.scratch.last.clone();
         self.try_to_correct(None, here, &mut branch.unknowns)
-            && self.settle_friction([here, here], &start, &mut branch.unknowns)
+            && self.settle_friction([here, here], &start, &mut branch.unknowns, false)
             && here == target
     }
 
@@ -213,7 +213,7 @@ impl Search<'_> {
                     let nearby = at(done + TANGENT * (next - done));
                     self.try_to_correct_along((&nearby, TANGENT), [&here, &inputs], unknowns)
                 } || self.try_to_correct(Some(&here), &inputs, unknowns));
-            corrected = corrected && self.settle_friction([&here, &inputs], &start, unknowns);
+            corrected = corrected && self.settle_friction([&here, &inputs], &start, unknowns, false);
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
@@ -235,8 +235,8 @@ impl Search<'_> {
             if end != Outcome::Solved && !neutral {
                 return self.rests(end);
             }
-            if !corrected {
-                self.settle_friction([&here, &inputs], &start, unknowns);
+            if !corrected && !neutral && !self.settle_friction([&here, &inputs], &start, unknowns, true) {
+                return Outcome::Wedged;
             }
             // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
@@ -250,7 +250,11 @@ impl Search<'_> {
             }
         }
         // Too many small steps along the branch: descend to the target at once.
+        let start = unknowns.to_vec();
         let end = self.descend_from([&here, target], unknowns, resting);
+        if end == Outcome::Solved && !self.settle_friction([&here, target], &start, unknowns, true) {
+            return Outcome::Wedged;
+        }
         self.rests(end)
     }
 
