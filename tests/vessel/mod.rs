@@ -4,6 +4,7 @@ mod aorta;
 mod branch;
 mod contact;
 mod feed;
+mod friction;
 mod grid;
 mod lumen;
 mod mesh;
