@@ -17,7 +17,7 @@ pub(super) struct VesselEntries {
 }
 
 impl Default for VesselEntries {
-    /// A soft silicone, oiled.
+    /// A soft silicone without friction.
     fn default() -> Self {
         Self { wall_modulus_mpa: 1.0, friction: 0.0, branch: Vec::new() }
     }
