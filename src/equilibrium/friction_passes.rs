@@ -17,6 +17,9 @@ const SETTLED: f64 = 1e-4;
 /// The same as a force, N: far below what matters.
 const NOTHING: f64 = 1e-8;
 
+/// Normal force (N) below which there is none: its square could underflow.
+const LEAST: f64 = 1e-30;
+
 /// Most passes.
 const PASSES: usize = 40;
 
@@ -128,16 +131,13 @@ impl Search<'_> {
             let Sum { place, force, normal, arm } = sum;
             let (normal, arm) = (normal.normalize(), frame.rotation.tr_mul(&(arm / force)));
             let start = from.frame_or_outside(place);
-            let grip = match earlier.binary_search_by_key(&place, |grip| grip.place) {
-                Ok(number) => {
-                    let mut grip = earlier[number];
-                    grip.on_arm(&arm, &start.rotation);
-                    Grip { normal, force, ..grip }
-                }
-                Err(_) => {
-                    let anchor = start.position + start.rotation * arm;
-                    Grip { place, anchor, arm, normal, force }
-                }
+            let grip = if let Ok(number) = earlier.binary_search_by_key(&place, |grip| grip.place) {
+                let mut grip = earlier[number];
+                grip.on_arm(&arm, &start.rotation);
+                Grip { normal, force, ..grip }
+            } else {
+                let anchor = start.position + start.rotation * arm;
+                Grip { place, anchor, arm, normal, force }
             };
             out.push(grip);
         }
@@ -196,7 +196,7 @@ fn summed(pressures: &[Pressure], here: &Placing<'_>) -> Vec<Sum> {
     for Pressure { on, force, arm } in pressures {
         for (place, share) in here.shares(*on) {
             let size = share * force.norm();
-            if size > 0.0 {
+            if size > LEAST {
                 parts.push(Sum { place, force: size, normal: force * share, arm: arm * size });
             }
         }
