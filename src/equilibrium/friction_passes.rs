@@ -86,7 +86,7 @@ impl Search<'_> {
         let from = KeptShape::of(self.work);
         let kept = self.work.friction.memory.clone();
         for _ in 0..PASSES {
-            if self.potential(inputs).slope(unknowns).is_none() {
+            if !self.may_go_on() || self.potential(inputs).slope(unknowns).is_none() {
                 break;
             }
             let next = self.pressed(&from);

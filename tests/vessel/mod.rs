@@ -5,6 +5,7 @@ mod branch;
 mod contact;
 mod feed;
 mod friction;
+mod friction_memory;
 mod grid;
 mod lumen;
 mod mesh;
