@@ -82,8 +82,15 @@ fn friction_is_tunable_and_part_of_the_state() {
     assert_eq!(second.deserialise(1, &bytes), Ending::Ok, "{}", last(&other));
     assert_eq!(second.restore(1), Ending::Ok);
     assert_eq!(ways.map(|to| go(&mut second, to).to_bits()), wanted, "from the bytes");
-    for wrong in [-0.1, f64::NAN, 11.0] {
-        assert_eq!(set(&mut first, &table, "vessel.friction", wrong), Ending::Error);
-        assert!(last(&told).contains("vessel.friction"), "{}", last(&told));
+    assert_eq!(set(&mut first, &table, "vessel.friction", f64::NAN), Ending::Error);
+    assert!(last(&told).contains("vessel.friction"), "{}", last(&told));
+    for wrong in [-0.1, 11.0] {
+        assert_eq!(set(&mut first, &table, "vessel.friction", wrong), Ending::Ok);
+        let time = first.time();
+        assert_eq!(first.do_step(time, 0.1), Ending::Error);
+        let said = last(&told);
+        assert!(said.contains("vessel.friction") && said.contains("from 0 to 10"), "{said}");
     }
+    assert_eq!(set(&mut first, &table, "vessel.friction", 0.4), Ending::Ok);
+    go(&mut first, 5.3e-3);
 }
