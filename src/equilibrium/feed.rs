@@ -80,7 +80,7 @@ impl Equilibrium {
             }
             energy += work.placed_loads[k].loads.iter().map(|placed| placed.load.energy).sum::<f64>();
         }
-        energy / inserted - extension / chain.shaft as f64
+        energy / inserted - extension / chain.shaft as f64 + self.friction_push()
     }
 
     /// Derivatives of the energy without the elastic one of the shaft at any shape: the gradient, the wrench on the base, and that

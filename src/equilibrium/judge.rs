@@ -40,10 +40,10 @@ impl Search<'_> {
                 self.report.stable = Some(false);
                 Outcome::Neutral
             }
-            _ => {
+            otherwise => {
                 // A contact at the last trial shape may be the reason.
                 let contact = self.model.contact(target, self.work).map(Outcome::Contact);
-                let otherwise = if self.may_go_on() { Outcome::BranchEnds } else { Outcome::OutOfBudget };
+                let otherwise = if self.may_go_on() { otherwise } else { Outcome::OutOfBudget };
                 return contact.unwrap_or(otherwise);
             }
         };

@@ -28,6 +28,7 @@ impl Equilibrium {
     /// The next solve corrects the difference of the two models.
     pub fn adopt(&mut self, other: &Self, unknowns: &[f64], inputs: &Inputs) {
         self.reset();
+        self.work.friction.take_over(&other.work.friction);
         self.branch.unknowns = transferred(&self.chain, &other.chain, unknowns);
         self.branch.inputs = Some(inputs.clone());
     }

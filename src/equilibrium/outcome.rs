@@ -21,6 +21,8 @@ pub enum Outcome {
     Contact(Contact),
     /// The iterations or the processor time allowed by the settings were used up.
     OutOfBudget,
+    /// Friction and the normal forces that it depends on did not settle, as where the manipulator is wedged.
+    Wedged,
 }
 
 /// Two bodies that overlap.
@@ -61,6 +63,7 @@ impl Outcome {
             Self::BranchEnds => "branch_ends",
             Self::Contact(_) => "contact",
             Self::OutOfBudget => "out_of_budget",
+            Self::Wedged => "wedged",
         }
     }
 }
@@ -85,6 +88,10 @@ impl fmt::Display for Outcome {
                 out,
                 "the iterations or the processor time allowed were used up; allow more (the model's time budget), or take \
                  shorter steps"
+            ),
+            Self::Wedged => write!(
+                out,
+                "friction and normal forces do not settle: the manipulator is wedged; go back, turn it or take shorter steps"
             ),
         }
     }

@@ -20,6 +20,7 @@ impl Search<'_> {
             let reach = (MISTAKEN * length).max(self.model.nearly());
             self.accept(branch.inputs.as_ref(), target, &mut branch.unknowns, &mut trial, reach)
         });
+        let found = found && self.settle_friction_of(branch, target);
         self.scratch.trial = trial;
         found
     }

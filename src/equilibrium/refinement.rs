@@ -130,6 +130,9 @@ impl Refinement {
         if !factored {
             return None;
         }
+        if coarse.work.friction.acts() {
+            model.work.friction.clone_from(&coarse.work.friction);
+        }
         // Amplitudes of the added modes: the elastic step without its part in the coarser modes.
         let mut finer = model.potential(inputs, shape);
         finer.slope(shape)?;

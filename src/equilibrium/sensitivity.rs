@@ -29,7 +29,8 @@ const ITERATIONS: usize = 4;
 impl Equilibrium {
     /// Derivatives of all outputs with respect to all inputs at the last solved shape.
     ///
-    /// The equilibrium itself and its later solves stay unchanged.
+    /// Under friction they are those at the present normal forces and anchors of the wall. The equilibrium itself and its later
+    /// solves stay unchanged.
     ///
     /// # Errors
     /// [`Error::NoDerivatives`] before the first solved shape; at a fold, where the derivatives are infinite (the

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::factorisation::Origin;
+use super::friction::FrictionMemory;
 use super::history::{History, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
@@ -15,6 +16,7 @@ pub struct BranchSnapshot {
     /// What tells the equilibria of one design, discretisation, magnet and vessel from others.
     device: u32,
     branch: History,
+    friction: FrictionMemory,
     /// Shape and inputs of the Hessian whose factorisation the next solve starts with.
     origin: Option<Origin>,
     /// Quadrature rules of the ring pairs at the present shape of the branch.
@@ -28,6 +30,7 @@ impl Equilibrium {
         BranchSnapshot {
             device: self.mark(),
             branch: self.branch.clone(),
+            friction: self.work.friction.memory.clone(),
             origin: self.work.factorisation.as_ref().map(|last| last.origin().clone()),
             rules: self.rules.chosen().collect(),
         }
@@ -39,7 +42,7 @@ impl Equilibrium {
     /// [`Error::Unsupported`] for a snapshot of another design or vessel; the branch is then forgotten.
     pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
-        let BranchSnapshot { device, branch, origin, rules } = snapshot;
+        let BranchSnapshot { device, branch, friction, origin, rules } = snapshot;
         let fits = *device == self.mark()
             && branch.fits(self.chain.freedoms())
             && origin.as_ref().is_none_or(|origin| are_finite(&origin.unknowns, self.chain.freedoms()));
@@ -53,6 +56,7 @@ impl Equilibrium {
         }
         self.lay_out(inputs);
         let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));
+        self.work.friction.memory = friction.clone();
         let replaced = refactorised && self.rules.restore(rules);
         if !replaced || self.potential_as_ruled(inputs).slope(&branch.unknowns).is_none() {
             self.reset();

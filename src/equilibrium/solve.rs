@@ -51,6 +51,7 @@ impl Search<'_> {
         self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
+        self.begin_friction();
         let taken_up = branch.stable.is_none();
         let found = if self.predict(branch, target) || self.settle(branch, target) {
             Outcome::Solved
@@ -63,6 +64,7 @@ impl Search<'_> {
         }
         (self.report.outcome, self.report.progress) = (outcome, 1.0);
         (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
+        self.end_friction(target, &branch.unknowns);
         // Past a snap, or from the shape of another model, the last steps do not extrapolate to the next one.
         branch.advance(target, &self.scratch.last, self.report.snaps > 0 || taken_up);
         self.report
@@ -72,7 +74,9 @@ impl Search<'_> {
     /// next solve continues there.
     fn give_up(&mut self, branch: &mut History, outcome: Outcome) -> Report {
         self.work.factorisation = None;
-        match self.reached.take().filter(|_| outcome == Outcome::OutOfBudget) {
+        let reached = self.reached.take().filter(|_| outcome == Outcome::OutOfBudget);
+        self.recall_friction(reached.is_some());
+        match reached {
             Some((inputs, unknowns)) => branch.rest_at(inputs, unknowns),
             None => branch.unknowns.copy_from_slice(&self.scratch.last),
         }
@@ -84,7 +88,10 @@ impl Search<'_> {
     /// the inputs. Returns whether the shape then is at the target's inputs.
     fn settle(&mut self, branch: &mut History, target: &Inputs) -> bool {
         let Some(here) = branch.inputs.as_ref().filter(|_| branch.stable.is_none()) else { return false };
-        self.try_to_correct(None, here, &mut branch.unknowns) && here == target
+        let start = self.scratch.last.clone();
+        self.try_to_correct(None, here, &mut branch.unknowns)
+            && self.settle_friction([here, here], &start, &mut branch.unknowns, false)
+            && here == target
     }
 
     /// Follows the branch from the inputs of `unknowns` (`None`: straight, nothing is solved yet) to `target`.
@@ -200,11 +207,13 @@ impl Search<'_> {
             let next = f64::min(1.0, done + part);
             let inputs = at(next);
             self.passing = next < 1.0;
-            let corrected = !neutral
+            let start = if self.work.friction.holds() { unknowns.to_vec() } else { Vec::new() };
+            let mut corrected = !neutral
                 && (self.model.around.is_some() && {
                     let nearby = at(done + TANGENT * (next - done));
                     self.try_to_correct_along((&nearby, TANGENT), [&here, &inputs], unknowns)
                 } || self.try_to_correct(Some(&here), &inputs, unknowns));
+            corrected = corrected && self.settle_friction([&here, &inputs], &start, unknowns, false);
             self.passing = false;
             if !corrected && !neutral && part > floor {
                 (part, shortened) = (0.5 * part, true);
@@ -226,6 +235,9 @@ impl Search<'_> {
             if end != Outcome::Solved && !neutral {
                 return self.rests(end);
             }
+            if !corrected && !neutral && !self.settle_friction([&here, &inputs], &start, unknowns, true) {
+                return Outcome::Wedged;
+            }
             // A step length that has just failed is not tried again at once.
             part = floor.max(if shortened { part } else { 2.0 * part });
             (done, here, shortened) = (next, inputs, false);
@@ -234,10 +246,15 @@ impl Search<'_> {
             }
             if !neutral {
                 self.reached = Some((here.clone(), unknowns.to_vec()));
+                self.note_friction();
             }
         }
         // Too many small steps along the branch: descend to the target at once.
+        let start = unknowns.to_vec();
         let end = self.descend_from([&here, target], unknowns, resting);
+        if end == Outcome::Solved && !self.settle_friction([&here, target], &start, unknowns, true) {
+            return Outcome::Wedged;
+        }
         self.rests(end)
     }
 

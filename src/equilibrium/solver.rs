@@ -118,6 +118,7 @@ impl Equilibrium {
     pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
         let surface = Surface::new(&self.chain);
         self.around = Some(Arc::new(InVessel { vessel: vessel.clone(), surface }));
+        self.work.friction.coefficient = vessel.wall.friction();
         self.reset();
         self
     }
@@ -143,6 +144,7 @@ impl Equilibrium {
     pub fn reset(&mut self) {
         self.branch = History::new(&self.chain);
         self.work.factorisation = None;
+        self.work.friction.forget();
         self.work.place(&self.chain, &Inputs::unloaded(0), &self.branch.unknowns);
     }
 
@@ -294,6 +296,8 @@ impl Equilibrium {
 
     /// Copy of the branch with its own workspace, whose evaluations do not change the original.
     pub(super) fn apart(&self) -> Self {
+        let mut work = Workspace::new(&self.chain, &self.settings);
+        work.friction = self.work.friction.clone();
         Self {
             chain: Arc::clone(&self.chain),
             metric: self.metric.clone(),
@@ -302,7 +306,7 @@ impl Equilibrium {
             around: self.around.clone(),
             shape: Arc::clone(&self.shape),
             branch: self.branch.clone(),
-            work: Workspace::new(&self.chain, &self.settings),
+            work,
             rules: self.rules.clone(),
             scratch: Scratch::new(&self.chain),
             laid_out: self.laid_out,
@@ -384,8 +388,7 @@ impl Solution for Equilibrium {
     }
 
     fn wall(&self) -> Option<WallForces> {
-        let contacts = &self.work.walls.contacts;
-        self.around.as_ref().map(|_| WallForces::of(contacts, self.chain.rings.len()))
+        self.around.as_ref().map(|_| WallForces::of(&self.work.walls, self.chain.rings.len()))
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {

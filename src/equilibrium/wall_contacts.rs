@@ -51,6 +51,8 @@ impl WallContact {
 #[derive(Debug, Clone, Default)]
 pub(super) struct WallLoads {
     pub(super) contacts: Vec<WallContact>,
+    /// Forces of friction on the chain, N, world axes, each with the ring that it acts on.
+    pub(super) friction: Vec<(Option<usize>, Vector3<f64>)>,
     /// Loads on nodes, in world axes.
     pub(super) on_nodes: Vec<(usize, Load)>,
     /// The arcs in contact; storage that is used again.

@@ -3,30 +3,30 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::wall_contacts::{Site, WallContact};
+use super::wall_contacts::{Site, WallLoads};
 
 /// Forces of the wall on the manipulator, world axes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WallForces {
     /// Number of separate contacts: each ring, each arc of soft material or shaft, and a round tip.
     pub count: usize,
-    /// Total force, N.
+    /// Total force with friction, N.
     pub force: Vector3<f64>,
-    /// Sum of the magnitudes of all local forces, N.
+    /// Sum of the magnitudes of all local normal forces, N.
     pub sum: f64,
-    /// Force of the contact with the largest force, N.
+    /// Normal force of the contact with the largest one, N.
     pub largest_force: f64,
     /// Largest depth in the wall, m.
     pub largest_indentation: f64,
-    /// Force on each ring, base to tip, N.
+    /// Force with friction on each ring, base to tip, N.
     pub rings: Vec<Vector3<f64>>,
     /// Place on the wall (m, the mean weighted by force) and force (N) of each separate contact.
     pub places: Vec<[Vector3<f64>; 2]>,
 }
 
 impl WallForces {
-    /// The sum of these contacts of a chain with so many rings.
-    pub(super) fn of(contacts: &[WallContact], rings: usize) -> Self {
+    /// The sum of these loads on a chain with so many rings.
+    pub(super) fn of(WallLoads { contacts, friction, .. }: &WallLoads, rings: usize) -> Self {
         let mut out = Self {
             count: 0,
             force: Vector3::zeros(),
@@ -47,6 +47,12 @@ impl WallForces {
             out.largest_force = out.largest_force.max(force.norm());
             if let Site::Ring(number) = own[0].site {
                 out.rings[number] = force;
+            }
+        }
+        for (ring, force) in friction {
+            out.force += force;
+            if let Some(number) = ring {
+                out.rings[*number] += force;
             }
         }
         for contact in contacts {

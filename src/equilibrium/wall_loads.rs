@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::friction::{Pressure, Where};
+use super::grip::Place;
 use super::potential::Potential;
 use super::terms::Touch;
 use super::wall_contacts::{ArcPart, Site, WallContact};
@@ -16,23 +18,25 @@ impl Potential<'_> {
     pub(super) fn load_walls(&mut self, unknowns: &[f64]) -> f64 {
         self.work.walls.contacts.clear();
         self.work.walls.on_nodes.clear();
+        self.work.walls.friction.clear();
+        self.work.friction.pressures.clear();
         if !self.terms.walls.exist() {
             return 0.0;
         }
         self.load_rims();
         self.load_tip();
-        self.load_arcs(unknowns)
+        self.load_arcs(unknowns) + self.load_friction(unknowns)
     }
 
     fn load_rims(&mut self) {
         let (walls, mut found) = (self.terms.walls, Vec::new());
         for (number, body) in self.chain.rings.iter().enumerate() {
             let node = self.work.nodes[body.node];
-            for height in [0.0, body.ring.length] {
+            for (rim, height) in [0.0, body.ring.length].into_iter().enumerate() {
                 walls.rim(&node, height, body.ring.outer_radius, &mut found);
-            }
-            for touch in found.drain(..) {
-                self.load_node(body.node, Site::Ring(number), &touch);
+                for touch in found.drain(..) {
+                    self.load_node(body.node, (Site::Ring(number), Place::Rim(number, rim)), &touch);
+                }
             }
         }
     }
@@ -42,11 +46,11 @@ impl Potential<'_> {
         let Some(radius) = self.chain.round_end() else { return };
         let touch = self.terms.walls.tip(&self.work.nodes[last].position, radius);
         if let Some(touch) = touch.filter(|touch| touch.depth > 0.0) {
-            self.load_node(last, Site::Tip, &touch);
+            self.load_node(last, (Site::Tip, Place::Tip), &touch);
         }
     }
 
-    fn load_node(&mut self, node: usize, site: Site, touch: &Touch) {
+    fn load_node(&mut self, node: usize, (site, place): (Site, Place), touch: &Touch) {
         self.work.node_loads[node] += touch.load;
         self.work.walls.on_nodes.push((node, touch.load));
         if let Some(before) = node.checked_sub(1) {
@@ -54,6 +58,7 @@ impl Potential<'_> {
             self.work.placed_loads[before].abrupt += touch.stiffness * lever * lever;
         }
         self.work.walls.contacts.push(WallContact::new(site, touch));
+        self.work.friction.press(Pressure { on: Where::At(place), force: -touch.load.force, arm: touch.arm });
     }
 
     fn load_arcs(&mut self, unknowns: &[f64]) -> f64 {
@@ -78,6 +83,8 @@ impl Potential<'_> {
                 // The part is deeper in the wall between the points than at them.
                 let contact = WallContact::new(Site::Arc(*arc), &touch);
                 work.walls.contacts.push(WallContact { depth: touch.depth.max(*deepest), ..contact });
+                let on = Where::Along(*k, *piece, row.arc_length);
+                work.friction.press(Pressure { on, force: -touch.load.force, arm: touch.arm });
                 let placed = &mut work.placed_loads[*k];
                 placed.abrupt += touch.stiffness * (growth * element.length).powi(2);
                 let load = touch.load.in_axes(&node.rotation);

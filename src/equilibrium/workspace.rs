@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::factorisation::{Factorisation, Linearisation, TotalLoad};
+use super::friction::Friction;
 use super::inputs::Inputs;
 use super::pair_loads::PairLoads;
 use super::settings::Settings;
@@ -32,6 +33,7 @@ pub(super) struct Workspace {
     /// Field of the external magnet at the stations.
     pub(super) fields: StationFields,
     pub(super) walls: WallLoads,
+    pub(super) friction: Friction,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -85,6 +87,7 @@ impl Workspace {
             batch: SectionBatch::default(),
             fields: StationFields::default(),
             walls: WallLoads::default(),
+            friction: Friction::default(),
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),

@@ -62,6 +62,8 @@ pub struct HostValues {
     pub vessel: Option<Arc<Vessel>>,
     /// Young's modulus of its wall, Pa.
     pub wall_modulus: f64,
+    /// Coefficient of friction between the device and the wall.
+    pub friction: f64,
     /// The cylinders of the external magnet.
     pub magnets: Vec<AxialMagnet>,
     /// Settings of model and solver.
@@ -118,6 +120,7 @@ impl HostValues {
             roll: inputs.roll,
             shaft: scene.shaft,
             wall_modulus: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.modulus()),
+            friction: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.friction()),
             tip_force: inputs.tip_force.into(),
             tip_moment: inputs.tip_moment.into(),
             ring_forces: inputs.ring_forces.iter().map(|&force| force.into()).collect(),
@@ -179,7 +182,7 @@ impl HostValues {
         let made = Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)?;
         Ok(match &self.vessel {
             Some(vessel) => {
-                let wall = Wall::new(self.wall_modulus)?;
+                let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
                 made.in_vessel(&Vessel { wall, lumen: vessel.lumen.clone() })
             }
             None => made,

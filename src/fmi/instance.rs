@@ -265,6 +265,8 @@ impl Instance {
         let manipulator = now.manipulator.insert(manipulator);
         let settings = &now.host_values.settings;
         manipulator.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
+        let friction = manipulator.set_friction(now.host_values.friction);
+        friction.map_err(|error| self.package.table().named(error, &now.host_values))?;
         let snaps = manipulator.outputs().snaps;
         let outputs = manipulator.follow(waypoints, now.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];

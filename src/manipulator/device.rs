@@ -243,6 +243,15 @@ impl Manipulator {
         Ok(())
     }
 
+    /// Sets the coefficient of Coulomb friction between the device and the wall of its vessel, from the next solve on; without
+    /// effect where there is none.
+    ///
+    /// # Errors
+    /// [`Error::Range`] unless it is from 0 to 10.
+    pub fn set_friction(&mut self, coefficient: f64) -> Result<(), Error> {
+        self.hierarchy.set_friction(coefficient)
+    }
+
     /// Resets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.hierarchy.reset();

@@ -156,6 +156,14 @@ impl Hierarchy {
         }
     }
 
+    /// Sets the coefficient of friction between the device and the wall of its vessel, as [`Equilibrium::set_friction`].
+    ///
+    /// # Errors
+    /// As [`Equilibrium::set_friction`].
+    pub(super) fn set_friction(&mut self, coefficient: f64) -> Result<(), Error> {
+        self.models.all().try_for_each(|model| model.set_friction(coefficient))
+    }
+
     /// Resets the shape.
     pub(super) fn reset(&mut self) {
         (self.present, self.estimate, self.age, self.wait) = (0, None, 0.0, Wait::NONE);
@@ -198,17 +206,21 @@ impl Hierarchy {
             });
         };
         // If a cheaper model fails, a richer one starts from the shape before this solve; for the richest it is not needed.
-        let way_back = (from < richest).then(|| (before.clone(), self.present().unknowns().to_vec()));
+        let way_back = (from < richest).then(|| {
+            let present = self.present();
+            (before.clone(), present.unknowns().to_vec(), present.friction_memory().clone())
+        });
         let report = self.models.at_mut(from).solve_before(deadline, inputs)?;
         let changed = report.solved() && self.has_changed(inputs);
         let due = report.solved() && from > 0 && self.wait.is_over(self.age);
-        if let Some((before, shape)) = way_back
+        if let Some((before, shape, friction)) = way_back
             && !(self.is_sound(&report) && (!changed || self.is_accurate(inputs, deadline)?))
         {
             let next = if report.solved() { from + 1 } else { richest };
             return self.ascend(next, inputs, deadline, |models, level, _| {
                 models.adopt(level, from, &shape, &before);
                 let model = models.at_mut(level);
+                model.recall_friction(&friction);
                 let settled = model.solve_before(deadline, &before)?;
                 let report = model.solve_before(deadline, inputs)?;
                 let (iterations, snaps) =

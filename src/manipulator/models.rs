@@ -120,10 +120,15 @@ impl Models {
         interaction(number) == interaction(of)
     }
 
+    /// All models.
+    pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Equilibrium> {
+        let finer = self.finer.iter_mut().chain(&mut self.judge).map(|finer| &mut finer.model);
+        self.whole.iter_mut().chain(finer)
+    }
+
     /// Resets all shapes.
     pub(super) fn reset(&mut self) {
-        self.whole.iter_mut().for_each(Equilibrium::reset);
-        self.finer.iter_mut().chain(&mut self.judge).for_each(|finer| finer.model.reset());
+        self.all().for_each(Equilibrium::reset);
     }
 
     /// Transfers a shape of model `from` to model `to`, as [`Equilibrium::adopt`] does.

@@ -147,6 +147,13 @@ impl Configuration {
         RotationVector::new(components(element, &row.integral, amplitudes).0)
     }
 
+    /// Rotation of the directors per the table's arc length (rad/m) at a tabulated arc length, in the frame of the preceding node.
+    #[must_use]
+    pub fn turning_at(element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {
+        let (rate, _) = components(element, &row.rate, amplitudes);
+        Self::rotation_at(element, row, amplitudes).left_jacobian() * rate
+    }
+
     /// Elastic energy, J.
     #[must_use]
     pub fn elastic_energy(&self, element: &Element, amplitudes: &[f64]) -> f64 {

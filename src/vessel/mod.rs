@@ -4,6 +4,7 @@ pub mod aorta;
 mod bounding_tree;
 mod branch;
 mod clearance;
+pub mod friction;
 mod grid;
 mod lumen;
 mod mesh;

@@ -2,6 +2,7 @@
 
 use core::f64::consts::SQRT_2;
 
+use super::friction;
 use crate::error::{Error, check};
 use crate::numerics::onset::onset;
 
@@ -11,7 +12,7 @@ const POISSON: f64 = 0.5;
 /// Depth over which contact sets in times the wall's modulus, N/m: a line load far below any that matters here.
 const ONSET: f64 = 0.1;
 
-/// A compliant, frictionless wall. A rigid one is the limit of a large modulus.
+/// A compliant wall, by default without friction. A rigid one is the limit of a large modulus.
 ///
 /// A body in line contact is pushed back by `k` per length and depth. With `k = E*/sqrt(2)`, `E* = E/(1 - nu^2)`, the force of
 /// an isolated contact between a rod and a wall of relative radius of curvature `R` is that of Hertz,
@@ -34,6 +35,7 @@ const ONSET: f64 = 0.1;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
     modulus: f64,
+    friction: f64,
 }
 
 impl Wall {
@@ -44,7 +46,29 @@ impl Wall {
     pub fn new(modulus: f64) -> Result<Self, Error> {
         let allowed = "from 1000 to 1000000000000";
         let modulus = check("vessel wall modulus (Pa)", modulus, |v| (1e3..=1e12).contains(&v), allowed)?;
-        Ok(Self { modulus })
+        Ok(Self { modulus, friction: 0.0 })
+    }
+
+    /// The same wall with this coefficient of Coulomb friction.
+    ///
+    /// ```
+    /// use mcm::vessel::Wall;
+    /// let dry = Wall::new(1e6)?.with_friction(1.0)?;
+    /// assert_eq!(dry.friction(), 1.0);
+    /// assert!(dry.with_friction(-0.1).is_err());
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Range`] unless it is from 0 to 10.
+    pub fn with_friction(self, coefficient: f64) -> Result<Self, Error> {
+        Ok(Self { friction: friction::checked(coefficient)?, ..self })
+    }
+
+    /// Coefficient of Coulomb friction.
+    #[must_use]
+    pub fn friction(&self) -> f64 {
+        self.friction
     }
 
     /// Young's modulus, Pa.
@@ -56,7 +80,7 @@ impl Wall {
     /// The same wall with its modulus divided by `exp(softening)`.
     #[must_use]
     pub fn softened(self, softening: f64) -> Self {
-        Self { modulus: self.modulus * (-softening).exp() }
+        Self { modulus: self.modulus * (-softening).exp(), ..self }
     }
 
     /// Plane-strain modulus `E*`, Pa.

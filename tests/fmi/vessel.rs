@@ -58,7 +58,7 @@ fn a_shaft_is_pushed_in_and_the_wall_pushes_back() {
 #[test]
 fn other_scenes_have_no_such_variables() {
     let (_, table, _) = initialised(super::BENT);
-    for name in ["feed.insertion", "feed.length", "contact.count", "vessel.wall_modulus"] {
+    for name in ["feed.insertion", "feed.length", "contact.count", "vessel.wall_modulus", "vessel.friction"] {
         assert_eq!(table.reference(name), None, "{name}");
     }
 }
@@ -173,4 +173,44 @@ fn a_state_with_another_wall_takes_its_wall_along() {
     assert_eq!(stiff.deserialise(1, &bytes), Ending::Ok);
     assert_eq!(stiff.restore(1), Ending::Ok);
     assert_eq!(push(&mut stiff, &table, 6e-3), push(&mut soft, &table, 6e-3));
+}
+
+/// The wall holds on where its friction is switched on, on the way; saved and serialised states remember what it holds.
+#[test]
+fn friction_is_tunable_and_part_of_the_state() {
+    let (mut first, table, told) = initialised(PUSHED);
+    let go = |instance: &mut Instance, to: f64| {
+        assert_eq!(set(instance, &table, "feed.insertion", to), Ending::Ok);
+        let time = instance.time();
+        assert_eq!(instance.do_step(time, 0.1), Ending::Ok, "{}", last(&told));
+        get(instance, &table, "feed.reaction_force")
+    };
+    let free = go(&mut first, 4e-3);
+    assert_eq!(set(&mut first, &table, "vessel.friction", 0.4), Ending::Ok);
+    let pushed = go(&mut first, 5e-3);
+    go(&mut first, 5.2e-3);
+    let pulled = go(&mut first, 5e-3);
+    println!("free {free:.2e}, pushed {pushed:.2e}, pulled {pulled:.2e}");
+    assert!(pushed - pulled > 1e-3, "a loop: {pushed} {pulled}");
+    assert_eq!(first.save(1), Ending::Ok);
+    let bytes = first.serialised(1).unwrap();
+    let ways = [4.999e-3, 4.9e-3, 5.2e-3];
+    let wanted = ways.map(|to| go(&mut first, to).to_bits());
+    assert_eq!(first.restore(1), Ending::Ok);
+    assert_eq!(ways.map(|to| go(&mut first, to).to_bits()), wanted, "from the saved state");
+    let (mut second, _, other) = super::instance(PUSHED);
+    assert_eq!(second.deserialise(1, &bytes), Ending::Ok, "{}", last(&other));
+    assert_eq!(second.restore(1), Ending::Ok);
+    assert_eq!(ways.map(|to| go(&mut second, to).to_bits()), wanted, "from the bytes");
+    assert_eq!(set(&mut first, &table, "vessel.friction", f64::NAN), Ending::Error);
+    assert!(last(&told).contains("vessel.friction"), "{}", last(&told));
+    for wrong in [-0.1, 11.0] {
+        assert_eq!(set(&mut first, &table, "vessel.friction", wrong), Ending::Ok);
+        let time = first.time();
+        assert_eq!(first.do_step(time, 0.1), Ending::Error);
+        let said = last(&told);
+        assert!(said.contains("vessel.friction") && said.contains("from 0 to 10"), "{said}");
+    }
+    assert_eq!(set(&mut first, &table, "vessel.friction", 0.4), Ending::Ok);
+    go(&mut first, 5.3e-3);
 }

@@ -64,3 +64,19 @@ pub(crate) const MEASURE: f64 = 6e-5;
 
 /// Angles between arteries, rad: a spline turns a little already before a bend begins.
 pub(crate) const MEASURED_ANGLE: f64 = 1e-3;
+
+/// Push of a sliding rod, relative to its friction: where normal forces count as settled, 1e-4.
+pub(crate) const FRICTION_SETTLED: f64 = 2e-4;
+
+/// Growth of the tension round a former, relative: the second order of the angles at its ends, and where the cord lifts off.
+pub(crate) const CAPSTAN: f64 = 5e-3;
+
+/// Push under friction beside the difference of energies, relative to the friction: the normal forces of the energy are those of the
+/// last pass.
+pub(crate) const FRICTION_PUSH: f64 = 1e-3;
+
+/// Answers after steps of other sizes: push, relative to the friction, and tip, m.
+pub(crate) const FRICTION_STEPS: [f64; 2] = [1e-3, 1e-7];
+
+/// Gradient and Hessian of friction beside differences, relative.
+pub(crate) const FRICTION_DERIVATIVE: f64 = 1e-8;

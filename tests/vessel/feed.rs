@@ -140,8 +140,8 @@ fn wrong_feeds_are_refused_by_name() {
         (&SHAFT.replace("0.75", "-0.75"), "feed.shaft.outer_radius_mm = -0.75"),
         ("[vessel]", "vessel"),
         (
-            "[vessel]\nfriction = 0.1\n[[vessel.branch]]\nname = \"a\"\npoints_mm = [[0,0,-9],[0,0,90]]\nradius_mm = 9.0",
-            "friction",
+            "[vessel]\nfriction = -0.1\n[[vessel.branch]]\nname = \"a\"\npoints_mm = [[0,0,-9],[0,0,90]]\nradius_mm = 9.0",
+            "vessel.friction = -0.1",
         ),
         (
             "[vessel]\n[[vessel.branch]]\nname = \"a\"\npoints_mm = [[0,0,-9],[0,0,90]]\nradius_mm = 1.5",

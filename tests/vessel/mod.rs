@@ -5,6 +5,8 @@ mod branch;
 mod closed_forms;
 mod contact;
 mod feed;
+mod friction;
+mod friction_memory;
 mod grid;
 mod lumen;
 mod mesh;

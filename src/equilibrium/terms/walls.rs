@@ -42,6 +42,8 @@ pub(crate) struct Touch {
     pub(crate) depth: f64,
     /// Stiffness, N/m.
     pub(crate) stiffness: f64,
+    /// From the frame's origin to where the wall is touched, m, world axes.
+    pub(crate) arm: Vector3<f64>,
 }
 
 impl<'a> Walls<'a> {
@@ -71,14 +73,14 @@ impl<'a> Walls<'a> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
         let law = self.lumen?.1.line(depth).map(|value| weight * value);
-        Some(on_centre(point, &clearance, depth, law))
+        Some(on_centre(point, &clearance, radius, law))
     }
 
     /// The round end of a rod of this radius at `point`.
     pub(crate) fn tip(&self, point: &Vector3<f64>, radius: f64) -> Option<Touch> {
         let clearance = self.clearance(point)?;
         let depth = radius - clearance.value;
-        Some(on_centre(point, &clearance, depth, self.lumen?.1.ball(radius, depth)))
+        Some(on_centre(point, &clearance, radius, self.lumen?.1.ball(radius, depth)))
     }
 
     /// All contacts of a rim of this radius around the axis of `frame`, at `height` (m) from its origin.
@@ -116,14 +118,14 @@ impl<'a> Walls<'a> {
     }
 }
 
-/// Contact by the distance of the frame's origin alone: energy, force and stiffness of `law`.
+/// Contact of a body of this radius by the distance of the frame's origin alone: energy, force and stiffness of the law.
 fn on_centre(
     centre: &Vector3<f64>,
     clearance: &Clearance,
-    depth: f64,
+    radius: f64,
     [energy, force, stiffness]: [f64; 3],
 ) -> Touch {
-    let Clearance { gradient, hessian, value } = clearance;
+    let Clearance { value, gradient, hessian } = clearance;
     let load = Load {
         energy,
         force: gradient * -force,
@@ -131,7 +133,7 @@ fn on_centre(
         stiff: true,
         ..Load::zero()
     };
-    Touch { load, at: centre - gradient * *value, depth, stiffness }
+    Touch { load, at: centre - gradient * *value, depth: radius - value, stiffness, arm: gradient * -radius }
 }
 
 /// A rim in a vessel.
@@ -205,6 +207,6 @@ impl Rim<'_> {
         load.position_rotation = block(0, 1) + hessian * lever * force;
         load.rotation_rotation = block(1, 1) + lever * hessian * lever * force;
         load.stiff = true;
-        Touch { load, at: self.place(angle), depth: -value, stiffness }
+        Touch { load, at: self.place(angle), depth: -value, stiffness, arm }
     }
 }

@@ -30,6 +30,7 @@ fn outcome_number(outcome: Outcome) -> i32 {
         Outcome::BranchEnds => 2,
         Outcome::Contact(_) => 3,
         Outcome::OutOfBudget => 4,
+        Outcome::Wedged => 5,
     }
 }
 
@@ -192,9 +193,8 @@ impl Rows {
         let mut always = |draft: Draft| self.scalar(draft.availability(Availability::Always));
         let description = "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved (the other outputs are the last good ones)";
         always(integer("solver.status", description, |o| status_number(o.status)).min(0.0).max(3.0));
-        let description =
-            "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget";
-        always(integer("solver.outcome", description, |o| outcome_number(o.outcome)).min(0.0).max(4.0));
+        let description = "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget, 5 wedged";
+        always(integer("solver.outcome", description, |o| outcome_number(o.outcome)).min(0.0).max(5.0));
         let description = "Newton iterations of the last solve";
         always(integer("solver.iterations", description, |o| count(o.iterations)).min(0.0));
         let description =

@@ -2,7 +2,7 @@
 
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
-use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS};
+use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS, RATIO};
 use super::super::value::{DataType, Enumeration, Item};
 use super::super::variable::Access;
 use super::outputs::{count, integer, real};
@@ -70,6 +70,10 @@ impl Rows {
             let draft =
                 Draft::parameter("vessel.wall_modulus", MODULUS, "Young's modulus of the wall", modulus);
             self.scalar(draft.min(0.0));
+            let friction = access!(|values| values.friction);
+            let description = "Coefficient of Coulomb friction between the device and the wall";
+            let draft = Draft::parameter("vessel.friction", RATIO, description, friction);
+            self.scalar(draft.min(0.0).max(10.0).tunable());
         }
     }
 

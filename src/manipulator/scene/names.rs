@@ -62,7 +62,7 @@ impl Unit {
 
 /// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
 /// cylinder.
-const KEYS: [(&str, &str); 44] = [
+const KEYS: [(&str, &str); 45] = [
     ("number of segments", "design.segments"),
     ("helix length L (m)", "design.helix.length_mm"),
     ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
@@ -102,6 +102,7 @@ const KEYS: [(&str, &str); 44] = [
     ("Poisson's ratio", "feed.shaft.poisson"),
     ("density (kg/m3)", "feed.shaft.density_kg_m3"),
     ("vessel wall modulus (Pa)", "vessel.wall_modulus_mpa"),
+    ("vessel friction", "vessel.friction"),
     ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm"),
     ("magnet inner radius (m)", "magnet.cylinders[*].inner_radius_mm"),
     ("magnet length (m)", "magnet.cylinders[*].length_mm"),

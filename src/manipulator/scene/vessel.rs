@@ -20,7 +20,7 @@ pub(super) struct VesselEntries {
 }
 
 impl Default for VesselEntries {
-    /// A soft silicone, oiled.
+    /// A soft silicone without friction.
     fn default() -> Self {
         Self { wall_modulus_mpa: 1.0, friction: 0.0, mesh_stl: None, branch: Vec::new() }
     }
@@ -70,13 +70,7 @@ pub(super) struct FeedEntries {
 impl VesselEntries {
     /// The vessel; `mesh` is what was found under the name of its mesh.
     pub(super) fn si(&self, mesh: Option<&Result<Lumen, Error>>) -> Result<Vessel, Error> {
-        if self.friction != 0.0 {
-            return Err(Error::Unsupported(format!(
-                "vessel.friction = {} is not available in this version: walls are without friction, 0",
-                self.friction
-            )));
-        }
-        let wall = Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?;
+        let wall = Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?.with_friction(self.friction)?;
         Ok(Vessel { lumen: self.lumen(mesh)?, wall })
     }
 }

@@ -1,0 +1,47 @@
+//! Loads of friction on the chain.
+
+use std::sync::Arc;
+
+use super::friction_places::Carrier;
+use super::potential::Potential;
+use crate::rod::PlacedLoad;
+
+impl Potential<'_> {
+    /// Adds the loads of friction, as remembered; returns the energy of those that are not on nodes.
+    pub(super) fn load_friction(&mut self, unknowns: &[f64]) -> f64 {
+        let Some(surface) = self.surface.filter(|_| self.work.friction.acts()) else { return 0.0 };
+        let grips = std::mem::take(&mut self.work.friction.memory.grips);
+        let (mut energy, work) = (0.0, &mut *self.work);
+        let coefficient = work.friction.coefficient;
+        for grip in &grips {
+            match grip.place.carrier(self.chain, surface, work.growth) {
+                Some(Carrier::Node(node)) => {
+                    let (load, stiffness) = grip.load(&work.nodes[node], coefficient);
+                    work.node_loads[node] += load;
+                    work.walls.on_nodes.push((node, load));
+                    if let Some(before) = node.checked_sub(1) {
+                        let lever = self.chain.elements[before].length * work.configurations[before].growth;
+                        work.placed_loads[before].abrupt += stiffness * lever * lever;
+                    }
+                    work.walls.friction.push((grip.place.ring(), -load.force));
+                }
+                Some(Carrier::Row(k, row)) => {
+                    let element = &self.chain.elements[k];
+                    let frame = work.configurations[k].frame_at(element, &row, self.chain.part(k, unknowns));
+                    let node = work.nodes[k];
+                    let (load, stiffness) = grip.load(&node.compose(&frame.pose), coefficient);
+                    energy += load.energy;
+                    work.walls.friction.push((None, -load.force));
+                    let placed = &mut work.placed_loads[k];
+                    placed.abrupt += stiffness * (work.configurations[k].growth * element.length).powi(2);
+                    let mut load = load.in_axes(&node.rotation);
+                    load.energy = 0.0; // unlike that of a line load, it does not grow with the shaft
+                    placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
+                }
+                None => {}
+            }
+        }
+        work.friction.memory.grips = grips;
+        energy
+    }
+}
