@@ -40,6 +40,7 @@ mod ring_body;
 mod search;
 mod sensitivity;
 mod settings;
+mod shape_points;
 mod snapshot;
 mod solution;
 mod solve;

@@ -14,6 +14,7 @@ use super::potential::Potential;
 use super::report::Report;
 use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
+use super::shape_points::{ShapePoint, Site, point_at};
 use super::solution::Solution;
 use super::surface::{InVessel, Surface};
 use super::terms::Terms;
@@ -29,21 +30,6 @@ use crate::vessel::Vessel;
 
 /// Ratio by which a shaft must become shorter in a step for the margin, relative to the elastic energy, to be measured anew.
 const PULLED_OUT: f64 = 1.02;
-
-/// Point of the centreline at which the shape is reported.
-#[derive(Debug, Clone)]
-pub(super) struct ShapePoint {
-    arc_length: f64,
-    pub(super) place: Site,
-}
-
-#[derive(Debug, Clone)]
-pub(super) enum Site {
-    /// On the rigid part after a node, at this distance (m) from the node.
-    Rigid(usize, f64),
-    /// On an element, at this row of mode values.
-    Elastic(usize, Row),
-}
 
 /// Equilibrium of a manipulator, with the branch that it follows.
 ///
@@ -394,25 +380,4 @@ impl Solution for Equilibrium {
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
         self.terms(inputs).field_at(point)
     }
-}
-
-/// Finds the node or element at unstrained arc length `s` (m) from the base; the elements of the shaft have grown by `growth`.
-fn point_at(chain: &Chain, growth: f64, s: f64) -> ShapePoint {
-    let mut start = 0.0;
-    for (k, element) in chain.elements.iter().enumerate() {
-        let growth = if k < chain.shaft { growth } else { 1.0 };
-        if s < start + element.offset {
-            return ShapePoint { arc_length: s, place: Site::Rigid(k, s - start) };
-        }
-        start += element.offset;
-        if growth > 0.0 && s <= start + growth * element.length {
-            let along = (s - start) / growth;
-            // The tables pay where the points move with the insertion.
-            let row = if chain.shaft > 0 { chain.tables()[k].row_at(along) } else { element.row(along) };
-            return ShapePoint { arc_length: s, place: Site::Elastic(k, row) };
-        }
-        start += growth * element.length;
-    }
-    let last = chain.elements.len();
-    ShapePoint { arc_length: s, place: Site::Rigid(last, (s - start).min(chain.tip_offset)) }
 }
