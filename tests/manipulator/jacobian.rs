@@ -98,9 +98,11 @@ fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f64>)> {
         (Output::MagnetReactionTorque, vector(&plus.magnet_reaction_torque, &minus.magnet_reaction_torque)),
         (Output::TipField, vector(&plus.tip_field, &minus.tip_field)),
     ];
-    let number = |a: Option<f64>, b: Option<f64>| vec![a.unwrap_or(0.0) - b.unwrap_or(0.0)];
-    out.push((Output::FeedLength, number(plus.feed_length, minus.feed_length)));
-    out.push((Output::FeedReaction, number(plus.feed_reaction, minus.feed_reaction)));
+    let number = |(a, b): (f64, f64)| vec![a - b];
+    let length = plus.feed_length.zip(minus.feed_length).map(number);
+    let push = plus.feed_reaction.zip(minus.feed_reaction).map(number);
+    out.extend(length.map(|length| (Output::FeedLength, length)));
+    out.extend(push.map(|push| (Output::FeedReaction, push)));
     for (index, (a, b)) in plus.shape.iter().zip(&minus.shape).enumerate() {
         out.push((Output::ShapePoint(index), vector(a, b)));
     }
