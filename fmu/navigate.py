@@ -15,6 +15,8 @@ from pathlib import Path
 
 import navigate_picture
 import numpy as np
+from fmpy.fmi1 import FMICallException
+from tqdm import tqdm
 
 sys.path.append(str(Path(__file__).parent / "examples"))
 from component import Component
@@ -23,8 +25,7 @@ WAY = Path(__file__).with_name("navigate_way.csv")
 SPEED = 8.3  # mm/s: half a metre in a minute
 STEP = 2.0  # mm between two communication points
 TURN = 0.4  # mm that count as a turn of the magnet by a degree
-NOT_SOLVED = 3  # what `solver.status` says when the other outputs are the last good ones
-LOST = 4  # steps without a shape in a row after which the way ends
+SHORTEST = STEP / SPEED / 16  # s; a step in which no shape is found is divided down to this
 
 OUTPUTS = [
     *(f"tip.position[{k}]" for k in (1, 2, 3)),
@@ -82,34 +83,45 @@ def scene(program: str, friction: float) -> str:
     return text
 
 
+def step(device: Component, ends: tuple[np.ndarray, np.ndarray], time: float, length: float) -> bool:
+    """Moves the magnet from one place to another, in shorter steps where no shape is found; whether there is one."""
+    kept = device.slave.getFMUState()
+    try:
+        for name, value in magnet(ends[1]).items():
+            device.set(name, value)
+        device.slave.doStep(currentCommunicationPoint=time, communicationStepSize=length)
+        found = True
+    except FMICallException:
+        device.slave.setFMUState(kept)
+        middle, half = sum(ends) / 2, length / 2
+        found = (
+            half >= SHORTEST
+            and step(device, (ends[0], middle), time, half)
+            and step(device, (middle, ends[1]), time + half, half)
+        )
+    device.slave.freeFMUState(kept)
+    return found
+
+
 def drive(fmu: Path, rows: np.ndarray, reach: float) -> tuple[list[list[float]], list[np.ndarray]]:
-    """Rows of time, magnet and outputs, and the shape at each, until so much shaft (m) is inside."""
+    """Rows of time, magnet and outputs, and shapes, until so much shaft (m) is inside or no shape is found."""
     device = Component("navigated", fmu, magnet(rows[0]))
     points = sum(name.startswith("shape.arc_length") for name in device.references)
     shape_names = [f"shape.position[{i + 1},{k}]" for i in range(points) for k in (1, 2, 3)]
     shape_references = [device.references[name] for name in shape_names]
     count_references = [device.references[name] for name in COUNTS]
-    table, shapes, time, lost = [], [], 0.0, 0
-    for number, row in enumerate(rows):
-        for name, value in magnet(row).items():
-            device.set(name, value)
-        length = STEP / SPEED
-        device.slave.doStep(currentCommunicationPoint=time, communicationStepSize=length)
-        time += length
-        counts = device.slave.getInteger(count_references)
-        lost = lost + 1 if counts[-1] == NOT_SOLVED else 0
-        table.append([time, *row, *(device.get(name) for name in OUTPUTS), *counts])
-        shapes.append(np.array(device.slave.getReal(shape_references)).reshape(-1, 3))
-        inside = device.get("feed.length")
-        print(
-            f"\r{number + 1}/{len(rows)}: {1e3 * inside:.0f} mm of shaft inside ",
-            end="",
-            file=sys.stderr,
-            flush=True,
-        )
-        if lost == LOST or inside >= reach:
-            break
-    print(file=sys.stderr)
+    table, shapes, length = [], [], STEP / SPEED
+    with tqdm(rows, unit="step") as bar:
+        for number, row in enumerate(bar):
+            if not step(device, (rows[max(0, number - 1)], row), number * length, length):
+                break
+            counts = device.slave.getInteger(count_references)
+            table.append([(number + 1) * length, *row, *(device.get(name) for name in OUTPUTS), *counts])
+            shapes.append(np.array(device.slave.getReal(shape_references)).reshape(-1, 3))
+            inside = device.get("feed.length")
+            bar.set_postfix_str(f"{1e3 * inside:.0f} mm of shaft inside")
+            if inside >= reach:
+                break
     device.close()
     return table, shapes
 
@@ -139,11 +151,11 @@ def main() -> None:
     navigate_picture.draw(columns, shapes, vessel, Path("navigate.png"))
     if not arguments.no_animation:
         navigate_picture.animate(columns, shapes, vessel, Path("navigate.gif"))
-    solved = columns["solver.status"] != NOT_SOLVED
+    ended = "the end of the way" if len(table) == len(rows) else f"step {len(table)} of {len(rows)}"
     tip = [columns[f"tip.position[{k}]"][-1] * 1e3 for k in (1, 3)]
     print(
-        f"{1e3 * columns['feed.length'][-1]:.0f} mm of shaft inside, tip at x = {tip[0]:.1f} mm, z = {tip[1]:.1f} mm; "
-        f"{int(columns['stability.snaps'][-1])} snaps, {int((~solved).sum())} of {len(table)} steps without a shape"
+        f"{ended}: {1e3 * columns['feed.length'][-1]:.0f} mm of shaft inside, tip at x = {tip[0]:.1f} mm, "
+        f"z = {tip[1]:.1f} mm; {int(columns['stability.snaps'][-1])} snaps"
     )
 
 
