@@ -92,6 +92,10 @@ impl Comparison {
                 "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
             )));
         }
+        if design.guidewire().is_some() {
+            let reason = format!("method \"{own}\" has no guidewire: choose method \"{other}\"");
+            return Err(Error::Unsupported(reason));
+        }
         let line = Line::new(design, &model)?;
         let state = State::straight(&line, &settings)?;
         Ok(Self {

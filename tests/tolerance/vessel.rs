@@ -80,3 +80,6 @@ pub(crate) const FRICTION_STEPS: [f64; 2] = [1e-3, 1e-7];
 
 /// Gradient and Hessian of friction beside differences, relative.
 pub(crate) const FRICTION_DERIVATIVE: f64 = 1e-8;
+
+/// Deflection of a cantilever of two stiffnesses: the wire's end is smoothed over the arc length between Gauss points.
+pub(crate) const TWO_STIFFNESSES: f64 = 1e-2;
