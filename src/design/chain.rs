@@ -81,10 +81,9 @@ impl Design {
     /// body has no lumen.
     pub fn with_guidewire(self, wire: &Guidewire) -> Result<Self, Error> {
         let device = match &self.specification {
-            Specification::Segmented(chain) => chain.backbone.map_or(
-                ("core", chain.helix.core_inner_radius),
-                |tube| ("backbone", tube.inner_radius),
-            ),
+            Specification::Segmented(chain) => chain
+                .backbone
+                .map_or(("core", chain.helix.core_inner_radius), |tube| ("backbone", tube.inner_radius)),
             Specification::Cylinder(rod) => ("cylinder", rod.inner_radius),
         };
         let shaft = self.shaft.iter().map(|span| ("shaft", span.inner_radius));

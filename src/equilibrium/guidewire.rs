@@ -1,7 +1,7 @@
 //! A guidewire inside the device: the bending stiffness that it adds as far as it reaches.
 //!
-//! Each station has its share of it. That sets in smoothly while the wire's end passes, from the middle of the share of arc length
-//! of the station before to that of the station behind; at the port, where the shaft ends, and at the faces of rings it ends with
+//! Covered and bare parts of the arc length that a station stands for bend in series: their compliances add up. The covered part
+//! grows smoothly while the wire's end passes, from the middle of the share of the station before to that of the station behind; at the port, where the shaft ends, and at the faces of rings it ends with
 //! the station's own share. So nothing jumps, and nothing changes while the end is in a ring, which is rigid.
 
 use super::chain::Chain;
@@ -22,6 +22,8 @@ pub(super) struct Lining {
     /// By element and station: arc lengths (m) of the wire's end between which the wire sets in, those of the shaft in its tables,
     /// the others from the end of the shaft.
     windows: Vec<Vec<[f64; 2]>>,
+    /// By element and station: ratio of the wire's bending stiffness to that of the section.
+    ratios: Vec<Vec<f64>>,
     /// By element and station: weight in the mean over the element, per its length, 1/m.
     rotational: Vec<Vec<f64>>,
 }
@@ -54,13 +56,17 @@ impl Lining {
             element.stations.iter().map(|station| station.weight / square).collect()
         });
         let rotational = rotational.collect();
-        Self { stiffness: wire.bending_stiffness(), shaft, tables, windows, rotational }
+        let stiffness = wire.bending_stiffness();
+        let ratios = elements.iter().map(|element| {
+            element.stations.iter().map(|station| stiffness / station.stiffness.bending).collect()
+        });
+        Self { stiffness, shaft, tables, windows, ratios: ratios.collect(), rotational }
     }
 
     /// The wire at the stations of an element, for the growth of the shaft and the reach of the wire (m).
     fn shares(&self, element: usize, [growth, reach]: [f64; 2]) -> impl Iterator<Item = Share> + '_ {
         let in_shaft = element < self.shaft;
-        self.windows[element].iter().map(move |[from, to]| {
+        self.windows[element].iter().zip(&self.ratios[element]).map(move |([from, to], ratio)| {
             let width = to - from;
             // Where the wire's end is on the scale of the window, and its derivatives.
             let (at, by_reach, by_insertion, by_both) = if in_shaft {
@@ -70,12 +76,17 @@ impl Lining {
                 (reach - growth * self.tables, 1.0, -1.0, 0.0)
             };
             let t = (at - from) / width;
-            let [slope, curve] = smooth_step_slopes(t).map(|slope| slope * self.stiffness / width);
+            let (covered, [slope, curve]) = (smooth_step(t), smooth_step_slopes(t));
+            let bare = 1.0 + ratio * (1.0 - covered);
+            // The stiffness by the covered part, then by where the end is.
+            let rate = self.stiffness * (1.0 + ratio) / (bare * bare);
+            let curve = rate * (curve + 2.0 * ratio / bare * slope * slope) / (width * width);
+            let slope = rate * slope / width;
             Share {
-                value: self.stiffness * smooth_step(t),
+                value: self.stiffness * covered / bare,
                 by_reach: slope * by_reach,
                 by_insertion: slope * by_insertion,
-                by_both: curve / width * by_reach * by_insertion + slope * by_both,
+                by_both: curve * by_reach * by_insertion + slope * by_both,
             }
         })
     }
@@ -141,7 +152,8 @@ impl Workspace {
     fn lining_energy(&self, chain: &Chain, count: usize, part: fn(Share) -> f64) -> f64 {
         let Some(lining) = &chain.lining else { return 0.0 };
         let of = |(k, element): (usize, &Element)| {
-            self.configurations[k].lining_energy(element, lining.shares(k, [self.growth, self.reach]).map(part))
+            self.configurations[k]
+                .lining_energy(element, lining.shares(k, [self.growth, self.reach]).map(part))
         };
         chain.elements[..count].iter().enumerate().map(of).sum()
     }

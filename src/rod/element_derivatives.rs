@@ -194,7 +194,8 @@ impl ElementDerivatives {
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let (bend, rate) = bending::gradient(state, &lined(&station.stiffness, state.lining), station.weight / growth);
+        let (bend, rate) =
+            bending::gradient(state, &lined(&station.stiffness, state.lining), station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let slope = state.theta.rotation_gradient(&pull) + bend;
         let along = state.directors.tr_mul(beyond);
