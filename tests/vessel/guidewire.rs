@@ -312,7 +312,10 @@ fn wrong_guidewires_are_refused_by_name() {
         assert!(error.contains(said), "{error}");
     }
     let text = "[design]\nsegments = 1\n[guidewire]\nradius_mm = 0.3\nelastic_modulus_mpa = 1.0\n[model]\nmethod = \"shooting\"";
-    let error = Scene::parse(text, "text").expect("a scene").device(2).err().expect("refused").to_string();
+    let Err(error) = Scene::parse(text, "text").expect("a scene").device(2) else {
+        panic!("a comparison method takes a guidewire")
+    };
+    let error = error.to_string();
     assert!(error.contains("method \"shooting\" has no guidewire: choose method \"potential\""), "{error}");
     let unsolved = device();
     let inputs = Inputs { guidewire_insertion: 2.1, ..unsolved.inputs.clone() };
