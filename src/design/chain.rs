@@ -6,7 +6,9 @@ use super::helix::annulus_area;
 use super::limits;
 use super::material::{ELASTOMER_DENSITY, Moduli, composite_density};
 use super::section::{Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
-use super::specification::{Backbone, Cylinder, CylinderMaterial, Segmented, Specification, SpiralKind};
+use super::specification::{
+    Backbone, Cylinder, CylinderMaterial, Guidewire, Segmented, Specification, SpiralKind,
+};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
@@ -26,6 +28,7 @@ pub struct Design {
     base_ring: Option<Ring>,
     segments: Vec<Segment>,
     shaft: Option<Span>,
+    guidewire: Option<Guidewire>,
 }
 
 impl Design {
@@ -47,7 +50,7 @@ impl Design {
             Specification::Segmented(chain) => segmented(chain)?,
             Specification::Cylinder(rod) => (None, vec![plain(rod)?]),
         };
-        Ok(Self { specification, base_ring, segments, shaft: None })
+        Ok(Self { specification, base_ring, segments, shaft: None, guidewire: None })
     }
 
     /// The same device at the end of a shaft: a tube that is pushed through a port, as long as its inserted part is.
@@ -69,6 +72,44 @@ impl Design {
             spiral: None,
         };
         Ok(Self { shaft: Some(span), ..self })
+    }
+
+    /// The same device, and its shaft if it has one by now, with a guidewire inside.
+    ///
+    /// # Errors
+    /// [`Error::Range`] for a radius that does not fit into every body, or a modulus out of range; [`Error::Unsupported`] where a
+    /// body has no lumen.
+    pub fn with_guidewire(self, wire: &Guidewire) -> Result<Self, Error> {
+        let device = match &self.specification {
+            Specification::Segmented(chain) => chain
+                .backbone
+                .map_or(("core", chain.helix.core_inner_radius), |tube| ("backbone", tube.inner_radius)),
+            Specification::Cylinder(rod) => ("cylinder", rod.inner_radius),
+        };
+        let shaft = self.shaft.iter().map(|span| ("shaft", span.inner_radius));
+        limits::guidewire(wire, &shaft.chain([device]).collect::<Vec<_>>())?;
+        Ok(Self { guidewire: Some(*wire), ..self })
+    }
+
+    /// The same device with these, as far as they are given.
+    ///
+    /// # Errors
+    /// As [`Self::with_shaft`] and [`Self::with_guidewire`].
+    pub fn with(self, shaft: Option<&Backbone>, guidewire: Option<&Guidewire>) -> Result<Self, Error> {
+        let design = match shaft {
+            Some(tube) => self.with_shaft(tube)?,
+            None => self,
+        };
+        match guidewire {
+            Some(wire) => design.with_guidewire(wire),
+            None => Ok(design),
+        }
+    }
+
+    /// The guidewire inside, if there is one.
+    #[must_use]
+    pub fn guidewire(&self) -> Option<&Guidewire> {
+        self.guidewire.as_ref()
     }
 
     /// The shaft, a metre of it; `None` for a device that is clamped at its base.

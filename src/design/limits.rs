@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use super::material::DENSEST_PACKING;
 use super::specification::{
-    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
+    Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
 };
 use crate::error::{Error, check};
 
@@ -71,6 +71,23 @@ pub(super) fn backbone(backbone: &Backbone, bore: f64) -> Result<(), Error> {
 pub(super) fn shaft(shaft: &Backbone) -> Result<(), Error> {
     length("shaft outer radius (m)", shaft.outer_radius)?;
     tube("shaft", shaft)
+}
+
+/// Checks a guidewire that runs through `lumens`, each with its name and radius (m).
+pub(super) fn guidewire(wire: &Guidewire, lumens: &[(&str, f64)]) -> Result<(), Error> {
+    for (body, radius) in lumens {
+        if *radius == 0.0 {
+            let reason = format!("guidewire: the {body} has no lumen for it, its inner radius is 0");
+            return Err(Error::Unsupported(reason));
+        }
+        check(
+            "guidewire radius (m)",
+            wire.radius,
+            |v| v > 0.0 && v < *radius,
+            &format!("> 0 and < {radius} (inner radius of the {body})"),
+        )?;
+    }
+    elastic(wire.elastic_modulus)
 }
 
 /// Checks bore and material of a tube.

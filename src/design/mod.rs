@@ -21,6 +21,6 @@ pub use material::{
 pub use moment::RelativeMoment;
 pub use section::{Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
 pub use specification::{
-    Backbone, Cylinder, CylinderMaterial, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind,
-    SpiralStart,
+    Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, Specification,
+    SpiralKind, SpiralStart,
 };

@@ -1,5 +1,7 @@
 //! Specification of a device: dimensions and materials in SI units, not yet validated.
 
+use core::f64::consts::PI;
+
 /// An elastic modulus, given directly or by the Shore hardness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Modulus {
@@ -120,6 +122,24 @@ pub struct Backbone {
     pub poisson: f64,
     /// Density, kg/m3.
     pub density: f64,
+}
+
+/// A wire inside the device, straight when unloaded: it slides freely and turns freely about its axis, so that it adds its bending
+/// stiffness alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guidewire {
+    /// Radius, m.
+    pub radius: f64,
+    /// Young's modulus, Pa.
+    pub elastic_modulus: f64,
+}
+
+impl Guidewire {
+    /// Bending stiffness `E pi r^4 / 4`, N m2.
+    #[must_use]
+    pub fn bending_stiffness(&self) -> f64 {
+        self.elastic_modulus * PI * self.radius.powi(4) / 4.0
+    }
 }
 
 /// A chain of segments: ring, then `segments` times (disc, core, disc, ring).

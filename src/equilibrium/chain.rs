@@ -7,6 +7,7 @@ use crate::error::{Error, check};
 use crate::magnetics::PairTable;
 use crate::rod::{Element, Piece, Resolution, RowTable, SourceGeometry};
 
+use super::guidewire::Lining;
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
 use super::span_quadrature::{SPAN_SHARE, SpanQuadratures};
@@ -55,6 +56,8 @@ pub(crate) struct Chain {
     pub(super) span_quadratures: SpanQuadratures,
     /// Rules for pairs of rings, one table for each ring; equal rings share theirs.
     pub(super) pair_tables: Vec<Arc<PairTable>>,
+    /// The guidewire inside, if there is one.
+    pub(super) lining: Option<Lining>,
     tables: OnceLock<Vec<RowTable>>,
     made_from: (Design, Discretisation),
 }
@@ -142,6 +145,7 @@ impl Chain {
         let pair_tables = pair_tables(&rings, settings.pair_accuracy);
         let made_from = (design.clone(), discretisation(settings));
         let tip_offset = offset;
+        let lining = design.guidewire().map(|wire| Lining::new(wire, &elements, shaft));
         Ok(Self {
             elements,
             rings,
@@ -154,6 +158,7 @@ impl Chain {
             skins,
             span_quadratures,
             pair_tables,
+            lining,
             tables: OnceLock::new(),
             made_from,
         })

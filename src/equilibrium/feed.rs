@@ -80,10 +80,10 @@ impl Equilibrium {
             }
             energy += work.placed_loads[k].loads.iter().map(|placed| placed.load.energy).sum::<f64>();
         }
-        energy / inserted - extension / chain.shaft as f64 + self.friction_push()
+        energy / inserted - extension / chain.shaft as f64 + self.friction_push() + work.lining_push(chain)
     }
 
-    /// Derivatives of the energy without the elastic one of the shaft at any shape: the gradient, the wrench on the base, and that
+    /// Derivatives of the energy without the elastic one of the bare shaft at any shape: the gradient, the wrench on the base, and that
     /// with respect to the inserted length.
     fn slopes(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<Slopes> {
         let mut potential = self.potential(inputs, unknowns);
@@ -98,13 +98,15 @@ impl Equilibrium {
         Some(Slopes { gradient, base, push })
     }
 
-    /// Elastic gradient, of the shaft's unknowns alone, and elastic energy (J) of the shaft at the shape evaluated last. Both are
-    /// inversely proportional to the inserted length.
+    /// Elastic gradient, of the shaft's unknowns alone, and elastic energy (J) of the shaft without a guidewire at the shape evaluated
+    /// last. Both are inversely proportional to the inserted length.
     fn elastic(&mut self, unknowns: &[f64]) -> (Vec<f64>, f64) {
         let (chain, work) = (&self.chain, &mut self.work);
         let (mut gradient, mut energy) = (Vec::new(), 0.0);
         for (k, element) in chain.elements[..chain.shaft].iter().enumerate() {
-            let (configuration, amplitudes) = (&work.configurations[k], chain.part(k, unknowns));
+            let unlined = chain.lining.as_ref().map(|_| work.configurations[k].unlined());
+            let configuration = unlined.as_ref().unwrap_or(&work.configurations[k]);
+            let amplitudes = chain.part(k, unknowns);
             let unloaded = ElementLoads {
                 stations: &vec![Load::zero(); element.stations.len()],
                 placed: &[],
@@ -201,6 +203,7 @@ impl Equilibrium {
             out += columns.gradient.row(unknown) * rate;
         }
         out[Input::Insertion.columns().start] = by_insertion.push;
+        out[Input::GuidewireInsertion.columns().start] = self.work.lining_push_by_reach(&self.chain);
         out + DMatrix::from_row_slice(1, unknowns.nrows(), &by_insertion.gradient) * unknowns
     }
 

@@ -129,6 +129,7 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         insertion: _, // these do not change
         feed_force: _,
         roll: _,
+        guidewire_insertion: _,
         tip_force,
         tip_moment,
         ring_forces,

@@ -9,6 +9,9 @@ use crate::geometry::{Pose, RotationVector};
 /// Longest inserted part of a shaft, m.
 pub(crate) const LONGEST_INSERTION: f64 = 1.0;
 
+/// Largest arc length that a guidewire reaches, m: that of the longest shaft with the longest device.
+pub(crate) const LONGEST_REACH: f64 = 2.0;
+
 /// Maximum lateral deviation of an input step, relative to the previous step, for which extrapolation is used.
 const ASIDE: f64 = 0.5;
 
@@ -35,6 +38,9 @@ pub struct Inputs {
     pub feed_force: Option<f64>,
     /// Turn of what the base clamps, or of the shaft in its port, about its axis, rad.
     pub roll: f64,
+    /// Arc length from the port, or from the base without a shaft, that the guidewire reaches, m; without effect where there is none.
+    /// What is beyond the tip counts for nothing.
+    pub guidewire_insertion: f64,
     /// Force on the tip, N.
     pub tip_force: Vector3<f64>,
     /// Moment on the tip, N m.
@@ -62,6 +68,7 @@ impl Inputs {
             insertion: 0.0,
             feed_force: None,
             roll: 0.0,
+            guidewire_insertion: 0.0,
             tip_force: Vector3::zeros(),
             tip_moment: Vector3::zeros(),
             ring_forces: vec![Vector3::zeros(); rings],
@@ -76,8 +83,8 @@ impl Inputs {
     /// The same poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
-        let Self { magnet, base, insertion, roll, .. } = *self;
-        Self { magnet, base, insertion, roll, ..Self::unloaded(self.ring_forces.len()) }
+        let Self { magnet, base, insertion, roll, guidewire_insertion, .. } = *self;
+        Self { magnet, base, insertion, roll, guidewire_insertion, ..Self::unloaded(self.ring_forces.len()) }
     }
 
     /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
@@ -117,6 +124,7 @@ impl Inputs {
             insertion: number(self.insertion, other.insertion),
             feed_force: self.feed_force.zip(other.feed_force).map(|(a, b)| number(a, b)).or(other.feed_force),
             roll: number(self.roll, other.roll),
+            guidewire_insertion: number(self.guidewire_insertion, other.guidewire_insertion),
             tip_force: mix(&self.tip_force, &other.tip_force),
             tip_moment: mix(&self.tip_moment, &other.tip_moment),
             ring_forces: self.ring_forces.iter().zip(&other.ring_forces).map(|(a, b)| mix(a, b)).collect(),
@@ -161,6 +169,7 @@ impl Inputs {
             insertion,
             feed_force,
             roll,
+            guidewire_insertion,
             tip_force,
             tip_moment,
             ring_forces,
@@ -179,6 +188,7 @@ impl Inputs {
             ("insertion (m)", std::slice::from_ref(insertion)),
             ("feed force (N)", feed_force.as_slice()),
             ("roll (rad)", std::slice::from_ref(roll)),
+            ("guidewire insertion (m)", std::slice::from_ref(guidewire_insertion)),
             ("tip force (N)", tip_force.as_slice()),
             ("tip moment (N m)", tip_moment.as_slice()),
             ("gravity (m/s2)", gravity.as_slice()),
@@ -199,6 +209,8 @@ impl Inputs {
             }
         }
         check("insertion (m)", self.insertion, |v| (0.0..=LONGEST_INSERTION).contains(&v), "from 0 to 1")?;
+        let reach = |v| (0.0..=LONGEST_REACH).contains(&v);
+        check("guidewire insertion (m)", self.guidewire_insertion, reach, "from 0 to 2")?;
         let given = self.ring_forces.len();
         if given == rings {
             return Ok(());

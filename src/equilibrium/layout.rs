@@ -34,6 +34,8 @@ pub enum Input {
     Insertion,
     /// Push on the shaft, N, where that is given instead of the length.
     FeedForce,
+    /// Arc length that the guidewire reaches, m; nothing changes with it without one.
+    GuidewireInsertion,
     /// Displacement of the vessel, m.
     VesselPosition,
     /// Rotation of the vessel about the base position, rad.
@@ -84,7 +86,7 @@ pub enum Output {
 }
 
 /// Inputs of every design in the order of their columns; the forces on the rings follow.
-const INPUTS: [Input; 15] = [
+const INPUTS: [Input; 16] = [
     Input::MagnetPosition,
     Input::MagnetRotation,
     Input::MagnetStrength,
@@ -98,6 +100,7 @@ const INPUTS: [Input; 15] = [
     Input::Roll,
     Input::Insertion,
     Input::FeedForce,
+    Input::GuidewireInsertion,
     Input::VesselPosition,
     Input::VesselRotation,
 ];
@@ -128,7 +131,11 @@ impl Input {
     /// Number of columns of this input.
     pub(super) const fn width(self) -> usize {
         match self {
-            Self::MagnetStrength | Self::Roll | Self::Insertion | Self::FeedForce => 1,
+            Self::MagnetStrength
+            | Self::Roll
+            | Self::Insertion
+            | Self::FeedForce
+            | Self::GuidewireInsertion => 1,
             Self::FieldGradient => 5,
             _ => VECTOR,
         }

@@ -15,6 +15,7 @@ mod friction_loads;
 mod friction_passes;
 mod friction_places;
 mod grip;
+mod guidewire;
 mod hessian;
 mod history;
 mod input_derivatives;

@@ -88,6 +88,9 @@ impl Equilibrium {
             columns.gradient.column_mut(insertion).copy_from_slice(&by_insertion.gradient);
             columns.clamp.column_mut(insertion).copy_from_slice(&by_insertion.base);
         }
+        if let Some(by_reach) = potential.work.lining_gradient_by_reach(potential.chain) {
+            columns.gradient.column_mut(Input::GuidewireInsertion.columns().start).copy_from_slice(&by_reach);
+        }
         let by_base = base_transport(inputs, &counts);
         transport_base(&mut columns.gradient, &by_base);
         transport_base(&mut columns.clamp, &by_base);

@@ -23,6 +23,10 @@ pub(super) struct Workspace {
     pub(super) placed: Vec<f64>,
     /// Length of the shaft's elements relative to that of their tables.
     pub(super) growth: f64,
+    /// Arc length from the port that the guidewire reaches, m.
+    pub(super) reach: f64,
+    /// Rotational stiffness of the guidewire in each element, N m/rad.
+    pub(super) lined: Vec<f64>,
     pub(super) station_loads: Vec<Vec<Load>>,
     pub(super) node_loads: Vec<Load>,
     /// Loads on other frames, by element.
@@ -80,6 +84,8 @@ impl Workspace {
             nodes: vec![Pose::identity(); count + 1],
             placed: vec![f64::NAN; chain.freedoms()],
             growth: 1.0,
+            reach: 0.0,
+            lined: vec![0.0; count],
             station_loads: chain.elements.iter().map(|e| vec![Load::zero(); e.stations.len()]).collect(),
             node_loads: vec![Load::zero(); count + 1],
             placed_loads: vec![PlacedLoads::default(); count],
@@ -108,12 +114,17 @@ impl Workspace {
     /// Places all stations and nodes for the given inputs and unknowns, unless they are there already.
     pub(super) fn place(&mut self, chain: &Chain, inputs: &Inputs, unknowns: &[f64]) {
         let (root, growth) = (inputs.root(), chain.growth(inputs.insertion));
-        if self.nodes[0] == root && self.placed == unknowns && self.growth.to_bits() == growth.to_bits() {
+        let reach = inputs.guidewire_insertion;
+        let same = (self.growth.to_bits(), self.reach.to_bits()) == (growth.to_bits(), reach.to_bits());
+        if self.nodes[0] == root && self.placed == unknowns && same {
             return;
         }
         self.placed.copy_from_slice(unknowns);
-        self.growth = growth;
+        (self.growth, self.reach) = (growth, reach);
         self.configurations[..chain.shaft].iter_mut().for_each(|shaft| shaft.growth = growth);
+        if let Some(lining) = chain.lining.as_ref().filter(|_| !same) {
+            self.line(lining);
+        }
         self.nodes[0] = root;
         for (k, element) in chain.elements.iter().enumerate() {
             self.configurations[k].update(element, chain.part(k, unknowns));
@@ -129,9 +140,10 @@ impl Workspace {
     /// Loads on all nodes, then the totals on each element.
     pub(super) fn loads(&self) -> impl Iterator<Item = TotalLoad> + '_ {
         let nodes = self.node_loads.iter().map(|load| TotalLoad::of([load], 0.0));
-        let elements = self.station_loads.iter().zip(&self.placed_loads).map(|(stations, placed)| {
+        let parts = self.station_loads.iter().zip(&self.placed_loads).zip(&self.lined);
+        let elements = parts.map(|((stations, placed), lined)| {
             let others = placed.loads.iter().map(|placed| &placed.load);
-            TotalLoad::of(stations.iter().chain(others), placed.abrupt)
+            TotalLoad::of(stations.iter().chain(others), placed.abrupt + lined)
         });
         nodes.chain(elements)
     }

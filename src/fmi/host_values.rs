@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::design::{Backbone, Design, Specification};
+use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::geometry::Pose;
@@ -41,6 +41,8 @@ pub struct HostValues {
     pub feed_force: f64,
     /// Turn about the axis of the base, rad.
     pub roll: f64,
+    /// Arc length from the port that the guidewire reaches, m.
+    pub guidewire_insertion: f64,
     /// Force on the tip, N, world frame.
     pub tip_force: [f64; 3],
     /// Moment on the tip, N.m, world frame.
@@ -58,6 +60,8 @@ pub struct HostValues {
     pub backbone_present: bool,
     /// The shaft of a scene that has one.
     pub shaft: Option<Backbone>,
+    /// The guidewire of a scene that has one.
+    pub guidewire: Option<Guidewire>,
     /// The vessel of a scene that has one; copies of the values, made in every step whose inputs move, share it.
     pub vessel: Option<Arc<Vessel>>,
     /// Young's modulus of its wall, Pa.
@@ -118,7 +122,9 @@ impl HostValues {
             insertion: inputs.insertion,
             feed_force: inputs.feed_force.unwrap_or(0.0),
             roll: inputs.roll,
+            guidewire_insertion: inputs.guidewire_insertion,
             shaft: scene.shaft,
+            guidewire: scene.guidewire,
             wall_modulus: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.modulus()),
             friction: scene.vessel.as_ref().map_or(0.0, |vessel| vessel.wall.friction()),
             tip_force: inputs.tip_force.into(),
@@ -148,6 +154,7 @@ impl HostValues {
             insertion: self.insertion,
             feed_force: (self.feed_mode == FeedMode::Force).then_some(self.feed_force),
             roll: self.roll,
+            guidewire_insertion: self.guidewire_insertion,
             tip_force: self.tip_force.into(),
             tip_moment: self.tip_moment.into(),
             ring_forces: self.ring_forces.iter().map(|&force| force.into()).collect(),
@@ -167,10 +174,8 @@ impl HostValues {
             segmented.backbone = self.backbone_present.then_some(self.backbone);
         }
         let design = Design::new(specification)?;
-        match &self.shaft {
-            Some(shaft) if self.feed_mode != FeedMode::Clamped => design.with_shaft(shaft),
-            _ => Ok(design),
-        }
+        let shaft = self.shaft.as_ref().filter(|_| self.feed_mode != FeedMode::Clamped);
+        design.with(shaft, self.guidewire.as_ref())
     }
 
     /// The manipulator that the parameters describe, not yet solved.

@@ -84,6 +84,7 @@ impl Table {
         let mut rows = Rows::default();
         rows.inputs(&counts);
         rows.feed_inputs(start);
+        rows.guidewire_input(start);
         rows.design_parameters(start);
         rows.parameters(start);
         rows.vessel_parameters(start);

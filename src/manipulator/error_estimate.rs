@@ -69,6 +69,7 @@ impl ErrorEstimate {
             insertion: _,
             feed_force: _,
             roll: _,
+            guidewire_insertion,
             field_gradient,
             tip_force,
             tip_moment,
@@ -82,6 +83,7 @@ impl ErrorEstimate {
         let changes = [
             moved.distance / (MOVED * length),
             moved.angle / MOVED,
+            (guidewire_insertion - then.guidewire_insertion).abs() / (MOVED * length),
             part((gradient - before).norm(), gradient.norm(), before.norm()),
             other(tip_force, &then.tip_force),
             other(tip_moment, &then.tip_moment),

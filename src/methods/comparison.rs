@@ -85,6 +85,10 @@ impl Comparison {
         let (model, settings) = (model.checked()?, settings.checked()?);
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let (own, other) = (settings.method.name(), Method::Potential.name());
+        if design.guidewire().is_some() {
+            let reason = format!("method \"{own}\" has no guidewire: choose method \"{other}\"");
+            return Err(Error::Unsupported(reason));
+        }
         if !settings.method.supports(model.interaction) {
             let level = model.interaction.name();
             let [none, rings] = [Interaction::None, Interaction::Rings].map(Interaction::name);

@@ -13,6 +13,19 @@ pub fn smooth_step(t: f64) -> f64 {
     t * t * t * (6.0 * t * t - 15.0 * t + 10.0)
 }
 
+/// First and second derivative of [`smooth_step`].
+///
+/// ```
+/// use mcm::numerics::onset::smooth_step_slopes;
+/// assert_eq!([-1.0, 0.5, 2.0].map(smooth_step_slopes), [[0.0, 0.0], [1.875, 0.0], [0.0, 0.0]]);
+/// ```
+#[must_use]
+pub fn smooth_step_slopes(t: f64) -> [f64; 2] {
+    let t = t.clamp(0.0, 1.0);
+    let rest = 1.0 - t;
+    [30.0 * t * t * rest * rest, 60.0 * t * rest * (rest - t)]
+}
+
 /// The integral of a ramp, the ramp and its slope at `x`; `None` before it sets in.
 ///
 /// The slope rises from 0 at `-width` to 1 at `width` and stays there; the integral has four continuous derivatives:

@@ -2,8 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::bending::{self, lined};
 use super::element::Element;
 use super::row::{COMPONENTS, ROTATIONS, Row};
+use crate::design::Stiffness;
 use crate::geometry::{Pose, RotationVector};
 
 /// A Gauss point of a deformed element, in the frame of the preceding node.
@@ -23,9 +25,16 @@ pub struct StationState {
     pub tangent: Vector3<f64>,
     /// Position, m.
     pub position: Vector3<f64>,
+    /// Bending stiffness of what lies inside beside that of the section, N m2.
+    pub lining: f64,
 }
 
 impl StationState {
+    /// Rotation of the directors per arc length of the element's tables, in the directors, 1/m.
+    pub(super) fn curvature(&self) -> Vector3<f64> {
+        self.left.tr_mul(&self.rate)
+    }
+
     /// Position and directors.
     #[must_use]
     pub fn pose(&self) -> Pose {
@@ -78,6 +87,7 @@ impl Configuration {
             stretch: Vector3::z(),
             tangent: Vector3::z(),
             position: Vector3::zeros(),
+            lining: 0.0,
         };
         let mut out = Self {
             stations: vec![state; element.stations.len()],
@@ -159,8 +169,8 @@ impl Configuration {
     pub fn elastic_energy(&self, element: &Element, amplitudes: &[f64]) -> f64 {
         let mut energy = 0.0;
         for (state, station) in self.stations.iter().zip(&element.stations) {
-            let curvature = state.left.tr_mul(&state.rate);
-            let k = &station.stiffness;
+            let curvature = state.curvature();
+            let k = lined(&station.stiffness, state.lining);
             let bending = curvature.x * curvature.x + curvature.y * curvature.y;
             energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
         }
@@ -172,5 +182,36 @@ impl Configuration {
             }
         }
         energy / self.growth
+    }
+    /// The same without what lies inside.
+    #[must_use]
+    pub fn unlined(&self) -> Self {
+        let mut out = self.clone();
+        out.stations.iter_mut().for_each(|state| state.lining = 0.0);
+        out
+    }
+
+    /// Bending energy (J) of linings of these stiffnesses (N m2), one for each station.
+    pub fn lining_energy(&self, element: &Element, stiffness: impl Iterator<Item = f64>) -> f64 {
+        let stations = self.stations.iter().zip(&element.stations).zip(stiffness);
+        let energy = stations.map(|((state, station), stiffness)| {
+            0.5 * stiffness * station.weight * state.curvature().xy().norm_squared()
+        });
+        energy.sum::<f64>() / self.growth
+    }
+
+    /// Its derivatives with respect to the amplitudes.
+    pub fn lining_gradient(&self, element: &Element, stiffness: impl Iterator<Item = f64>) -> Vec<f64> {
+        let mut out = vec![0.0; element.freedoms()];
+        let none = Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 };
+        for ((state, station), stiffness) in self.stations.iter().zip(&element.stations).zip(stiffness) {
+            let (slope, rate) =
+                bending::gradient(state, &lined(&none, stiffness), station.weight / self.growth);
+            for (i, component) in element.component.iter().enumerate().filter(|(_, c)| **c < ROTATIONS) {
+                out[i] +=
+                    slope[*component] * station.row.integral[i] + rate[*component] * station.row.rate[i];
+            }
+        }
+        out
     }
 }

@@ -104,6 +104,7 @@ impl Ray {
                 specification: Specification::paper(self.segments),
                 vessel: None,
                 shaft: None,
+                guidewire: None,
                 magnets: None,
                 inputs: self.inputs(0.0),
                 settings: Settings { interaction: self.interaction, ..Settings::default() },

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use mcm::equilibrium::{Input, Output};
 use mcm::fmi::instance::identify;
 use mcm::fmi::state::Ending;
 use mcm::fmi::variables::Table;
@@ -58,9 +59,43 @@ fn a_shaft_is_pushed_in_and_the_wall_pushes_back() {
 #[test]
 fn other_scenes_have_no_such_variables() {
     let (_, table, _) = initialised(super::BENT);
-    for name in ["feed.insertion", "feed.length", "contact.count", "vessel.wall_modulus", "vessel.friction"] {
+    for name in [
+        "feed.insertion",
+        "feed.length",
+        "guidewire.insertion",
+        "contact.count",
+        "vessel.wall_modulus",
+        "vessel.friction",
+    ] {
         assert_eq!(table.reference(name), None, "{name}");
     }
+}
+
+/// A guidewire pushed ahead: steps are those of the scene, and the derivative is that of the tip.
+#[test]
+fn a_guidewire_is_pushed_ahead() {
+    let wire = "[guidewire]\nradius_mm = 0.2\nelastic_modulus_mpa = 500.0\ninsertion_mm = 1.0\n";
+    let text = format!("{PUSHED}{wire}");
+    let (mut pushed, table, told) = initialised(&text);
+    let mut scene = Scene::parse(&text, "test").unwrap();
+    let mut manipulator = scene.manipulator(5).unwrap();
+    manipulator.solve(&scene.inputs).unwrap();
+    for step in 1..=5 {
+        scene.inputs.guidewire_insertion = 2e-3 * f64::from(step);
+        manipulator.solve(&scene.inputs).unwrap();
+        assert_eq!(set(&mut pushed, &table, "guidewire.insertion", 2e-3 * f64::from(step)), Ending::Ok);
+        assert_eq!(pushed.do_step(0.1 * f64::from(step - 1), 0.1), Ending::Ok, "{}", last(&told));
+    }
+    let tip = manipulator.outputs().tip.position.y;
+    assert_close("tip", &[get(&mut pushed, &table, "tip.position[2]")], &[tip], SAME_SHAPE);
+    let [of, by] = ["tip.position[2]", "guidewire.insertion"].map(|name| table.reference(name).unwrap());
+    let slope = pushed.directional_derivative(&[of], &[by], &[1.0]).unwrap()[0];
+    let block = manipulator.jacobian().unwrap();
+    let block = block.block(Output::TipPosition, Input::GuidewireInsertion).unwrap();
+    assert!(slope != 0.0);
+    assert_close("slope", &[slope], &[block[(1, 0)]], SAME_SHAPE);
+    assert_eq!(set(&mut pushed, &table, "guidewire.insertion", -0.001), Ending::Ok);
+    assert_ne!(pushed.do_step(0.5, 0.1), Ending::Ok, "a wire pulled out of the port");
 }
 
 /// The same in mode force, with a magnet that takes the device along.

@@ -75,6 +75,7 @@ fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
         Input::BaseRotation => out.base.rotation = turn() * out.base.rotation,
         Input::Roll => out.roll += by,
         Input::Insertion => out.insertion += by,
+        Input::GuidewireInsertion => out.guidewire_insertion += by,
         Input::FeedForce => out.feed_force = out.feed_force.map(|force| force + by),
         Input::VesselPosition | Input::VesselRotation => unreachable!("not among the inputs"),
         Input::RingForce(ring) => out.ring_forces[ring][axis] += by,
@@ -156,8 +157,8 @@ fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f6
             (Input::Insertion, 0.02)
         });
     }
-    // Displacement and rotation of a vessel are columns, but no inputs; length and push of a shaft are never both.
-    let others = 6 + if manipulator.outputs().feed_length.is_some() { 1 } else { 2 };
+    // Displacement and rotation of a vessel are columns, but no inputs; length and push of a shaft are never both; there is no guidewire.
+    let others = 7 + if manipulator.outputs().feed_length.is_some() { 1 } else { 2 };
     for (input, size) in all {
         for axis in 0..jacobian.columns(input).expect("of this design").len() {
             for (output, expected) in by_differences(manipulator, inputs, input, axis, STEP * size) {

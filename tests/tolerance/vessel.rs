@@ -80,3 +80,19 @@ pub(crate) const FRICTION_STEPS: [f64; 2] = [1e-3, 1e-7];
 
 /// Gradient and Hessian of friction beside differences, relative.
 pub(crate) const FRICTION_DERIVATIVE: f64 = 1e-8;
+
+/// Deflection of a cantilever of two stiffnesses, 1 to 18: between elements, by the smoothed end of the wire, and within them, where
+/// strain modes follow no jump of the curvature.
+pub(crate) const TWO_STIFFNESSES: [f64; 2] = [1e-4, 1e-2];
+
+/// Tip of a rod stiffened 18 times, relative to its length: the shear of a rod of all that would be as much less.
+pub(crate) const SUM_OF_STIFFNESSES: f64 = 5e-4;
+
+/// Gradient and Hessian with a wire beside differences of fourth order.
+pub(crate) const WIRE_DIFFERENCE: f64 = 1e-6;
+
+/// Push beside differences of the energy, N, where the wire's end sets in over 0.1 mm.
+pub(crate) const WIRE_PUSH: f64 = 1e-6;
+
+/// Derivatives by the reach of the wire beside differences over 2 um.
+pub(crate) const WIRE_RATES: f64 = 1e-4;

@@ -8,6 +8,7 @@ mod feed;
 mod friction;
 mod friction_memory;
 mod grid;
+mod guidewire;
 mod lumen;
 mod mesh;
 mod push;

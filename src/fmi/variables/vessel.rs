@@ -1,4 +1,4 @@
-//! Variables of shaft and vessel: only the FMU of a scene that has them has these.
+//! Variables of shaft, guidewire and vessel: only the FMU of a scene that has them has these.
 
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
@@ -49,6 +49,17 @@ impl Rows {
         let force = access!(|values| values.feed_force);
         let draft = Draft::input("feed.force", FORCE, "Push on the shaft in mode force", force);
         self.scalar(draft.derivative_role(DerivativeRole::Input(Input::FeedForce)));
+    }
+
+    /// Input of a guidewire.
+    pub(super) fn guidewire_input(&mut self, start: &HostValues) {
+        if start.guidewire.is_none() {
+            return;
+        }
+        let insertion = access!(|values| values.guidewire_insertion);
+        let description = "Arc length from the port, or the base without a shaft, that the guidewire reaches";
+        let draft = Draft::input("guidewire.insertion", LENGTH, description, insertion).min(0.0).max(2.0);
+        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::GuidewireInsertion)));
     }
 
     /// Parameters of shaft and vessel.

@@ -4,7 +4,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::spiral_start::SpiralStartEntry;
-use super::tube::BackboneEntries;
+use super::tube::{BackboneEntries, GuidewireEntries};
 use super::vessel::{FeedEntries, VesselEntries};
 use crate::equilibrium::{Interaction, Settings};
 use crate::methods::Method;
@@ -28,6 +28,8 @@ pub struct SceneFile {
     pub(super) vessel: Option<VesselEntries>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) feed: Option<FeedEntries>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) guidewire: Option<GuidewireEntries>,
     /// The lumen of the mesh that the vessel names, or why there is none.
     #[serde(skip)]
     pub(super) mesh: Option<Result<Lumen, crate::error::Error>>,

@@ -18,7 +18,7 @@ pub use vessel::FeedMode;
 use std::path::Path;
 
 use super::{Compared, Inputs, Manipulator, Solve};
-use crate::design::{Backbone, Design, Specification};
+use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet};
@@ -50,7 +50,9 @@ pub struct Scene {
     pub vessel: Option<Vessel>,
     /// The shaft behind the base; `None` for a manipulator that is clamped there.
     pub shaft: Option<Backbone>,
-    /// Fields, loads, base pose and insertion.
+    /// The guidewire inside; `None` for none.
+    pub guidewire: Option<Guidewire>,
+    /// Fields, loads, base pose, insertion and the guidewire's reach.
     pub inputs: Inputs,
     /// Model settings and solver settings of the potential method.
     pub settings: Settings,
@@ -75,10 +77,7 @@ impl Scene {
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn design(&self) -> Result<Design, Error> {
         let design = Design::new(self.specification.clone())?;
-        match &self.shaft {
-            Some(shaft) => design.with_shaft(shaft),
-            None => Ok(design),
-        }
+        design.with(self.shaft.as_ref(), self.guidewire.as_ref())
     }
 
     /// The checked external magnet, if there is one.

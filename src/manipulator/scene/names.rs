@@ -62,7 +62,7 @@ impl Unit {
 
 /// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
 /// cylinder.
-const KEYS: [(&str, &str); 45] = [
+const KEYS: [(&str, &str); 47] = [
     ("number of segments", "design.segments"),
     ("helix length L (m)", "design.helix.length_mm"),
     ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
@@ -101,6 +101,8 @@ const KEYS: [(&str, &str); 45] = [
     ("Young's modulus (Pa)", "feed.shaft.elastic_modulus_mpa"),
     ("Poisson's ratio", "feed.shaft.poisson"),
     ("density (kg/m3)", "feed.shaft.density_kg_m3"),
+    ("guidewire radius (m)", "guidewire.radius_mm"),
+    ("Young's modulus (Pa)", "guidewire.elastic_modulus_mpa"),
     ("vessel wall modulus (Pa)", "vessel.wall_modulus_mpa"),
     ("vessel friction", "vessel.friction"),
     ("magnet outer radius (m)", "magnet.cylinders[*].radius_mm"),

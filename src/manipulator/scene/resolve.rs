@@ -8,6 +8,7 @@ use super::file::{
     SceneFile, SpiralName,
 };
 use super::spiral_start::SpiralStartEntry;
+use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
 use super::vessel::FeedMode;
 use super::{Scene, names};
@@ -89,14 +90,14 @@ impl SceneFile {
         })?;
         let vessel = self.vessel.as_ref().map(|entries| entries.si(self.mesh.as_ref())).transpose()?;
         let shaft = self.shaft(&specification)?;
-        if let Some(shaft) = &shaft {
-            design.clone().with_shaft(shaft)?;
-        }
+        let guidewire = self.guidewire.map(GuidewireEntries::si);
+        design.clone().with(shaft.as_ref(), guidewire.as_ref())?;
         if let Some(vessel) = &vessel {
             fits(&design, vessel, &inputs)?;
         }
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
-        Ok(Scene { specification, magnets, vessel, shaft, inputs, settings: self.settings()?, solver })
+        let settings = self.settings()?;
+        Ok(Scene { specification, magnets, vessel, shaft, guidewire, inputs, settings, solver })
     }
 
     /// Fills in the entry that `key` names if it was omitted because it follows from the design.
@@ -135,6 +136,10 @@ impl SceneFile {
         if let Some(feed) = &self.feed {
             (inputs.insertion, inputs.roll) = (feed.insertion_mm / MM_PER_M, feed.roll_deg.to_radians());
             inputs.feed_force = (feed.mode == FeedMode::Force).then(|| feed.force_n.unwrap_or(0.0));
+        }
+        if let Some(wire) = &self.guidewire {
+            let (key, reach) = ("guidewire.insertion_mm", |v| (0.0..=2000.0).contains(&v));
+            inputs.guidewire_insertion = check(key, wire.insertion_mm, reach, "from 0 to 2000")? / MM_PER_M;
         }
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();

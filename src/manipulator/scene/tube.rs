@@ -1,9 +1,9 @@
-//! Tables of tubes: the backbone through all bodies, and the shaft behind the base.
+//! Tables of tubes and what is in them: the backbone through all bodies, the shaft behind the base, the guidewire.
 
 use serde::{Deserialize, Serialize};
 
 use super::units::{MM_PER_M, PA_PER_MPA};
-use crate::design::{Backbone, Modulus};
+use crate::design::{Backbone, Guidewire, Modulus};
 use crate::error::Error;
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -44,5 +44,23 @@ impl BackboneEntries {
             poisson: self.poisson,
             density: self.density_kg_m3,
         })
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GuidewireEntries {
+    pub(super) radius_mm: f64,
+    pub(super) elastic_modulus_mpa: f64,
+    #[serde(default)]
+    pub(super) insertion_mm: f64,
+}
+
+impl GuidewireEntries {
+    pub(super) fn si(self) -> Guidewire {
+        Guidewire {
+            radius: self.radius_mm / MM_PER_M,
+            elastic_modulus: self.elastic_modulus_mpa * PA_PER_MPA,
+        }
     }
 }

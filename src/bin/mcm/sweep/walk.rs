@@ -272,6 +272,6 @@ fn in_order(rows: Vec<(usize, Row)>, count: usize) -> Vec<Option<Row>> {
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.solver, &a.vessel, &a.shaft)
-        == (&b.specification, &b.magnets, &b.settings, &b.solver, &b.vessel, &b.shaft)
+    (&a.specification, &a.magnets, &a.settings, &a.solver, &a.vessel, &a.shaft, &a.guidewire)
+        == (&b.specification, &b.magnets, &b.settings, &b.solver, &b.vessel, &b.shaft, &b.guidewire)
 }
