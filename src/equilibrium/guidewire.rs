@@ -1,11 +1,10 @@
 //! A guidewire inside the device: the bending stiffness that it adds as far as it reaches.
 //!
 //! Covered and bare parts of the arc length that a station stands for bend in series: their compliances add up. The covered part
-//! grows smoothly while the wire's end passes, from the middle of the share of the station before to that of the station behind; at the port, where the shaft ends, and at the faces of rings it ends with
-//! the station's own share. So nothing jumps, and nothing changes while the end is in a ring, which is rigid.
+//! grows smoothly while the wire's end passes, from the middle of the share of the station before to that of the station behind;
+//! at the port, where the shaft ends, and at the faces of rings it ends with the station's own share. So nothing jumps, and nothing
+//! changes while the end is in a ring, which is rigid.
 
-use super::chain::Chain;
-use super::workspace::Workspace;
 use crate::design::Guidewire;
 use crate::numerics::onset::{smooth_step, smooth_step_slopes};
 use crate::rod::{Element, Station};
@@ -25,16 +24,16 @@ pub(super) struct Lining {
     /// By element and station: ratio of the wire's bending stiffness to that of the section.
     ratios: Vec<Vec<f64>>,
     /// By element and station: weight in the mean over the element, per its length, 1/m.
-    rotational: Vec<Vec<f64>>,
+    pub(super) rotational: Vec<Vec<f64>>,
 }
 
 /// Stiffness of the wire at a station, and its derivatives.
 #[derive(Debug, Clone, Copy)]
-struct Share {
-    value: f64,
-    by_reach: f64,
-    by_insertion: f64,
-    by_both: f64,
+pub(super) struct Share {
+    pub(super) value: f64,
+    pub(super) by_reach: f64,
+    pub(super) by_insertion: f64,
+    pub(super) by_both: f64,
 }
 
 impl Lining {
@@ -64,7 +63,11 @@ impl Lining {
     }
 
     /// The wire at the stations of an element, for the growth of the shaft and the reach of the wire (m).
-    fn shares(&self, element: usize, [growth, reach]: [f64; 2]) -> impl Iterator<Item = Share> + '_ {
+    pub(super) fn shares(
+        &self,
+        element: usize,
+        [growth, reach]: [f64; 2],
+    ) -> impl Iterator<Item = Share> + '_ {
         let in_shaft = element < self.shaft;
         self.windows[element].iter().zip(&self.ratios[element]).map(move |([from, to], ratio)| {
             let width = to - from;
@@ -108,53 +111,4 @@ fn windows_of<'a>(start: &mut f64, stations: impl Iterator<Item = &'a Station>) 
         [from, to]
     };
     (0..last).map(window).collect()
-}
-
-impl Workspace {
-    /// Gives every station the wire's stiffness there.
-    pub(super) fn line(&mut self, lining: &Lining) {
-        let lengths = [self.growth, self.reach];
-        for (k, (configuration, total)) in self.configurations.iter_mut().zip(&mut self.lined).enumerate() {
-            *total = 0.0;
-            for ((state, share), weight) in
-                configuration.stations.iter_mut().zip(lining.shares(k, lengths)).zip(&lining.rotational[k])
-            {
-                state.lining = share.value;
-                *total += share.value * weight / configuration.growth;
-            }
-        }
-    }
-
-    /// Derivative of the wire's energy with respect to the inserted length of the shaft (N) at a fixed shape, but for what the growth
-    /// of the elements changes.
-    pub(super) fn lining_push(&self, chain: &Chain) -> f64 {
-        self.lining_energy(chain, chain.elements.len(), |share| share.by_insertion)
-    }
-
-    /// Derivative of the same push, with what growth changes, with respect to the reach of the wire, N/m.
-    pub(super) fn lining_push_by_reach(&self, chain: &Chain) -> f64 {
-        let shaft = self.lining_energy(chain, chain.shaft, |share| share.by_reach);
-        self.lining_energy(chain, chain.elements.len(), |share| share.by_both)
-            - shaft / chain.inserted(self.growth)
-    }
-
-    /// Derivatives of the gradient with respect to the reach of the wire; `None` without a wire.
-    pub(super) fn lining_gradient_by_reach(&self, chain: &Chain) -> Option<Vec<f64>> {
-        let lining = chain.lining.as_ref()?;
-        let of = |(k, element): (usize, &Element)| {
-            let rates = lining.shares(k, [self.growth, self.reach]).map(|share| share.by_reach);
-            self.configurations[k].lining_gradient(element, rates)
-        };
-        Some(chain.elements.iter().enumerate().flat_map(of).collect())
-    }
-
-    /// Energy (J) of the first `count` elements for linings of the stiffness that `part` takes of the wire's; 0 without a wire.
-    fn lining_energy(&self, chain: &Chain, count: usize, part: fn(Share) -> f64) -> f64 {
-        let Some(lining) = &chain.lining else { return 0.0 };
-        let of = |(k, element): (usize, &Element)| {
-            self.configurations[k]
-                .lining_energy(element, lining.shares(k, [self.growth, self.reach]).map(part))
-        };
-        chain.elements[..count].iter().enumerate().map(of).sum()
-    }
 }

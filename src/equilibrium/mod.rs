@@ -16,6 +16,7 @@ mod friction_passes;
 mod friction_places;
 mod grip;
 mod guidewire;
+mod guidewire_loads;
 mod hessian;
 mod history;
 mod input_derivatives;
