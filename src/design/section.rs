@@ -21,6 +21,14 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
+    /// The same with a lining of this bending stiffness (N m2), which slides and turns freely in it.
+    #[must_use]
+    pub fn lined(self, lining: f64) -> Self {
+        Self { bending: self.bending + lining, ..self }
+    }
+}
+
+impl Stiffness {
     /// Stiffness of an annulus: `I = pi (r_o^4 - r_i^4) / 4`, `J = 2 I`, `A = pi (r_o^2 - r_i^2)` (Eq. 12, 13).
     pub(super) fn annulus(inner_radius: f64, outer_radius: f64, moduli: Moduli) -> Self {
         let inertia = PI * (outer_radius.powi(4) - inner_radius.powi(4)) / 4.0;

@@ -38,11 +38,6 @@ impl Bending {
     }
 }
 
-/// Stiffness of a section with a lining of bending stiffness `lining` (N m2), which slides and turns freely in it.
-pub(super) fn lined(section: &Stiffness, lining: f64) -> Stiffness {
-    Stiffness { bending: section.bending + lining, ..*section }
-}
-
 /// Weighted section stiffness against curvature, as a diagonal.
 fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
     Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight

@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bending::{self, Bending, lined};
+use super::bending::{self, Bending};
 use super::element::Element;
 use super::kinematics::{Configuration, StationState};
 use super::load::{Load, turning};
@@ -195,7 +195,7 @@ impl ElementDerivatives {
     ) {
         let station = &element.stations[index];
         let (bend, rate) =
-            bending::gradient(state, &lined(&station.stiffness, state.lining), station.weight / growth);
+            bending::gradient(state, &station.stiffness.lined(state.lining), station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let slope = state.theta.rotation_gradient(&pull) + bend;
         let along = state.directors.tr_mul(beyond);
@@ -217,7 +217,7 @@ impl ElementDerivatives {
         beyond: &Vector3<f64>,
     ) {
         let station = &element.stations[index];
-        let bend = Bending::new(state, &lined(&station.stiffness, state.lining), station.weight / growth);
+        let bend = Bending::new(state, &station.stiffness.lined(state.lining), station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let (slope, curve) = state.theta.contract_rotation(&pull);
         let slope = slope + bend.slope;

@@ -2,10 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bending::{self, lined};
 use super::element::Element;
 use super::row::{COMPONENTS, ROTATIONS, Row};
-use crate::design::Stiffness;
 use crate::geometry::{Pose, RotationVector};
 
 /// A Gauss point of a deformed element, in the frame of the preceding node.
@@ -170,7 +168,7 @@ impl Configuration {
         let mut energy = 0.0;
         for (state, station) in self.stations.iter().zip(&element.stations) {
             let curvature = state.curvature();
-            let k = lined(&station.stiffness, state.lining);
+            let k = station.stiffness.lined(state.lining);
             let bending = curvature.x * curvature.x + curvature.y * curvature.y;
             energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
         }
@@ -183,35 +181,12 @@ impl Configuration {
         }
         energy / self.growth
     }
+
     /// The same without what lies inside.
     #[must_use]
     pub fn unlined(&self) -> Self {
         let mut out = self.clone();
         out.stations.iter_mut().for_each(|state| state.lining = 0.0);
-        out
-    }
-
-    /// Bending energy (J) of linings of these stiffnesses (N m2), one for each station.
-    pub fn lining_energy(&self, element: &Element, stiffness: impl Iterator<Item = f64>) -> f64 {
-        let stations = self.stations.iter().zip(&element.stations).zip(stiffness);
-        let energy = stations.map(|((state, station), stiffness)| {
-            0.5 * stiffness * station.weight * state.curvature().xy().norm_squared()
-        });
-        energy.sum::<f64>() / self.growth
-    }
-
-    /// Its derivatives with respect to the amplitudes.
-    pub fn lining_gradient(&self, element: &Element, stiffness: impl Iterator<Item = f64>) -> Vec<f64> {
-        let mut out = vec![0.0; element.freedoms()];
-        let none = Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 };
-        for ((state, station), stiffness) in self.stations.iter().zip(&element.stations).zip(stiffness) {
-            let (slope, rate) =
-                bending::gradient(state, &lined(&none, stiffness), station.weight / self.growth);
-            for (i, component) in element.component.iter().enumerate().filter(|(_, c)| **c < ROTATIONS) {
-                out[i] +=
-                    slope[*component] * station.row.integral[i] + rate[*component] * station.row.rate[i];
-            }
-        }
         out
     }
 }

@@ -9,6 +9,7 @@ mod element;
 mod element_derivatives;
 mod fine_points;
 mod kinematics;
+mod lining;
 mod load;
 mod moments;
 mod piece;
