@@ -33,6 +33,15 @@ pub(crate) const FEED_FORCE: f64 = 1e-4;
 /// Closed forms of small slopes, relative.
 pub(crate) const WALL_CLOSED_FORM: f64 = 1e-4;
 
+/// Mean place of contact along a line that begins between elements of an eighth, relative to the length.
+pub(crate) const CONTACT_PLACE: f64 = 2e-4;
+
+/// Stability margin of a column that touches a wall in a point, absolute. The touch has a length, most of all where it spreads.
+pub(crate) const MARGIN_AT_POINT: f64 = 1e-3;
+
+/// Stability margin of a column that lies on a wall along a line, absolute: elements of an eighth hold it a little more.
+pub(crate) const MARGIN_ALONG_LINE: f64 = 1e-2;
+
 /// Push of a sleeve at a slope of a hundredth, relative: half of the slope's square.
 pub(crate) const SLEEVE: f64 = 1e-4;
 

@@ -2,6 +2,8 @@
 //!
 //! Rods are thin, gaps small and walls stiff, so that none of these leaves an error above the tolerance.
 
+mod column;
+mod heavy;
 mod held;
 
 use core::f64::consts::PI;
