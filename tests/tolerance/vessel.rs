@@ -51,6 +51,9 @@ pub(crate) const LIFT_OFF: f64 = 1e-4;
 /// Pitch of a helix in a tube whose slopes squared are 3e-4, relative.
 pub(crate) const HELIX: f64 = 1e-3;
 
+/// Load at which a helix in a tube has no more energy than the rod on the bottom, relative, beside that of its pitch.
+pub(crate) const HELICAL_LOAD: f64 = 5e-4;
+
 /// Force per length of a helix on its tube, relative.
 pub(crate) const LINE_FORCE: f64 = 1e-2;
 
