@@ -9,13 +9,17 @@ their links, so that a constant moment bends the rod to exactly its angle. Each 
 the same time to settle, beside which the links' mass is small; otherwise the stiffest joint dictates the step, and the
 contact does not come to rest. Lengths are in rods, forces in K / L^2, times in the joints' own.
 
-fmu/venv tests/bench/mujoco.txt
-.venv/bin/python tests/bench/vessel_mujoco.py
-.venv/bin/python tests/bench/vessel_mujoco.py rod_between_walls.fmu     beside our own
+Ours are FMUs of the same rods in tubes, moved and loaded in the same steps; their time includes the calls by fmpy.
+
+cargo build --release; fmu/venv tests/bench/mujoco.txt
+.venv/bin/python tests/bench/vessel_mujoco.py     with target/release/mcm, or MCM_BIN
 """
 
-import sys
+import os
+import subprocess
+import tempfile
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -41,7 +45,11 @@ BEND_SETTINGS = (
 SETTLED, MOST = 1e-8, 2000  # rad in a joint's own time; steps: on edges between boxes some never rest
 REPEATS = 9  # of solves between walls, for the median time
 
-ROD = {"length": 0.05, "bending": 1.3e-6, "gap": GAP * 0.05}  # of the FMU, SI
+PACKAGE = Path(__file__).resolve().parents[2]
+LENGTH, BENDING = 0.05, 1.3e-6  # of our rods, SI: m, N m2
+ELEMENTS = 8  # of our rods: the default
+WALLS = (1.0, 10.0, 1e3)  # of our vessels, MPa; the rod's own modulus is 26 MPa
+BEND_WALLS = (1.0, 10.0)  # from 100 MPa on a step into the bend uses up its iterations
 
 
 def joined(links: int, impedance: float, step: float, base: str, walls: str) -> mujoco.MjModel:
@@ -151,30 +159,96 @@ def round_a_bend(links: int, step: float, facet: float) -> tuple[Row, float]:
     return row, touched - np.sqrt((BEND + SLACK) ** 2 - BEND**2)
 
 
-def ours(fmu: Path) -> list[Row]:
-    """The clamped rod in an FMU of ours: a rod of `ROD`, clamped along z, in a straight vessel wider by the gap."""
-    description = read_model_description(fmu)
-    number = {variable.name: variable.valueReference for variable in description.modelVariables}
-    names = ("contact.largest_force", "contact.largest_indentation")
-    if missing := [name for name in names if name not in number]:
-        raise SystemExit(f"{fmu} has no {', '.join(missing)}")
-    slave = instantiate_fmu(extract(fmu), description, "CoSimulation")
-    slave.setupExperiment()
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
-    length, touching = ROD["length"], 2 * ROD["bending"] * ROD["gap"] / ROD["length"] ** 2
-    rows = []
-    for now, moment in enumerate(MOMENTS):
-        slave.setReal([number["tip.load_moment[1]"]], [moment * touching])
+class Ours:
+    """A rod of ours in a tube, as an FMU; lengths and forces in the units of the others."""
+
+    def __init__(self, centreline: Sequence[tuple[float, float]], slack: float, wall: float) -> None:
+        """Clamped along z at the origin; the tube's centreline (x, z) and slack, its wall's modulus in MPa."""
+        points = ", ".join(f"[{1e3 * LENGTH * x}, 0.0, {1e3 * LENGTH * z}]" for x, z in centreline)
+        radius = LENGTH * THICK
+        scene = f"""
+            design = {{ kind = "cylinder", length_mm = {1e3 * LENGTH}, radius_mm = {1e3 * radius},
+                elastic_modulus_mpa = {4e-6 * BENDING / (np.pi * radius**4)}, remanence_t = 0.0, density_kg_m3 = 0.0 }}
+            magnet = {{ strength = 0.0 }}
+            model = {{ interaction = "none" }}
+            [vessel]
+            wall_modulus_mpa = {wall}
+            [[vessel.branch]]
+            name = "tube"
+            points_mm = [{points}]
+            radius_mm = {1e3 * (radius + LENGTH * slack)}
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file, fmu = Path(folder, "rod.toml"), Path(folder, "rod.fmu")
+            file.write_text(scene)
+            mcm = os.environ.get("MCM_BIN", PACKAGE / "target" / "release" / "mcm")
+            subprocess.run(
+                [mcm, "pack", "--scene", file, "--out", fmu], check=True, stdout=subprocess.DEVNULL
+            )
+            description = read_model_description(fmu)
+            self.slave = instantiate_fmu(extract(fmu), description, "CoSimulation")
+        self.number = {variable.name: variable.valueReference for variable in description.modelVariables}
+        self.slave.setupExperiment()
+        self.slave.enterInitializationMode()
+        self.slave.exitInitializationMode()
+        self.now = 0.0
+
+    def step(self, name: str, value: float, unit: float) -> float:
+        """Sets an input; the time of the step, s."""
         start = time.perf_counter()
-        slave.doStep(now, 1.0)
-        force, indented = slave.getReal([number[name] for name in names])
-        seconds = time.perf_counter() - start
-        error = force * 2 * length / (3 * (moment - 1) * touching) - 1
-        rows.append(Row(f"M = {moment:g} M1", "ours", 1, error, indented / ROD["gap"], 1, seconds))
-    slave.terminate()
-    slave.freeInstance()
+        self.slave.setReal([self.number[name]], [value * unit])
+        self.slave.doStep(self.now, 1.0)
+        self.now += 1.0
+        return time.perf_counter() - start
+
+    def get(self, *names: str) -> np.ndarray:
+        """Outputs, SI."""
+        return np.array(self.slave.getReal([self.number[name] for name in names]))
+
+    def close(self) -> None:
+        """Frees the instance."""
+        self.slave.terminate()
+        self.slave.freeInstance()
+
+
+def ours_between_walls(wall: float) -> list[Row]:
+    """Our clamped rod under moments at its tip, each from the straight rod."""
+    rod, rows = Ours([(0, -1), (0, 0.5), (0, 2)], GAP, wall), []
+    for moment in MOMENTS:
+        times = []
+        for _ in range(REPEATS):
+            rod.step("tip.load_moment[2]", 0.0, 1.0)
+            times.append(rod.step("tip.load_moment[2]", moment * 2 * GAP, BENDING / LENGTH))
+        force = np.linalg.norm(rod.get(*(f"contact.force[{k}]" for k in (1, 2, 3)))) * LENGTH**2 / BENDING
+        indented = rod.get("contact.largest_indentation")[0] / (GAP * LENGTH)
+        error = force / (3 * (moment - 1) * GAP) - 1
+        seconds = float(np.median(times))
+        rows.append(
+            Row(f"M = {moment:g} M1", f"ours, wall of {wall:g} MPa", ELEMENTS, error, indented, 1, seconds)
+        )
+    rod.close()
     return rows
+
+
+def ours_round_a_bend(wall: float) -> tuple[Row, float]:
+    """Our rod that is pushed into a bend towards +x; and how far it was pushed on before the tip touched."""
+    ahead = [(0.0, z) for z in np.arange(-1.2, 0.0, 0.02)]
+    turns = np.radians(np.arange(0, 111, 1.0))
+    bent = zip(BEND * (1 - np.cos(turns)), BEND * np.sin(turns), strict=True)
+    rod = Ours([(x, z + 1) for x, z in [*ahead, *bent]], SLACK, wall)
+    times, worst, deepest, touched = [], 0.0, 0.0, None
+    for pushed in np.arange(INCREMENT, PUSHED, INCREMENT):
+        times.append(rod.step("base.position[3]", pushed, LENGTH))
+        indented = rod.get("contact.largest_indentation")[0] / (SLACK * LENGTH)
+        deepest = max(deepest, indented)
+        if touched is None and indented > 0:
+            touched = pushed
+        if touched is not None:
+            x, z = rod.get("tip.position[1]", "tip.position[3]") / LENGTH
+            worst = max(worst, (np.hypot(x - BEND, z - 1) - BEND) / SLACK - 1, key=abs)
+    rod.close()
+    row = Row("bend", f"ours, wall of {wall:g} MPa", ELEMENTS, worst, deepest, 1, float(np.mean(times)))
+    return row, touched - np.sqrt((BEND + SLACK) ** 2 - BEND**2)
 
 
 def main() -> None:
@@ -182,14 +256,17 @@ def main() -> None:
     print(
         f"MuJoCo {version('mujoco')}. Error: of the tip's force; in the bend the worst of its place, in gaps.\n"
     )
-    print("| case | setting | bodies | error | indentation (gaps) | steps | ms a solve | never at rest |")
+    print(
+        "| case | setting | bodies, elements | error | indentation (gaps) | steps | ms a solve | never at rest |"
+    )
     print("| --- | --- | --- | --- | --- | --- | --- | --- |")
     for setting in SETTINGS:
         print(*between_walls(*setting), sep="\n")
-    if len(sys.argv) > 1:
-        print(*ours(Path(sys.argv[1])), sep="\n")
-    for setting in BEND_SETTINGS:
-        row, late = round_a_bend(*setting)
+    for wall in WALLS:
+        print(*ours_between_walls(wall), sep="\n")
+    bends = [(round_a_bend, setting) for setting in BEND_SETTINGS]
+    for bend, setting in bends + [(ours_round_a_bend, (wall,)) for wall in BEND_WALLS]:
+        row, late = bend(*setting)
         if not 0 <= late <= INCREMENT:
             raise RuntimeError(f"{row.setting}: the tip touches {late} too late")
         print(row)
