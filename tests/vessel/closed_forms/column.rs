@@ -195,15 +195,14 @@ fn pressed_column_lies_on_the_wall_as_in_closed_form() {
             shape = plane.weighted(&model);
         }
         let line = Line::new(elements / 8.0 * LENGTH, lightness);
-        let ([axial, weight], mut margin) = (now, 0.0);
+        let [axial, weight] = now;
+        let mut margin = 0.0;
         for part in [0.2, 0.4, 0.6, 0.8, 1.0] {
             now = [axial + part * (line.axial() - axial), weight * (line.weight() / weight).powf(part)];
             let inputs = |moment: f64| inputs(now[0], now[1], moment);
             let mut held = Held::new(&mut model, &plane, &inputs, &direction, moment_unit());
             held.solve(&mut shape, &mut moment);
-            if part == 1.0 {
-                margin = held.smallest(&shape, moment);
-            }
+            margin = held.smallest(&shape, moment);
         }
         let walls = model.wall().expect("a vessel");
         let borne = line.weight() * (LENGTH - line.end);

@@ -141,7 +141,7 @@ fn a_heavy_rod_winds_as_in_closed_form() {
         // A turn away from both ends: the rest of it within the last step counts in part.
         let first = 60;
         let turned = |i: &usize| (angles[*i] - angles[first]).abs() / (2.0 * PI);
-        let last = (first..).find(|i| turned(i) > 1.0).expect("winds");
+        let last = (first..angles.len()).find(|i| turned(i) > 1.0).expect("winds");
         let rest = (1.0 - turned(&(last - 1))) / (turned(&last) - turned(&(last - 1)));
         let at = |i: usize| {
             let [before, angle, after] = [angles[i - 1], angles[i], angles[i + 1]];
