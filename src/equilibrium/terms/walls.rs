@@ -16,6 +16,12 @@ const STEPS: usize = 25;
 /// Step (rad) at which that place is found.
 const FOUND: f64 = 1e-10;
 
+/// Newton steps that the deepest place of a rim may still be away, counted generously.
+const AWAY: f64 = 4.0;
+
+/// Longest Newton step, rad.
+const LONGEST: f64 = 0.5;
+
 /// Angle (rad) within which two places of a rim are one.
 const SAME: f64 = 0.1;
 
@@ -156,7 +162,8 @@ impl Rim<'_> {
         self.frame.advanced(self.height).position + self.arm(angle)[0]
     }
 
-    /// The place near `start` where the rim is nearest to the wall, by Newton's method; `None` where there is none.
+    /// The place near `start` where the rim is nearest to the wall, by Newton's method; where the wall is out of reach, a place
+    /// on the way; `None` where there is none.
     fn deepest(&self, start: f64) -> Option<(f64, Clearance)> {
         let mut angle = start;
         for _ in 0..STEPS {
@@ -164,8 +171,10 @@ impl Rim<'_> {
             let clearance = self.walls.clearance(&self.place(angle))?;
             let slope = clearance.gradient.dot(&along);
             let bend = self.bend(&clearance, [&out, &along]);
-            let step = (slope / bend).clamp(-0.5, 0.5);
-            if step.abs() < FOUND {
+            let step = (slope / bend).clamp(-LONGEST, LONGEST);
+            // The clearance changes by no more than the distance.
+            let free = step.abs() < LONGEST && clearance.value > AWAY * self.radius * step.abs();
+            if step.abs() < FOUND || free {
                 return Some((angle, clearance));
             }
             angle -= step;
