@@ -45,7 +45,7 @@ pub(crate) struct FeedResponse {
     pub(crate) push: f64,
     /// Its derivative with respect to the inserted length, N/m: positive where a constant push holds the shaft.
     pub(crate) stiffness: f64,
-    /// Change of the push, N, along a step of the other inputs, to first order.
+    /// Change of the push, N, along a step of the other inputs, to first order; 0 where none was asked for.
     pub(crate) along: f64,
     /// Axial stiffness of the shaft and what follows, were that all shaft, N/m.
     pub(crate) elastic: f64,
@@ -154,16 +154,19 @@ impl Equilibrium {
         })
     }
 
-    /// How the shaft responds at the last solved shape, and along a step from its inputs towards `toward` at a constant inserted
-    /// length; `None` without a shaft, before the first solve and at a fold.
-    pub(crate) fn feed_response(&self, toward: &Inputs) -> Option<FeedResponse> {
+    /// How the shaft responds at the last solved shape, and along a step from its inputs towards `toward`, if that is given, at a
+    /// constant inserted length; `None` without a shaft, before the first solve and at a fold.
+    pub(crate) fn feed_response(&self, toward: Option<&Inputs>) -> Option<FeedResponse> {
         let inputs = self.branch.inputs.as_ref()?;
         let unknowns = &self.branch.unknowns;
         let mut apart = self.apart();
         let by_insertion = apart.by_insertion(inputs, unknowns)?;
-        let here = apart.slopes(inputs, unknowns)?;
-        let level = Inputs { insertion: inputs.insertion, ..toward.clone() };
-        let near = apart.slopes(&inputs.between(&level, NEARBY), unknowns)?;
+        let mut slopes = None;
+        if let Some(toward) = toward {
+            let here = apart.slopes(inputs, unknowns)?;
+            let level = Inputs { insertion: inputs.insertion, ..toward.clone() };
+            slopes = Some([here, apart.slopes(&inputs.between(&level, NEARBY), unknowns)?]);
+        }
         let push = self.push_of(inputs, unknowns);
         let mut potential = apart.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
@@ -173,8 +176,11 @@ impl Equilibrium {
             potential.solve(&mut shape);
             by_insertion.gradient.iter().zip(&shape).map(|(rate, by)| rate * by).sum::<f64>()
         };
-        let moved = near.gradient.iter().zip(&here.gradient).map(|(after, before)| after - before).collect();
-        let along = (near.push - here.push - yielding(moved)) / NEARBY;
+        let along = slopes.map_or(0.0, |[here, near]| {
+            let moved =
+                near.gradient.iter().zip(&here.gradient).map(|(after, before)| after - before).collect();
+            (near.push - here.push - yielding(moved)) / NEARBY
+        });
         let stiffness = by_insertion.push - yielding(by_insertion.gradient.clone());
         let first = self.chain.elements.first()?;
         let tension = first.metric[EXTENSION] * first.length;
