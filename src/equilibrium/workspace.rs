@@ -110,6 +110,17 @@ impl Workspace {
         }
     }
 
+    /// Forgets the factorisation and all forces of the last shape.
+    pub(super) fn forget(&mut self) {
+        self.factorisation = None;
+        self.friction.forget();
+        self.station_loads.iter_mut().flatten().for_each(|load| *load = Load::zero());
+        self.placed_loads.iter_mut().for_each(PlacedLoads::clear);
+        self.walls = WallLoads::default();
+        self.wrenches = TermWrenches::none();
+        self.base = (Vector3::zeros(), Vector3::zeros());
+    }
+
     /// Pose of a station in the world.
     pub(super) fn station(&self, element: usize, index: usize) -> Pose {
         self.nodes[element].compose(&self.configurations[element].stations[index].pose())

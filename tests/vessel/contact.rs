@@ -1,6 +1,6 @@
 //! Contact with the wall: laws, derivatives and symmetries.
 
-use mcm::equilibrium::{Equilibrium, Inputs, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Outcome, Solution};
 use mcm::manipulator::{Input, Output, Scene};
 use mcm::vessel::{Branch, Lumen, Vessel, Wall};
 use nalgebra::Vector3;
@@ -169,6 +169,48 @@ fn jacobian_in_contact_agrees_with_solves_beside() {
             let apart = (Vector3::new(told[0], told[1], told[2]) - slope).norm();
             assert!(apart < 1e-4 * slope.norm().max(1e-3), "{output:?} by {input:?}: {told} {slope}");
         }
+    }
+}
+
+/// All that is read of a shape.
+fn read(model: &Equilibrium) -> String {
+    let inputs = model.inputs().cloned().unwrap_or(Inputs::unloaded(4));
+    let (shape, rings): (Vec<_>, Vec<_>) = (model.shape().collect(), model.rings().collect());
+    let wrenches = [model.base_reaction(), model.magnetic_wrench(), model.magnet_reaction(&inputs)];
+    let angles: Vec<_> = model.core_angles().collect();
+    format!(
+        "{:?}",
+        (
+            model.tip(),
+            shape,
+            rings,
+            angles,
+            wrenches,
+            model.wall(),
+            model.feed_reaction(&inputs),
+            model.metric()
+        )
+    )
+}
+
+/// Without a vessel and in one, before the first shape and after it.
+#[test]
+fn a_failed_solve_keeps_all_that_is_read() {
+    let scene = segments_of(&SEGMENTS.replace("[vessel]\n", &format!("{SHAFT}[vessel]\n")));
+    let mut beyond = Inputs { insertion: scene.inputs.insertion + 3e-3, ..scene.inputs.clone() };
+    beyond.tip_force.z = -500.0;
+    let inside = || free(&scene).in_vessel(scene.vessel.as_ref().expect("a vessel"));
+    for mut model in [free(&scene), inside(), first_shape(free(&scene), &scene), solved(&scene)] {
+        let before = read(&model);
+        let report = model.solve(&beyond).expect("finite");
+        assert!(!report.solved(), "{report:?}");
+        println!("{report:?}");
+        let after = read(&model);
+        // Where the budget ends, the last equilibrium on the way is kept.
+        assert!(report.outcome == Outcome::OutOfBudget || after == before, "{report:?}\n{before}\n{after}");
+        let mut again = model.clone();
+        again.restore(&model.snapshot()).expect("its own");
+        assert!(after == read(&again), "{report:?}\n{after}\n{}", read(&again));
     }
 }
 
