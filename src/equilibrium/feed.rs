@@ -13,14 +13,14 @@ use crate::rod::{ElementLoads, Load, Order, START};
 /// without stress.
 const EXTENSION: usize = 5;
 
-/// Half the difference of inserted lengths from which derivatives are taken, m: short beside the width over which a wall's force
-/// sets in, long beside the rounding of positions.
+/// Half the difference of inserted lengths from which derivatives are taken, m. No body moves between the two: only the shares of
+/// line loads and of a guidewire, and the places that friction holds, change with the length itself.
 const APART: f64 = 2e-7;
 
 /// Part of a step of the inputs from which the derivatives along it are taken.
 const NEARBY: f64 = 1e-3;
 
-/// Derivatives with respect to the inserted length at a fixed shape of the elements.
+/// Derivatives with respect to the inserted length where every body stays in place: an element that grows is relaxed by as much.
 #[derive(Debug, Clone)]
 pub(super) struct ByInsertion {
     /// Of the gradient.
@@ -31,7 +31,7 @@ pub(super) struct ByInsertion {
     pub(super) push: f64,
 }
 
-/// First derivatives of the energy, as [`Equilibrium::slopes`] gives them.
+/// First derivatives of the energy, as [`Equilibrium::slopes`] gives them; the push is that where every body stays in place.
 struct Slopes {
     gradient: Vec<f64>,
     base: [f64; 6],
@@ -45,7 +45,7 @@ pub(crate) struct FeedResponse {
     pub(crate) push: f64,
     /// Its derivative with respect to the inserted length, N/m: positive where a constant push holds the shaft.
     pub(crate) stiffness: f64,
-    /// Change of the push, N, along a step of the other inputs, to first order.
+    /// Change of the push, N, along a step of the other inputs, to first order; 0 where none was asked for.
     pub(crate) along: f64,
     /// Axial stiffness of the shaft and what follows, were that all shaft, N/m.
     pub(crate) elastic: f64,
@@ -83,14 +83,14 @@ impl Equilibrium {
         energy / inserted - extension / chain.shaft as f64 + self.friction_push() + work.lining_push(chain)
     }
 
-    /// Derivatives of the energy without the elastic one of the bare shaft at any shape: the gradient, the wrench on the base, and that
-    /// with respect to the inserted length.
+    /// Derivatives of the energy without the elastic one of the bare shaft at any shape: the gradient, the wrench on the base, and the
+    /// push.
     fn slopes(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<Slopes> {
         let mut potential = self.potential(inputs, unknowns);
         potential.slope(unknowns)?;
         let mut gradient = potential.gradient().to_vec();
-        let stretching = self.growing().map(|(unknown, rate)| gradient[unknown] * rate).sum::<f64>();
         let (elastic, energy) = self.elastic(unknowns);
+        let stretching = self.growing().map(|(unknown, rate)| elastic[unknown] * rate).sum::<f64>();
         gradient.iter_mut().zip(&elastic).for_each(|(all, elastic)| *all -= elastic);
         let (force, moment) = self.work.base;
         let base = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
@@ -126,44 +126,57 @@ impl Equilibrium {
     }
 
     /// The unknowns whose change moves a shape as a growing inserted length does, and their rates.
-    pub(super) fn growing(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+    fn growing(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
         let shaft = self.chain.shaft;
         let first = self.chain.first[..shaft].to_vec();
         first.into_iter().map(move |first| (first + EXTENSION, 1.0 / shaft as f64))
     }
 
-    /// Derivatives by the inserted length at a fixed shape, by central differences of exact ones; `None` without a shaft and
-    /// where bodies touch.
+    /// Derivatives by the inserted length where every body stays in place, by central differences of exact ones; `None` without a
+    /// shaft and where bodies touch.
     pub(super) fn by_insertion(&mut self, inputs: &Inputs, unknowns: &[f64]) -> Option<ByInsertion> {
         if self.chain.shaft == 0 {
             return None;
         }
-        let middle = inputs.insertion.max(APART);
-        let mut at = |insertion| self.slopes(&Inputs { insertion, ..inputs.clone() }, unknowns);
+        let (middle, length) = (inputs.insertion.max(APART), self.inserted(inputs));
+        let mut at = |insertion| {
+            let inputs = Inputs { insertion, ..inputs.clone() };
+            let (mut still, grown) = (unknowns.to_vec(), self.inserted(&inputs) - length);
+            self.growing().for_each(|(unknown, rate)| still[unknown] -= grown * rate);
+            self.slopes(&inputs, &still)
+        };
         let (before, after) = (at(middle - APART)?, at(middle + APART)?);
         let rate = |(a, b): (&f64, &f64)| (b - a) / (2.0 * APART);
         let mut gradient: Vec<f64> = before.gradient.iter().zip(&after.gradient).map(rate).collect();
         self.potential(inputs, unknowns).slope(unknowns)?;
         let (elastic, energy) = self.elastic(unknowns);
-        let length = self.inserted(inputs);
         gradient.iter_mut().zip(&elastic).for_each(|(all, elastic)| *all -= elastic / length);
+        let mut push = rate((&before.push, &after.push)) + 2.0 * energy / (length * length);
+        for (unknown, rate) in self.growing() {
+            let relaxing = self.metric[unknown] * rate;
+            gradient[unknown] -= relaxing;
+            push += rate * (2.0 * elastic[unknown] / length + relaxing);
+        }
         Some(ByInsertion {
             gradient,
             base: core::array::from_fn(|i| rate((&before.base[i], &after.base[i]))),
-            push: rate((&before.push, &after.push)) + 2.0 * energy / (length * length),
+            push,
         })
     }
 
-    /// How the shaft responds at the last solved shape, and along a step from its inputs towards `toward` at a constant inserted
-    /// length; `None` without a shaft, before the first solve and at a fold.
-    pub(crate) fn feed_response(&self, toward: &Inputs) -> Option<FeedResponse> {
+    /// How the shaft responds at the last solved shape, and along a step from its inputs towards `toward`, if that is given, at a
+    /// constant inserted length; `None` without a shaft, before the first solve and at a fold.
+    pub(crate) fn feed_response(&self, toward: Option<&Inputs>) -> Option<FeedResponse> {
         let inputs = self.branch.inputs.as_ref()?;
         let unknowns = &self.branch.unknowns;
         let mut apart = self.apart();
         let by_insertion = apart.by_insertion(inputs, unknowns)?;
-        let here = apart.slopes(inputs, unknowns)?;
-        let level = Inputs { insertion: inputs.insertion, ..toward.clone() };
-        let near = apart.slopes(&inputs.between(&level, NEARBY), unknowns)?;
+        let mut slopes = None;
+        if let Some(toward) = toward {
+            let here = apart.slopes(inputs, unknowns)?;
+            let level = Inputs { insertion: inputs.insertion, ..toward.clone() };
+            slopes = Some([here, apart.slopes(&inputs.between(&level, NEARBY), unknowns)?]);
+        }
         let push = self.push_of(inputs, unknowns);
         let mut potential = apart.potential(inputs, unknowns);
         potential.linearise(unknowns)?;
@@ -173,8 +186,11 @@ impl Equilibrium {
             potential.solve(&mut shape);
             by_insertion.gradient.iter().zip(&shape).map(|(rate, by)| rate * by).sum::<f64>()
         };
-        let moved = near.gradient.iter().zip(&here.gradient).map(|(after, before)| after - before).collect();
-        let along = (near.push - here.push - yielding(moved)) / NEARBY;
+        let along = slopes.map_or(0.0, |[here, near]| {
+            let moved =
+                near.gradient.iter().zip(&here.gradient).map(|(after, before)| after - before).collect();
+            (near.push - here.push - yielding(moved)) / NEARBY
+        });
         let stiffness = by_insertion.push - yielding(by_insertion.gradient.clone());
         let first = self.chain.elements.first()?;
         let tension = first.metric[EXTENSION] * first.length;
@@ -196,18 +212,15 @@ impl Equilibrium {
         inputs: &Inputs,
         by_insertion: &ByInsertion,
     ) -> DMatrix<f64> {
-        let Response { columns, unknowns, by_base, .. } = response;
-        let mut out = self.weighted_rates(inputs, columns.gradient.ncols());
+        let Response { unknowns, by_base, .. } = response;
+        let mut out = self.weighted_rates(inputs, unknowns.ncols());
         transport_base(&mut out, by_base);
-        for (unknown, rate) in self.growing() {
-            out += columns.gradient.row(unknown) * rate;
-        }
         out[Input::Insertion.columns().start] = by_insertion.push;
         out[Input::GuidewireInsertion.columns().start] = self.work.lining_push_by_reach(&self.chain);
         out + DMatrix::from_row_slice(1, unknowns.nrows(), &by_insertion.gradient) * unknowns
     }
 
-    /// The same at a fixed shape and without what grows, which moves the shape: more length weighs more and touches more.
+    /// The same where every body stays in place: more length weighs more and touches more.
     fn weighted_rates(&self, inputs: &Inputs, columns: usize) -> DMatrix<f64> {
         let (chain, work) = (&self.chain, &self.work);
         let growth = chain.growth(inputs.insertion);

@@ -25,6 +25,12 @@ pub(crate) struct FrictionMemory {
     pub(super) grips: Vec<Grip>,
 }
 
+impl FrictionMemory {
+    pub(super) fn is_finite(&self) -> bool {
+        self.grips.iter().all(Grip::is_finite)
+    }
+}
+
 /// Where the wall presses on the chain.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Where {

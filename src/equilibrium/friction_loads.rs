@@ -1,10 +1,8 @@
 //! Loads of friction on the chain.
 
-use std::sync::Arc;
-
 use super::friction_places::Carrier;
 use super::potential::Potential;
-use crate::rod::PlacedLoad;
+use crate::rod::Load;
 
 impl Potential<'_> {
     /// Adds the loads of friction, as remembered; returns the energy of those that are not on nodes.
@@ -17,12 +15,7 @@ impl Potential<'_> {
             match grip.place.carrier(self.chain, surface, work.growth) {
                 Some(Carrier::Node(node)) => {
                     let (load, stiffness) = grip.load(&work.nodes[node], coefficient);
-                    work.node_loads[node] += load;
-                    work.walls.on_nodes.push((node, load));
-                    if let Some(before) = node.checked_sub(1) {
-                        let lever = self.chain.elements[before].length * work.configurations[before].growth;
-                        work.placed_loads[before].abrupt += stiffness * lever * lever;
-                    }
+                    work.load_node(self.chain, node, (load, stiffness));
                     work.walls.friction.push((grip.place.ring(), -load.force));
                 }
                 Some(Carrier::Row(k, row)) => {
@@ -32,11 +25,8 @@ impl Potential<'_> {
                     let (load, stiffness) = grip.load(&node.compose(&frame.pose), coefficient);
                     energy += load.energy;
                     work.walls.friction.push((None, -load.force));
-                    let placed = &mut work.placed_loads[k];
-                    placed.abrupt += stiffness * (work.configurations[k].growth * element.length).powi(2);
-                    let mut load = load.in_axes(&node.rotation);
-                    load.energy = 0.0; // unlike that of a line load, it does not grow with the shaft
-                    placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
+                    // Unlike the energy of a line load, this one does not grow with the shaft.
+                    work.load_row(self.chain, k, (row, frame), (Load { energy: 0.0, ..load }, stiffness));
                 }
                 None => {}
             }

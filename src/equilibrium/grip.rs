@@ -36,6 +36,11 @@ pub(super) struct Grip {
 }
 
 impl Grip {
+    pub(super) fn is_finite(&self) -> bool {
+        let Self { anchor, arm, normal, force, .. } = self;
+        force.is_finite() && [anchor, arm, normal].iter().all(|vector| vector.iter().all(|x| x.is_finite()))
+    }
+
     fn point(&self, frame: &Pose) -> Vector3<f64> {
         frame.position + frame.rotation * self.arm
     }

@@ -92,11 +92,11 @@ impl Equilibrium {
 
     /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
     pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        let Response { by_base, columns, moving, .. } = response;
+        let Response { by_base, columns, unknowns, .. } = response;
         let inputs = rows.inputs;
         let mut with_field = by_base.clone();
         with_field.rows_mut(FIELD_INPUTS, by_base.nrows() - FIELD_INPUTS).fill(0.0);
-        let by_shape = (&columns.gradient * with_field).tr_mul(moving);
+        let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
         let mut on_field = first(&columns.clamp, FIELD_INPUTS);
         transport_base(&mut on_field, by_base);
         let magnetic = [Output::MagneticForce, Output::MagneticTorque];
@@ -106,7 +106,7 @@ impl Equilibrium {
 
         let reaction = self.magnet_reaction(inputs);
         let (position, rotation) = (Input::MagnetPosition.columns(), Input::MagnetRotation.columns());
-        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(moving);
+        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(unknowns);
         let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
         // The torque is moved from the base to the magnet's centre, which may move.
         let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);

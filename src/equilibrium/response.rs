@@ -16,10 +16,8 @@ pub(super) struct Response {
     pub(super) by_base: DMatrix<f64>,
     /// Mixed derivatives.
     pub(super) columns: InputDerivatives,
-    /// Rates of the unknowns.
+    /// Rates of the unknowns; by the inserted length with what moves the shape as the growing shaft does.
     pub(super) unknowns: DMatrix<f64>,
-    /// The same with what moves the shape as the growing shaft does.
-    pub(super) moving: DMatrix<f64>,
     /// Rates of the push that holds the shaft.
     pub(super) push: DMatrix<f64>,
     pub(super) motion: Motion,

@@ -63,7 +63,6 @@ impl Equilibrium {
         };
         let shape = self.branch.unknowns.clone();
         let by_insertion = self.by_insertion(inputs, &shape);
-        let growing: Vec<_> = self.growing().collect();
         let mut potential = self.potential(inputs, &shape);
         let stiffness = match potential.linearise(&shape) {
             Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
@@ -98,23 +97,10 @@ impl Equilibrium {
         for column in unknowns.as_mut_slice().chunks_exact_mut(shape.len()) {
             potential.solve(column);
         }
-        let mut moving = unknowns.clone();
-        for (unknown, rate) in &growing {
-            moving[(*unknown, insertion)] += rate;
-        }
-        let motion = potential.motion(&moving);
+        let motion = potential.motion(&unknowns);
         let none = || DMatrix::zeros(0, 0);
-        let mut response = Response {
-            counts,
-            with_magnet,
-            by_base,
-            columns,
-            unknowns,
-            moving,
-            motion,
-            push: none(),
-            clamp: none(),
-        };
+        let mut response =
+            Response { counts, with_magnet, by_base, columns, unknowns, motion, push: none(), clamp: none() };
         response.clamp = potential.clamp_rates(&response);
         if let Some(by_insertion) = &by_insertion {
             response.push = self.push_rates(&response, inputs, by_insertion);
@@ -161,9 +147,7 @@ impl Potential<'_> {
     fn clamp_rates(&mut self, response: &Response) -> DMatrix<f64> {
         let columns = &response.columns;
         if self.settings.interaction == Interaction::Preceding {
-            // What the inserted length moves is in the columns.
-            let motion = self.motion(&response.unknowns);
-            return self.clamp_without_reciprocity(&motion) + &columns.clamp;
+            return self.clamp_without_reciprocity(&response.motion) + &columns.clamp;
         }
         // No internal force acts on the clamp: its wrench is the energy's derivative with respect to a motion of all that
         // surrounds the chain. A fixed tip moment has no energy and does not follow the tip.

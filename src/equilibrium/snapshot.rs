@@ -39,7 +39,8 @@ impl Equilibrium {
     /// Restores the snapshot of another equilibrium of the same design, discretisation, magnet and vessel.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for a snapshot of another design or vessel; the branch is then forgotten.
+    /// [`Error::Unsupported`] for a snapshot of another design or vessel, or with friction that is not finite; the branch is then
+    /// forgotten.
     pub fn restore(&mut self, snapshot: &BranchSnapshot) -> Result<(), Error> {
         self.reset();
         let BranchSnapshot { device, branch, friction, origin, rules } = snapshot;
@@ -49,6 +50,9 @@ impl Equilibrium {
         let foreign = || Error::Unsupported("the snapshot is not of this design, magnet and vessel".into());
         if !fits || !self.rules.restore(rules) {
             return Err(foreign());
+        }
+        if !friction.is_finite() {
+            return Err(Error::Unsupported("the snapshot's friction is not finite".into()));
         }
         let Some(inputs) = &branch.inputs else { return Ok(()) };
         for inputs in branch.all_inputs().chain(origin.as_ref().map(|origin| &origin.inputs)) {

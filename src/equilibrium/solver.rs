@@ -128,10 +128,20 @@ impl Equilibrium {
 
     /// Returns to the straight shape at the origin and forgets the branch.
     pub fn reset(&mut self) {
+        let straight = Inputs::unloaded(0);
         self.branch = History::new(&self.chain);
-        self.work.factorisation = None;
-        self.work.friction.forget();
-        self.work.place(&self.chain, &Inputs::unloaded(0), &self.branch.unknowns);
+        self.work.forget();
+        self.lay_out(&straight);
+        self.work.place(&self.chain, &straight, &self.branch.unknowns);
+    }
+
+    /// Evaluates the last good shape again, from which results are read: a solve that fails leaves its last trial.
+    fn go_back(&mut self) {
+        let Some(inputs) = self.branch.inputs.clone() else { return self.reset() };
+        let unknowns = self.branch.unknowns.clone();
+        self.lay_out(&inputs);
+        // It was evaluated when it was found.
+        let _ = self.potential(&inputs, &unknowns).slope(&unknowns);
     }
 
     /// Fraction of the closed section's stiffness that the windings of each core have reached, 0 (open) to 1, whether or
@@ -153,6 +163,9 @@ impl Equilibrium {
     }
 
     /// Follows the branch to `inputs`.
+    ///
+    /// A solve that fails keeps the last good shape with all that is read of it; one whose budget ends keeps the last equilibrium
+    /// on the way, at [`Self::inputs`]. Before the first shape that is the straight, unloaded one.
     ///
     /// # Errors
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the branch is then
@@ -192,6 +205,9 @@ impl Equilibrium {
             {
                 (report.margin, self.branch.margin) = (margin, margin);
             }
+        }
+        if !report.solved() {
+            self.go_back();
         }
         Ok(report)
     }

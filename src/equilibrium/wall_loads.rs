@@ -1,14 +1,11 @@
 //! Loads of the vessel's wall on the chain: on its arcs, on the rims of its rings and on its tip.
 
-use std::sync::Arc;
-
 use super::friction::{Pressure, Where};
 use super::grip::Place;
 use super::potential::Potential;
 use super::terms::Touch;
 use super::wall_contacts::{ArcPart, Site, WallContact};
 use crate::numerics::quadrature::gauss_legendre;
-use crate::rod::PlacedLoad;
 
 /// Gauss points of a part of an arc in contact.
 const POINTS: usize = 4;
@@ -51,12 +48,7 @@ impl Potential<'_> {
     }
 
     fn load_node(&mut self, node: usize, (site, place): (Site, Place), touch: &Touch) {
-        self.work.node_loads[node] += touch.load;
-        self.work.walls.on_nodes.push((node, touch.load));
-        if let Some(before) = node.checked_sub(1) {
-            let lever = self.chain.elements[before].length * self.work.configurations[before].growth;
-            self.work.placed_loads[before].abrupt += touch.stiffness * lever * lever;
-        }
+        self.work.load_node(self.chain, node, (touch.load, touch.stiffness));
         self.work.walls.contacts.push(WallContact::new(site, touch));
         self.work.friction.press(Pressure { on: Where::At(place), force: -touch.load.force, arm: touch.arm });
     }
@@ -85,10 +77,7 @@ impl Potential<'_> {
                 work.walls.contacts.push(WallContact { depth: touch.depth.max(*deepest), ..contact });
                 let on = Where::Along(*k, *piece, row.arc_length);
                 work.friction.press(Pressure { on, force: -touch.load.force, arm: touch.arm });
-                let placed = &mut work.placed_loads[*k];
-                placed.abrupt += touch.stiffness * (growth * element.length).powi(2);
-                let load = touch.load.in_axes(&node.rotation);
-                placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
+                work.load_row(self.chain, *k, (row, frame), (touch.load, touch.stiffness));
             }
         }
         work.walls.parts = parts;

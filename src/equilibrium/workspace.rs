@@ -1,5 +1,7 @@
 //! Workspace of the evaluations of the potential.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use super::chain::Chain;
@@ -12,7 +14,9 @@ use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
 use super::wall_contacts::WallLoads;
 use crate::geometry::Pose;
-use crate::rod::{Configuration, ElementDerivatives, Load, PlacedCoupling, PlacedLoad, START};
+use crate::rod::{
+    Configuration, ElementDerivatives, FrameState, Load, PlacedCoupling, PlacedLoad, Row, START,
+};
 
 /// Everything that an evaluation overwrites; kept between solves so that none of them allocates.
 #[derive(Debug, Clone)]
@@ -106,6 +110,17 @@ impl Workspace {
         }
     }
 
+    /// Forgets the factorisation and all forces of the last shape.
+    pub(super) fn forget(&mut self) {
+        self.factorisation = None;
+        self.friction.forget();
+        self.station_loads.iter_mut().flatten().for_each(|load| *load = Load::zero());
+        self.placed_loads.iter_mut().for_each(PlacedLoads::clear);
+        self.walls = WallLoads::default();
+        self.wrenches = TermWrenches::none();
+        self.base = (Vector3::zeros(), Vector3::zeros());
+    }
+
     /// Pose of a station in the world.
     pub(super) fn station(&self, element: usize, index: usize) -> Pose {
         self.nodes[element].compose(&self.configurations[element].stations[index].pose())
@@ -130,6 +145,36 @@ impl Workspace {
             self.configurations[k].update(element, chain.part(k, unknowns));
             self.nodes[k + 1] = self.nodes[k].compose(&self.configurations[k].end);
         }
+    }
+
+    /// Adds a load of the wall on a node, in world axes, with its stiffness (N/m): it changes abruptly with the shape.
+    pub(super) fn load_node(&mut self, chain: &Chain, node: usize, (load, stiffness): (Load, f64)) {
+        self.node_loads[node] += load;
+        self.walls.on_nodes.push((node, load));
+        if let Some(before) = node.checked_sub(1) {
+            let lever = self.lever(chain, before);
+            self.placed_loads[before].abrupt += stiffness * lever * lever;
+        }
+    }
+
+    /// The same at a row of an element's tables, whose frame is in that of the element's start node.
+    pub(super) fn load_row(
+        &mut self,
+        chain: &Chain,
+        element: usize,
+        (row, frame): (Row, FrameState),
+        (load, stiffness): (Load, f64),
+    ) {
+        let lever = self.lever(chain, element);
+        let load = load.in_axes(&self.nodes[element].rotation);
+        let placed = &mut self.placed_loads[element];
+        placed.abrupt += stiffness * (lever * lever);
+        placed.loads.push(PlacedLoad { row: Arc::new(row), frame, load });
+    }
+
+    /// Length of an element, m: the lever by which a stiffness on it resists its rotation.
+    fn lever(&self, chain: &Chain, element: usize) -> f64 {
+        chain.elements[element].length * self.configurations[element].growth
     }
 
     /// The storage of the last Hessian, factorised or not.

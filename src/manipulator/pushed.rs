@@ -55,7 +55,7 @@ impl Hierarchy {
         let mut balance =
             Balance { between: [0.0, LONGEST_INSERTION], last: None, stiffness: 0.0, ran: false };
         if known.is_some()
-            && let Some(response) = self.present().feed_response(inputs)
+            && let Some(response) = self.present().feed_response(Some(inputs))
             && response.stiffness > FREE * response.elastic
         {
             let missing = response.push + response.along - push;
@@ -100,14 +100,13 @@ impl Balance {
         {
             return None;
         }
-        let by_difference = self.last.map(|last| [here - last[0], missing - last[1]]);
-        self.last = Some([here, missing]);
-        match by_difference {
-            Some([apart, change]) if apart.abs() >= DIFFERENT => self.stiffness = change / apart,
-            _ => {}
+        if let Some([length, lacking]) = self.last.replace([here, missing])
+            && (here - length).abs() >= DIFFERENT
+        {
+            self.stiffness = (missing - lacking) / (here - length);
         }
         if self.stiffness <= 0.0 {
-            self.stiffness = model.feed_response(inputs).map_or(0.0, |response| response.stiffness);
+            self.stiffness = model.feed_response(None).map_or(0.0, |response| response.stiffness);
         }
         self.between[usize::from(missing > 0.0)] = here;
         let step = if self.stiffness > 0.0 {
@@ -137,14 +136,12 @@ fn judged(model: &Equilibrium, inputs: &Inputs, report: Report) -> Report {
     if inputs.insertion == 0.0 {
         return report;
     }
-    let Some(response) = model.feed_response(inputs) else { return report };
+    let Some(response) = model.feed_response(None) else { return report };
     let relative = response.stiffness / response.elastic;
-    let held = relative > FREE;
-    let free = relative.abs() <= FREE;
     Report {
-        outcome: if free { Outcome::Neutral } else { report.outcome },
+        outcome: if relative.abs() <= FREE { Outcome::Neutral } else { report.outcome },
         margin: report.margin.min(relative),
-        stable: report.stable.map(|stable| stable && (held || free)),
+        stable: report.stable.map(|stable| stable && relative >= -FREE),
         ..report
     }
 }

@@ -66,6 +66,9 @@ pub(crate) const CONTACT_SLOPE: f64 = 1e-6;
 /// Hessian in contact beside differences of the gradient, relative.
 pub(crate) const CONTACT_RATE: f64 = 1e-4;
 
+/// Derivatives by the inserted length in contact beside differences of solves, relative.
+pub(crate) const CONTACT_INSERTION: f64 = 1e-4;
+
 /// Tip of a scene that is moved as a whole, m.
 pub(crate) const WALL_MOVED: f64 = 1e-11;
 

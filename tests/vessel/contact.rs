@@ -1,11 +1,11 @@
 //! Contact with the wall: laws, derivatives and symmetries.
 
-use mcm::equilibrium::{Equilibrium, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Outcome, Solution};
 use mcm::manipulator::{Input, Output, Scene};
 use mcm::vessel::{Branch, Lumen, Vessel, Wall};
 use nalgebra::Vector3;
 
-use crate::tolerance::{CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_MOVED};
+use crate::tolerance::{CONTACT_INSERTION, CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_MOVED};
 
 /// Hertz for a ball of 2 mm in a silicone of 1.7e6 Pa.
 #[test]
@@ -36,6 +36,9 @@ const SEGMENTS: &str = "[field]\nuniform_mt = [-3.0, 3.0, 0.0]\n\
     [gravity]\nacceleration_m_s2 = [0.0, -9.81, 0.0]\n[load]\ntip_force_n = [0.001, 0.0, -0.002]\n\
     [model]\ninteraction = \"rings\"\ntime_budget_s = 60.0\n[vessel]\n[[vessel.branch]]\nname = \"arc\"\n";
 
+const SHAFT: &str = "[feed]\nmode = \"insertion\"\ninsertion_mm = 15.0\n[feed.shaft]\nouter_radius_mm = 0.75\n\
+    inner_radius_mm = 0.25\nshore_a = 40.0\npoisson = 0.45\n";
+
 /// Three segments in a bent vessel, in which they touch the wall with rings and windings.
 fn segments() -> Scene {
     segments_with("")
@@ -43,7 +46,12 @@ fn segments() -> Scene {
 
 /// The same with these entries of the design.
 fn segments_with(entries: &str) -> Scene {
-    let points: Vec<String> = (-10..=30)
+    segments_of(&format!("{entries}{SEGMENTS}"))
+}
+
+/// Three segments with these tables, of which the last begins with the branch.
+fn segments_of(tables: &str) -> Scene {
+    let points: Vec<String> = (-10..=40)
         .map(|i| {
             let angle = f64::from(i) * 0.02;
             format!(
@@ -54,17 +62,22 @@ fn segments_with(entries: &str) -> Scene {
             )
         })
         .collect();
-    let text = format!(
-        "[design]\nsegments = 3\n{entries}{SEGMENTS}points_mm = [{}]\nradius_mm = 2.2\n",
-        points.join(", ")
-    );
+    let text =
+        format!("[design]\nsegments = 3\n{tables}points_mm = [{}]\nradius_mm = 2.2\n", points.join(", "));
     Scene::parse(&text, "segments").expect("a scene")
 }
 
 fn solved(scene: &Scene) -> Equilibrium {
+    first_shape(free(scene).in_vessel(scene.vessel.as_ref().expect("a vessel")), scene)
+}
+
+/// The unsolved device of a scene without its vessel.
+fn free(scene: &Scene) -> Equilibrium {
     let settings = scene.settings.as_discretised();
-    let model = Equilibrium::new(&scene.design().expect("allowed"), None, settings, 11).expect("allowed");
-    let mut model = model.in_vessel(scene.vessel.as_ref().expect("a vessel"));
+    Equilibrium::new(&scene.design().expect("allowed"), None, settings, 11).expect("allowed")
+}
+
+fn first_shape(mut model: Equilibrium, scene: &Scene) -> Equilibrium {
     let report = model.solve(&scene.inputs).expect("finite");
     assert!(report.solved() && report.stable == Some(true), "{report:?}");
     model
@@ -155,6 +168,77 @@ fn jacobian_in_contact_agrees_with_solves_beside() {
             let told = jacobian.block(output, input).expect("exists").column(axis).into_owned();
             let apart = (Vector3::new(told[0], told[1], told[2]) - slope).norm();
             assert!(apart < 1e-4 * slope.norm().max(1e-3), "{output:?} by {input:?}: {told} {slope}");
+        }
+    }
+}
+
+/// All that is read of a shape.
+fn read(model: &Equilibrium) -> String {
+    let inputs = model.inputs().cloned().unwrap_or(Inputs::unloaded(4));
+    let (shape, rings): (Vec<_>, Vec<_>) = (model.shape().collect(), model.rings().collect());
+    let wrenches = [model.base_reaction(), model.magnetic_wrench(), model.magnet_reaction(&inputs)];
+    let angles: Vec<_> = model.core_angles().collect();
+    format!(
+        "{:?}",
+        (
+            model.tip(),
+            shape,
+            rings,
+            angles,
+            wrenches,
+            model.wall(),
+            model.feed_reaction(&inputs),
+            model.metric()
+        )
+    )
+}
+
+/// Without a vessel and in one, before the first shape and after it.
+#[test]
+fn a_failed_solve_keeps_all_that_is_read() {
+    let scene = segments_of(&SEGMENTS.replace("[vessel]\n", &format!("{SHAFT}[vessel]\n")));
+    let mut beyond = Inputs { insertion: scene.inputs.insertion + 3e-3, ..scene.inputs.clone() };
+    beyond.tip_force.z = -500.0;
+    let inside = || free(&scene).in_vessel(scene.vessel.as_ref().expect("a vessel"));
+    for mut model in [free(&scene), inside(), first_shape(free(&scene), &scene), solved(&scene)] {
+        let before = read(&model);
+        let report = model.solve(&beyond).expect("finite");
+        assert!(!report.solved(), "{report:?}");
+        println!("{report:?}");
+        let after = read(&model);
+        // Where the budget ends, the last equilibrium on the way is kept.
+        assert!(report.outcome == Outcome::OutOfBudget || after == before, "{report:?}\n{before}\n{after}");
+        let mut again = model.clone();
+        again.restore(&model.snapshot()).expect("its own");
+        assert!(after == read(&again), "{report:?}\n{after}\n{}", read(&again));
+    }
+}
+
+/// The segments on a shaft that is pushed in, on walls from soft to stiff, beside fourth-order differences of whole solves.
+#[test]
+fn derivatives_by_the_inserted_length_agree_with_solves_beside() {
+    let step = 1e-7;
+    for modulus in [1.0, 30.0, 1000.0] {
+        let tables = format!("{SHAFT}[vessel]\nwall_modulus_mpa = {modulus}\n");
+        let scene = segments_of(&SEGMENTS.replace("[vessel]\n", &tables));
+        let model = solved(&scene);
+        let jacobian = model.jacobian().expect("regular");
+        let at = |steps: f64| {
+            let inputs = Inputs { insertion: scene.inputs.insertion + steps * step, ..scene.inputs.clone() };
+            let mut beside = model.clone();
+            assert!(beside.solve(&inputs).expect("finite").solved());
+            let push = Vector3::x() * beside.feed_reaction(&inputs).expect("a shaft");
+            [beside.tip().position, beside.base_reaction().force, push]
+        };
+        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
+        let outputs = [Output::TipPosition, Output::BaseReactionForce, Output::FeedReaction];
+        for (index, output) in outputs.into_iter().enumerate() {
+            let slope = ((c[index] - b[index]) * 8.0 - (d[index] - a[index])) / (12.0 * step);
+            let told = jacobian.block(output, Input::Insertion).expect("exists");
+            let told = Vector3::from_fn(|i, _| told.get((i, 0)).copied().unwrap_or_default());
+            let apart = (told - slope).norm() / slope.norm();
+            println!("{modulus} MPa, {output:?}: {apart:.1e} of {:.3e}", slope.norm());
+            assert!(apart < CONTACT_INSERTION, "{modulus} MPa, {output:?}: {told} {slope}");
         }
     }
 }

@@ -3,6 +3,7 @@
 use mcm::equilibrium::{Equilibrium, Inputs, Solution};
 use mcm::manipulator::{Scene, Status};
 use nalgebra::Vector3;
+use toml::Value;
 
 use super::friction::{normal, push, solve, to};
 use crate::tolerance::{FRICTION_DERIVATIVE, WALL_BALANCE};
@@ -86,6 +87,28 @@ fn gradient_and_hessian_of_friction_agree_with_differences() {
     let whole: f64 = direction.iter().zip(&metric).map(|(d, k)| k * d * d).sum();
     println!("Hessian: {:.1e}", (apart / whole).sqrt());
     assert!((apart / whole).sqrt() < FRICTION_DERIVATIVE, "{}", (apart / whole).sqrt());
+}
+
+#[test]
+fn a_snapshot_with_friction_that_is_not_finite_is_refused() {
+    let scene = pressed("rings", "0.4").expect("a scene");
+    let mut first = model(&scene);
+    for insertion in [0.004, 0.006] {
+        solve(&mut first, &Inputs { insertion, ..scene.inputs.clone() });
+    }
+    let whole = Value::try_from(first.snapshot()).expect("a table");
+    let restore = |value: Value| model(&scene).restore(&value.try_into().expect("a snapshot"));
+    restore(whole.clone()).expect("as it was");
+    for odd in [f64::NAN, f64::INFINITY] {
+        for key in ["force", "anchor", "arm", "normal"] {
+            let mut other = whole.clone();
+            let number = &mut other["friction"]["grips"][0][key];
+            let number = if number.is_array() { &mut number[1] } else { number };
+            *number = Value::Float(odd);
+            let refused = restore(other).expect_err(key).to_string();
+            assert!(refused.contains("friction is not finite"), "{refused}");
+        }
+    }
 }
 
 #[test]

@@ -93,6 +93,11 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
             "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
         })
     });
+    // Places of the contacts (0) or forces there (1).
+    let contacts = |which: usize| {
+        let places = outputs.wall.as_ref().map(|wall| wall.places.iter());
+        json!(places.map(|places| places.map(|contact| vector(&contact[which])).collect::<Vec<_>>()))
+    };
     let shape = [
         ("alpha_rad", json!(outputs.tip_angle)),
         ("tip_position_m", vector(&outputs.tip.position)),
@@ -114,26 +119,8 @@ fn as_json(outputs: &Outputs, jacobian: &Result<Jacobian, Error>, magnet: bool) 
             "ring_contact_forces_n",
             json!(outputs.wall.as_ref().map(|wall| wall.rings.iter().map(vector).collect::<Vec<_>>())),
         ),
-        (
-            "contact_places_m",
-            json!(
-                outputs.wall.as_ref().map(|wall| wall
-                    .places
-                    .iter()
-                    .map(|[at, _]| vector(at))
-                    .collect::<Vec<_>>())
-            ),
-        ),
-        (
-            "contact_forces_n",
-            json!(
-                outputs.wall.as_ref().map(|wall| wall
-                    .places
-                    .iter()
-                    .map(|[_, force]| vector(force))
-                    .collect::<Vec<_>>())
-            ),
-        ),
+        ("contact_places_m", contacts(0)),
+        ("contact_forces_n", contacts(1)),
         ("feed_length_m", json!(outputs.feed_length)),
         ("feed_reaction_force_n", json!(outputs.feed_reaction)),
         ("stable", json!(outputs.stable)),

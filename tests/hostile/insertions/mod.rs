@@ -4,12 +4,15 @@
 mod promises;
 mod scenes;
 mod tally;
+#[path = "../worst.rs"]
+mod worst;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use promises::{Defect, try_insertion};
+use promises::try_insertion;
 use scenes::Insertion;
 pub(crate) use tally::Tally;
+use worst::Defect;
 
 /// The seed unless another one is given.
 pub(crate) const SEED: u64 = 20_260_101;

@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 
 use super::scenes::Insertion;
 use super::tally::Tally;
+use super::worst::Defect;
 
 /// Centreline points at which the shape is looked at.
 const POINTS: usize = 121;
@@ -39,20 +40,6 @@ const FINER: u32 = 16;
 
 /// Distance (m) of the tip from that after finer steps beyond which another branch was met.
 const ELSEWHERE: f64 = 1e-5;
-
-/// A promise that was broken.
-#[derive(Debug, Clone)]
-pub(crate) struct Defect {
-    pub(crate) index: u64,
-    pub(crate) step: usize,
-    pub(crate) what: String,
-}
-
-impl fmt::Display for Defect {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "insertion {} step {}: {}", self.index, self.step, self.what)
-    }
-}
 
 /// Solves the steps of an insertion one after the other; `alone` tells them.
 pub(crate) fn try_insertion(insertion: &Insertion, index: u64, alone: bool) -> Tally {

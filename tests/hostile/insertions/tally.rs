@@ -3,16 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use mcm::manipulator::{Inputs, Outcome, Outputs, Status};
+use mcm::manipulator::{Inputs, Outputs, Status};
 
-use super::promises::{Defect, Repeated};
+use super::promises::Repeated;
 use super::scenes::Insertion;
-
-/// How many of the worst are told.
-const WORST: usize = 5;
-
-/// A number and the insertion and step where it was met.
-type Place = (f64, u64, usize);
+use super::worst::{Defect, Place, ending, keep, listed, write_defects};
 
 /// What was done and found.
 #[derive(Debug, Default, Clone)]
@@ -32,13 +27,6 @@ pub(crate) struct Tally {
     pub(crate) defects: Vec<Defect>,
 }
 
-/// Keeps the largest.
-fn keep(list: &mut Vec<Place>, more: &[Place]) {
-    list.extend_from_slice(more);
-    list.sort_by(|a, b| b.0.total_cmp(&a.0));
-    list.truncate(WORST);
-}
-
 impl Tally {
     /// Of an insertion that begins.
     pub(crate) fn of_one() -> Self {
@@ -47,13 +35,8 @@ impl Tally {
 
     /// Adds an answer; `last` are the inputs before.
     pub(crate) fn count(&mut self, own: &Insertion, out: &Outputs, last: Option<&Inputs>, inputs: &Inputs) {
-        let ending = match (out.outcome, out.status) {
-            (Outcome::Solved, Status::Snapped) => "solved after a snap",
-            (Outcome::Solved, Status::NearFold) => "solved near a fold",
-            (outcome, _) => outcome.name(),
-        };
         let when = if last.is_some() { "step" } else { "first" };
-        *self.endings.entry((own.vessel, when, ending)).or_default() += 1;
+        *self.endings.entry((own.vessel, when, ending(out))).or_default() += 1;
         if let Some(last) = last {
             let by = 1e3 * (inputs.insertion - last.insertion);
             let push = match by {
@@ -136,10 +119,6 @@ impl fmt::Display for Tally {
         let but_for = |many: usize| {
             seconds.len().checked_sub(1 + seconds.len() / many).map_or(f64::NAN, |at| seconds[at])
         };
-        let list = |places: &[Place]| {
-            let each = places.iter().map(|(value, index, step)| format!("{value:.1e} ({index}.{step})"));
-            each.collect::<Vec<_>>().join(", ")
-        };
         let whole: f64 = seconds.iter().sum();
         writeln!(
             out,
@@ -158,16 +137,15 @@ impl fmt::Display for Tally {
             "times: median {:.1} ms, 99 % {:.1} ms; slowest {} s; beyond its budget {} s",
             1e3 * but_for(2),
             1e3 * but_for(100),
-            list(&self.slowest),
-            list(&self.latest)
+            listed(&self.slowest),
+            listed(&self.latest)
         )?;
         for (name, places) in ["soft parts", "rims", "rings between their rims"].iter().zip(&self.deeper) {
-            writeln!(out, "{name} deeper than told: {} m", list(places))?;
+            writeln!(out, "{name} deeper than told: {} m", listed(places))?;
         }
-        writeln!(out, "unbalanced, of all forces: {}", list(&self.unbalanced))?;
+        writeln!(out, "unbalanced, of all forces: {}", listed(&self.unbalanced))?;
         let again: Vec<String> = self.repeated.iter().map(|(how, count)| format!("{how} {count}")).collect();
         writeln!(out, "steps done again in small parts: {}", again.join(", "))?;
-        write!(out, "defects: {}", self.defects.len())?;
-        self.defects.iter().try_for_each(|defect| write!(out, "\n  {defect}"))
+        write_defects(out, "insertion", &self.defects)
     }
 }

@@ -19,15 +19,18 @@ mod judge;
 mod promises;
 mod scenes;
 mod tally;
+#[path = "../worst.rs"]
+mod worst;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use promises::{Defect, try_walk};
+use promises::try_walk;
 use rayon::prelude::*;
 use scenes::Walk;
 use tally::Tally;
+use worst::Defect;
 
 /// Walks between two lines of progress.
 const CHUNK: u64 = 5_000;
@@ -52,7 +55,7 @@ fn main() -> ExitCode {
         let done = walks.into_par_iter().map(|index| attempt(seed, index, false));
         let more = done.reduce(Tally::default, Tally::with);
         for defect in &more.defects {
-            println!("DEFECT {defect}");
+            println!("DEFECT walk {defect}");
         }
         sum = sum.with(more);
         println!("{} walks after {:.0} s", sum.walks, start.elapsed().as_secs_f64());

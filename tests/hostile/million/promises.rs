@@ -1,7 +1,5 @@
 //! What every answer promises, and whether it keeps it.
 
-use std::fmt;
-
 use cpu_time::ThreadTime;
 use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution};
 use mcm::manipulator::{Inputs, Manipulator, Outcome, Outputs, Scene, Status};
@@ -10,6 +8,7 @@ use nalgebra::Vector3;
 use super::judge::Judge;
 use super::scenes::Walk;
 use super::tally::Tally;
+use super::worst::Defect;
 
 /// One walk in so many is judged.
 const SAMPLE: u64 = 100;
@@ -36,20 +35,6 @@ const BALANCE: f64 = 1e-7;
 
 /// Distance of the finer model's equilibrium over the length, times the margin: what the model of the answer leaves out.
 const FINER: f64 = 5e-3;
-
-/// A promise that was broken.
-#[derive(Debug, Clone)]
-pub(crate) struct Defect {
-    pub(crate) index: u64,
-    pub(crate) step: usize,
-    pub(crate) what: String,
-}
-
-impl fmt::Display for Defect {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "walk {} step {}: {}", self.index, self.step, self.what)
-    }
-}
 
 /// Solves the scenes of a walk one after the other; `alone` tells them.
 pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {

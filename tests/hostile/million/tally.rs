@@ -3,16 +3,11 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use mcm::manipulator::{Outcome, Outputs, Status};
+use mcm::manipulator::{Outputs, Status};
 
-use super::promises::{Defect, Figures};
+use super::promises::Figures;
 use super::scenes::Walk;
-
-/// How many of the worst are told.
-const WORST: usize = 5;
-
-/// A number and the walk and step where it was met.
-type Place = (f64, u64, usize);
+use super::worst::{Defect, Place, ending, keep, listed, write_defects};
 
 /// Solves that ended alike.
 #[derive(Debug, Default, Clone)]
@@ -44,13 +39,6 @@ pub(crate) struct Tally {
     softest: Vec<Place>,
 }
 
-/// Keeps the largest.
-fn keep(list: &mut Vec<Place>, more: &[Place]) {
-    list.extend_from_slice(more);
-    list.sort_by(|a, b| b.0.total_cmp(&a.0));
-    list.truncate(WORST);
-}
-
 impl Tally {
     /// Of a walk that begins.
     pub(crate) fn of_one_walk() -> Self {
@@ -59,13 +47,8 @@ impl Tally {
 
     /// Adds an answer.
     pub(crate) fn count(&mut self, walk: &Walk, out: &Outputs, seconds: f64, (index, step): (u64, usize)) {
-        let ending = match (out.outcome, out.status) {
-            (Outcome::Solved, Status::Snapped) => "solved after a snap",
-            (Outcome::Solved, Status::NearFold) => "solved near a fold",
-            (outcome, _) => outcome.name(),
-        };
         let one = Ending { count: 1, seconds, slowest: vec![(seconds, index, step)] };
-        self.endings.entry((walk.level, ending)).or_default().add(&one);
+        self.endings.entry((walk.level, ending(out))).or_default().add(&one);
         self.snaps += u64::from(out.status == Status::Snapped);
     }
 
@@ -96,22 +79,17 @@ impl fmt::Display for Tally {
         let solves: u64 = self.endings.values().map(|ending| ending.count).sum();
         let seconds: f64 = self.endings.values().map(|ending| ending.seconds).sum();
         writeln!(out, "{} walks, {solves} solves in {seconds:.0} s of processor time", self.walks)?;
-        let list = |places: &[Place]| {
-            let each = places.iter().map(|(value, index, step)| format!("{value:.1e} ({index}.{step})"));
-            each.collect::<Vec<_>>().join(", ")
-        };
         for ((level, name), ending) in &self.endings {
             let Ending { count, seconds, slowest } = ending;
-            writeln!(out, "{level:>10} {name:<20} {count:>8} {seconds:>8.1} s: {}", list(slowest))?;
+            writeln!(out, "{level:>10} {name:<20} {count:>8} {seconds:>8.1} s: {}", listed(slowest))?;
         }
         writeln!(out, "solves with a snap: {}; answers judged: {}", self.snaps, self.judged)?;
         writeln!(
             out,
             "tip off the finer model's over the length, times the margin: {}",
-            list(&self.farthest)
+            listed(&self.farthest)
         )?;
-        writeln!(out, "least margin by the finer model, negated: {}", list(&self.softest))?;
-        write!(out, "defects: {}", self.defects.len())?;
-        self.defects.iter().try_for_each(|defect| write!(out, "\n  {defect}"))
+        writeln!(out, "least margin by the finer model, negated: {}", listed(&self.softest))?;
+        write_defects(out, "walk", &self.defects)
     }
 }

@@ -162,7 +162,7 @@ impl Picture {
         let pixel = self.sides()[0] / INSIDE;
         // As long as it seems in the plane.
         let length = 26.0 * pixel / magnitude;
-        let (_, high) = (self.corners[0], self.corners[1]);
+        let [_, high] = self.corners;
         let centre = (high.0 - 40.0 * pixel, high.1 - 40.0 * pixel);
         let half = (x * length, y * length);
         if half.0.hypot(half.1) > pixel {
