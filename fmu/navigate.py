@@ -25,6 +25,7 @@ WAY = Path(__file__).with_name("navigate_way.csv")
 SPEED = 8.3  # mm/s: half a metre in a minute
 STEP = 2.0  # mm between two communication points
 TURN = 0.4  # mm that count as a turn of the magnet by a degree
+POINTS = 121  # of the centreline
 SHORTEST = STEP / SPEED / 16  # s; a step in which no shape is found is divided down to this
 
 OUTPUTS = [
@@ -140,7 +141,8 @@ def main() -> None:
     arguments = parser.parse_args()
     text = scene(arguments.mcm, arguments.friction)
     Path("navigate.toml").write_text(text)
-    subprocess.run([arguments.mcm, "pack", "--scene", "navigate.toml", "--out", "navigate.fmu"], check=True)
+    packed = ["--scene", "navigate.toml", "--shape-points", str(POINTS), "--out", "navigate.fmu"]
+    subprocess.run([arguments.mcm, "pack", *packed], check=True)
     rows = way(np.loadtxt(WAY, delimiter=",", skiprows=1))
     table, shapes = drive(Path("navigate.fmu"), rows, arguments.to / 1e3)
     names = ["time", "magnet_x_mm", "magnet_z_mm", "heading_deg", "beneath_mm", *OUTPUTS, *COUNTS]

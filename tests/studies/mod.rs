@@ -11,6 +11,7 @@ mod fig7b;
 mod fig7c;
 mod fig7d;
 mod fig8;
+mod fig9;
 mod hysteresis;
 mod rest;
 mod stability;

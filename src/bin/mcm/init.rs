@@ -18,18 +18,18 @@ const IN_VESSEL: &str = "\
 [design]
 spiral = \"alternating\"
 
+[design.backbone]                # the tube through all bores; behind the base it goes on as the shaft
+outer_radius_mm = 0.75
+inner_radius_mm = 0.25
+shore_a = 40.0
+poisson = 0.45
+
 [magnet]                         # beneath the port, its field along the vessel
 position_mm = [0.0, -120.0, 20.0]
 
 [feed]
 mode = \"insertion\"
 insertion_mm = 0.0
-
-[feed.shaft]
-outer_radius_mm = 0.75
-inner_radius_mm = 0.25
-shore_a = 40.0
-poisson = 0.45
 
 [model]
 interaction = \"rings\"

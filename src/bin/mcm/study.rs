@@ -19,7 +19,7 @@ use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 #[derive(clap::Args)]
 #[command(
     after_help = "`all` computes every figure of the paper and also writes the comparison to comparison.md. It does \
-not include `accuracy` and `fidelity`, which measure times, `bifurcation` and `stability`, which take long, and \
+not include `accuracy` and `fidelity`, which measure times, `bifurcation`, `stability` and `fig9`, which take long, and \
 `budget`, which is not a figure of the paper.\n\n\
 Example: mcm study fig5 --out figures"
 )]
@@ -55,6 +55,8 @@ enum Name {
     Fig7d,
     /// Fig. 8: torque on the last of several rings
     Fig8,
+    /// Fig. 9: devices that a magnet leads through an abdominal aorta; takes about an hour
+    Fig9,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
     /// Tip angle without any load, over the number of segments, by arrangement of the spirals
@@ -91,6 +93,7 @@ impl Name {
             Self::Fig7c => Some(|_| studies::fig7c()),
             Self::Fig7d => Some(|_| studies::fig7d()),
             Self::Fig8 => Some(|_| studies::fig8()),
+            Self::Fig9 => Some(|progress| studies::fig9(usize::MAX, progress)),
             Self::Hysteresis => Some(studies::hysteresis),
             Self::Rest => Some(|_| studies::rest()),
             Self::CommunicationStep => Some(studies::communication_step),
@@ -135,7 +138,7 @@ impl Study {
             Name::Stability => return stability::run(&self.out),
             _ => {}
         }
-        let wanted = |name: &Name| self.name == Name::All || *name == self.name;
+        let wanted = |name: &Name| self.name == Name::All && *name != Name::Fig9 || *name == self.name;
         let chosen: Vec<_> = Name::value_variants()
             .iter()
             .filter(|name| wanted(name))
