@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use self::case::{CASES, Case};
 use self::walk::{Row, Walk, places, time, walk};
 use super::progress::Progress;
-use super::study::{Column, Comparison, Curve, Mark, Panel, Study, Value};
+use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
 use crate::error::Error;
 
 /// Largest axial force that the paper measured, N.
@@ -58,29 +58,47 @@ pub fn fig9(points: usize, progress: &dyn Progress) -> Result<Study, Error> {
             columns.push(Column::new(format!("{}_{ending}", case.name), values.collect()));
         }
     }
-    let panel = |title: &str, ending: &str, y: &str, marks: Vec<Mark>| Panel::Curves {
-        title: title.into(),
-        x: ("time (s)".into(), "time_s".into()),
-        y: y.into(),
-        curves: CASES
-            .iter()
-            .map(|case| Curve::new(case.label, format!("{}_{ending}", case.name), case.colour, case.stroke()))
-            .collect(),
-        marks,
+    let panel = |title: &str, ending: &str, y: &str, curves: Vec<(&Case, String, usize)>, marks| {
+        let curve = |(case, label, colour): (&Case, String, usize)| {
+            Curve::new(label, format!("{}_{ending}", case.name), colour, Stroke::Solid)
+        };
+        Panel::Curves {
+            title: title.into(),
+            x: ("time (s)".into(), "time_s".into()),
+            y: y.into(),
+            curves: curves.into_iter().map(curve).collect(),
+            marks,
+        }
     };
+    let segmented = || {
+        let same = CASES.iter().filter(|case| case.device == CASES[0].device);
+        same.enumerate().map(|(number, case)| (case, case.walls(), number)).collect()
+    };
+    let sliding = || {
+        let free = CASES.iter().filter(|case| case.slides());
+        free.map(|case| (case, case.device.to_owned(), case.colour)).collect()
+    };
+    let paper = vec![Mark::Level("paper: at most 0.09 N".into(), AXIAL)];
     Ok(Study {
         title: "Fig. 9: led through an abdominal aorta by a magnet beneath it (predictions)",
         columns,
         panels: vec![
-            panel("how far it is led", "inside_mm", "shaft inside (mm)", Vec::new()),
+            panel("nine segments, by friction", "inside_mm", "shaft inside (mm)", segmented(), Vec::new()),
             panel(
-                "pull of the magnet along its field",
-                "axial_n",
-                "force (N)",
-                vec![Mark::Level("paper: at most 0.09 N".into(), AXIAL)],
+                "devices without friction",
+                "tip_heading_deg",
+                "turn of the tip (deg)",
+                sliding(),
+                Vec::new(),
             ),
-            panel("turn of the tip", "tip_heading_deg", "from the port's direction (deg)", Vec::new()),
-            panel("largest force of a contact", "largest_contact_n", "force (N)", Vec::new()),
+            panel("nine segments, by friction", "axial_n", "pull along the field (N)", segmented(), paper),
+            panel(
+                "devices without friction",
+                "largest_contact_n",
+                "largest force of a contact (N)",
+                sliding(),
+                Vec::new(),
+            ),
         ],
         comparison: CASES
             .iter()
@@ -108,7 +126,7 @@ fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {
         }
     };
     Comparison {
-        quantity: format!("the way of {}: tip in", case.label),
+        quantity: format!("the way of {}, {}: tip in", case.device, case.walls()),
         decimals: 0,
         paper: if case.name == "mcm" || case.name == "mcm_oiled" {
             Value::Words("left iliac, aorta, superior mesenteric".into())

@@ -2,7 +2,6 @@
 
 use crate::error::Error;
 use crate::manipulator::Scene;
-use crate::studies::study::Stroke;
 use crate::vessel::Aorta;
 
 /// The nine segments; every second spiral is mirrored, as rings on a common tube do not turn.
@@ -28,8 +27,8 @@ const WIRE: &str = "[guidewire]\nradius_mm = 0.445\nelastic_modulus_mpa = 9500.0
 pub(super) struct Case {
     /// Beginning of its columns' names.
     pub(super) name: &'static str,
-    /// In words.
-    pub(super) label: &'static str,
+    /// The device, in words.
+    pub(super) device: &'static str,
     design: &'static str,
     tube: &'static str,
     /// Whether a guidewire follows up to the base of the device.
@@ -39,30 +38,35 @@ pub(super) struct Case {
     pub(super) colour: usize,
 }
 
-const fn case(name: &'static str, label: &'static str, colour: usize) -> Case {
-    Case { name, label, design: SEGMENTS, tube: SILICONE, wired: false, friction: 0.0, colour }
+const fn case(name: &'static str, device: &'static str, colour: usize) -> Case {
+    Case { name, device, design: SEGMENTS, tube: SILICONE, wired: false, friction: 0.0, colour }
 }
+
+const SEGMENTED: Case = case("mcm", "nine segments", 0);
+const SOLID: Case = Case { design: CYLINDER, ..case("cylinder", "solid cylinder", 1) };
+const ON_PTFE: Case = Case { tube: PTFE, ..case("ptfe", "segments on PTFE", 2) };
 
 /// All devices.
 pub(super) const CASES: [Case; 8] = [
-    case("mcm", "nine segments, no friction", 0),
-    Case { friction: 0.04, ..case("mcm_oiled", "nine segments, mu 0.04", 0) },
-    Case { friction: 1.0, ..case("mcm_dry", "nine segments, mu 1", 0) },
-    Case { design: CYLINDER, ..case("cylinder", "solid cylinder, no friction", 1) },
-    Case { design: CYLINDER, friction: 0.04, ..case("cylinder_oiled", "solid cylinder, mu 0.04", 1) },
-    Case { design: CYLINDER, friction: 1.0, ..case("cylinder_dry", "solid cylinder, mu 1", 1) },
-    Case { tube: PTFE, ..case("ptfe", "nine segments on PTFE, no friction", 2) },
-    Case { tube: PTFE, wired: true, ..case("ptfe_wire", "nine segments on PTFE, guidewire", 3) },
+    SEGMENTED,
+    Case { name: "mcm_oiled", friction: 0.04, ..SEGMENTED },
+    Case { name: "mcm_dry", friction: 1.0, ..SEGMENTED },
+    SOLID,
+    Case { name: "cylinder_oiled", friction: 0.04, ..SOLID },
+    Case { name: "cylinder_dry", friction: 1.0, ..SOLID },
+    ON_PTFE,
+    Case { name: "ptfe_wire", device: "PTFE, guidewire", wired: true, colour: 3, ..ON_PTFE },
 ];
 
 impl Case {
-    /// Line style: one for each coefficient of friction.
-    pub(super) fn stroke(&self) -> Stroke {
-        match self.friction {
-            0.0 => Stroke::Solid,
-            friction if friction < 1.0 => Stroke::Dashed,
-            _ => Stroke::Dots,
-        }
+    /// Whether the walls are without friction.
+    pub(super) fn slides(&self) -> bool {
+        self.friction == 0.0
+    }
+
+    /// The friction, in words.
+    pub(super) fn walls(&self) -> String {
+        if self.slides() { "no friction".into() } else { format!("mu {}", self.friction) }
     }
 
     /// The scene: in the planar aorta, on a shaft that hangs free, at the level `rings`.
@@ -80,6 +84,6 @@ impl Case {
              [model]\ninteraction = \"rings\"\ntime_budget_s = 10.0\n\
              [vessel]\nwall_modulus_mpa = 1.0\nfriction = {friction}\n{vessel}"
         );
-        Scene::parse(&text, self.label)
+        Scene::parse(&text, self.name)
     }
 }
