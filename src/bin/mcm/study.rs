@@ -55,7 +55,7 @@ enum Name {
     Fig7d,
     /// Fig. 8: torque on the last of several rings
     Fig8,
-    /// Fig. 9: devices that a magnet leads through an abdominal aorta; takes about an hour
+    /// Fig. 9: devices that a magnet leads through an abdominal aorta; takes half an hour
     Fig9,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
