@@ -24,9 +24,6 @@ const HEIGHT: u32 = 600;
 const ROW: u32 = 300;
 const TALL_ROW: u32 = 500;
 
-/// Number of curves that make a legend long.
-const MANY: usize = 4;
-
 /// Height of title, legend and margins around bars, pixels.
 const ABOVE_BARS: f64 = 115.0;
 
@@ -69,7 +66,7 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 pub(super) fn write(study: &Study, path: &Path) -> Result<(), Failure> {
     let failure = |reason: String| Failure(format!("cannot draw {}: {reason}", path.display()));
     let rows = u32::try_from(study.panels.len().div_ceil(2)).unwrap_or(u32::MAX);
-    let tall = study.panels.iter().any(has_long_legend);
+    let tall = study.panels.iter().any(|panel| matches!(panel, Panel::Places { .. }));
     let bars = study.panels.iter().map(bars_height).max().unwrap_or_default();
     let size = (WIDTH, HEIGHT.max(rows.saturating_mul(if tall { TALL_ROW } else { ROW })).max(bars));
     let large = (size.0 * OVERSAMPLING, size.1 * OVERSAMPLING);
@@ -110,15 +107,6 @@ fn draw(study: &Study, pixels: &mut [u8], size: (u32, u32)) -> Drawn {
     }
     canvas.present()?;
     Ok(())
-}
-
-/// Whether a row of panels like this needs [`TALL_ROW`].
-fn has_long_legend(panel: &Panel) -> bool {
-    match panel {
-        Panel::Places { .. } => true,
-        Panel::Curves { curves, .. } => curves.len() >= MANY,
-        _ => false,
-    }
 }
 
 /// Height in pixels that a panel of bars needs; 0 for other panels.
