@@ -83,22 +83,10 @@ pub fn fig9(points: usize, progress: &dyn Progress) -> Result<Study, Error> {
         title: "Fig. 9: led through an abdominal aorta by a magnet beneath it (predictions)",
         columns,
         panels: vec![
-            panel("nine segments, by friction", "inside_mm", "shaft inside (mm)", segmented(), Vec::new()),
-            panel(
-                "devices without friction",
-                "tip_heading_deg",
-                "turn of the tip (deg)",
-                sliding(),
-                Vec::new(),
-            ),
-            panel("nine segments, by friction", "axial_n", "pull along the field (N)", segmented(), paper),
-            panel(
-                "devices without friction",
-                "largest_contact_n",
-                "largest force of a contact (N)",
-                sliding(),
-                Vec::new(),
-            ),
+            panel("nine segments, by friction", "inside_mm", "shaft (mm)", segmented(), Vec::new()),
+            panel("turn of the tip, no friction", "tip_heading_deg", "turn (deg)", sliding(), Vec::new()),
+            panel("pull along the field, nine segments", "axial_n", "pull (N)", segmented(), paper),
+            panel("largest contact, no friction", "largest_contact_n", "force (N)", sliding(), Vec::new()),
         ],
         comparison: CASES
             .iter()

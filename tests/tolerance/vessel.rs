@@ -52,7 +52,7 @@ pub(crate) const LIFT_OFF: f64 = 1e-4;
 pub(crate) const HELIX: f64 = 1e-3;
 
 /// Load at which a helix in a tube has no more energy than the rod on the bottom, relative, beside that of its pitch.
-pub(crate) const HELICAL_LOAD: f64 = 5e-4;
+pub(crate) const HELICAL_LOAD: f64 = 1e-4;
 
 /// Force per length of a helix on its tube, relative.
 pub(crate) const LINE_FORCE: f64 = 1e-2;

@@ -90,7 +90,6 @@ pub(super) fn places() -> Result<Vec<Place>, Error> {
 }
 
 /// Time (s) of the communication point with this number.
-#[must_use]
 pub(super) fn time(number: usize) -> f64 {
     number as f64 * STEP * 1e-3 / SPEED
 }
@@ -103,32 +102,28 @@ pub(super) fn walk(case: &Case, places: &[Place], progress: &dyn Progress) -> Re
     let scene = case.scene()?;
     let branches = || scene.vessel.iter().flat_map(|vessel| vessel.lumen.branches());
     let mut device = scene.manipulator(POINTS)?;
-    let mut here = scene.inputs.clone();
+    let mut here: Option<Inputs> = None;
     let mut out = Walk { rows: Vec::new(), branches: Vec::new(), snaps: 0, lost: None };
-    for place in places {
-        if out.lost.is_none() {
-            let mut next = Inputs { magnet: magnet(place), feed_force: Some(0.0), ..scene.inputs.clone() };
-            if let Some(last) = out.rows.last().filter(|_| case.wired) {
-                next.guidewire_insertion = last.inside;
-            }
-            if out.rows.is_empty() {
-                here = next.clone();
-            }
-            if step(&mut device, [&here, &next], HALVINGS)? {
-                let outputs = device.outputs();
-                out.snaps = outputs.snaps;
-                out.rows.push(Row::of(outputs, place));
-                let clearance = |branch: &Branch| branch.clearance(&outputs.tip.position).value;
-                let widest = branches().max_by(|a, b| clearance(a).total_cmp(&clearance(b)));
-                let name = widest.map_or("", Branch::name);
-                if out.branches.last().is_none_or(|last| last != name) {
-                    out.branches.push(name.into());
-                }
-            } else {
-                out.lost = Some(device.outputs().outcome);
-            }
-            here = next;
+    for (number, place) in places.iter().enumerate() {
+        let mut next = Inputs { magnet: magnet(place), feed_force: Some(0.0), ..scene.inputs.clone() };
+        if let Some(last) = out.rows.last().filter(|_| case.wired) {
+            next.guidewire_insertion = last.inside;
         }
+        if !step(&mut device, [here.as_ref().unwrap_or(&next), &next], HALVINGS)? {
+            out.lost = Some(device.outputs().outcome);
+            places[number..].iter().for_each(|_| progress.done());
+            break;
+        }
+        let outputs = device.outputs();
+        out.snaps = outputs.snaps;
+        out.rows.push(Row::of(outputs, place));
+        let clearance = |branch: &Branch| branch.clearance(&outputs.tip.position).value;
+        let widest = branches().max_by(|a, b| clearance(a).total_cmp(&clearance(b)));
+        let name = widest.map_or("", Branch::name);
+        if out.branches.last().is_none_or(|last| last != name) {
+            out.branches.push(name.into());
+        }
+        here = Some(next);
         progress.done();
     }
     Ok(out)
