@@ -42,6 +42,9 @@ pub mod studies; // the paper's figures as numbers
 
 pub mod fmi; // the FMI 2.0 co-simulation FMU
 
+#[cfg(feature = "web")]
+pub mod web; // the same device in a web page, as WebAssembly
+
 /// Vectors, rotations and matrices of this interface, in the version that it uses: `mcm::nalgebra::Vector3`.
 pub use nalgebra;
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms in order, and what each may use; what those may use is allowed too.
-const ROOMS: [(&str, &[&str]); 14] = [
+const ROOMS: [(&str, &[&str]); 15] = [
     ("constants", &[]),
     ("error", &[]),
     ("numerics", &["constants", "error"]),
@@ -19,6 +19,7 @@ const ROOMS: [(&str, &[&str]); 14] = [
     ("manipulator", &["methods"]),
     ("studies", &["manipulator"]),
     ("fmi", &["manipulator"]),
+    ("web", &["fmi"]),
     ("bin", &["studies", "fmi"]),
 ];
 
@@ -42,7 +43,7 @@ const TOP_LEVEL: [&str; 9] = [
     "fmu",
     "tests",
 ];
-const LEFT_BY_SCRIPTS: [&str; 4] = ["target", "mcm_demo.csv", "mcm_demo.png", "logs"];
+const LEFT_BY_SCRIPTS: [&str; 5] = ["target", "mcm_demo.csv", "mcm_demo.png", "mcm_live.html", "logs"];
 
 fn allowed(room: &str) -> BTreeSet<&'static str> {
     let direct = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, direct)| direct);

@@ -39,6 +39,8 @@ mod studies;
 
 mod fmi;
 
+mod web;
+
 mod abi;
 
 mod hostile;

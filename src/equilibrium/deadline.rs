@@ -3,14 +3,14 @@
 use std::cell::OnceCell;
 use std::time::Duration;
 
-use cpu_time::ThreadTime;
+use super::clock::processor_time;
 
 /// A budget of processor time of this thread. Its clock starts at the first query, which a well predicted step never
 /// makes.
 #[derive(Debug)]
 pub(crate) struct Deadline {
     budget: Duration,
-    start: OnceCell<Option<ThreadTime>>,
+    start: OnceCell<Option<Duration>>,
 }
 
 impl Deadline {
@@ -22,7 +22,8 @@ impl Deadline {
 
     /// Whether the budget is used up; never on a system that does not report the time of threads.
     pub(crate) fn has_passed(&self) -> bool {
-        let start = self.start.get_or_init(|| ThreadTime::try_now().ok());
-        start.and_then(|start| start.try_elapsed().ok()).is_some_and(|elapsed| elapsed > self.budget)
+        let start = self.start.get_or_init(processor_time);
+        let elapsed = start.and_then(|start| processor_time()?.checked_sub(start));
+        elapsed.is_some_and(|elapsed| elapsed > self.budget)
     }
 }

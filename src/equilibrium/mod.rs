@@ -1,6 +1,7 @@
 //! Potential energy of the whole chain, its minimum and the stability of that minimum.
 
 mod chain;
+mod clock;
 mod condensation;
 mod contact;
 mod continuation;
@@ -58,6 +59,8 @@ mod wall_search;
 mod workspace;
 
 pub(crate) use chain::{Chain, arc_lengths};
+#[cfg(target_family = "wasm")]
+pub use clock::set_clock;
 pub(crate) use contact::Placed;
 pub use continuation::{Diagram, Shape};
 pub(crate) use deadline::Deadline;

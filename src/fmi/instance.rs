@@ -9,7 +9,7 @@ use super::log::Log;
 use super::package::Package;
 use super::state::{Call, Ending, State};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Outcome, Status};
+use crate::manipulator::{Inputs, Manipulator, Outcome, Outputs, Status};
 
 /// Relative tolerance for communication points, with respect to the larger of time and step size: hosts compute times by
 /// adding up step sizes, with rounding errors.
@@ -204,6 +204,22 @@ impl Instance {
         self.fmu_state.time = end;
         self.log.forget_repetitions();
         Ending::Ok
+    }
+
+    /// The outputs of the last equilibrium as they stand, with the margin as [`Outputs::stability_margin`] says; `None` where none
+    /// was found since the start or the last reset.
+    #[must_use]
+    pub fn outputs(&self) -> Option<&Outputs> {
+        let manipulator = self.fmu_state.manipulator.as_ref();
+        manipulator.filter(|manipulator| manipulator.has_shape()).map(Manipulator::outputs)
+    }
+
+    /// Goes on from the last good equilibrium after a step that failed, for a host that need not reset or restore a state, as the
+    /// standard demands; without effect where there is none.
+    pub fn recover(&mut self) {
+        if self.state() == State::Failed && self.outputs().is_some() {
+            self.fmu_state.state = State::Stepping;
+        }
     }
 
     /// Follows the equilibrium while the inputs move along their path for `duration` (s).

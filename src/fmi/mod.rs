@@ -1,5 +1,6 @@
 //! The manipulator as an FMU for co-simulation (FMI 2.0).
 
+#[cfg(not(target_family = "wasm"))] // whose C types have other sizes, and which loads no FMUs
 #[rustfmt::skip]
 pub mod bindings; // types of the official headers
 
@@ -48,8 +49,10 @@ mod directional_derivatives; // between variables and the Jacobian
 
 pub mod guard; // no panic crosses the C boundary
 
+#[cfg(not(target_family = "wasm"))]
 mod registry; // live instances by handle
 
+#[cfg(not(target_family = "wasm"))]
 pub mod ffi; // the C functions: the only unsafe code
 
 pub use instance::Instance;

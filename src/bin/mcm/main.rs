@@ -9,6 +9,7 @@ mod failure;
 mod fidelity;
 mod field;
 mod files;
+mod follow;
 mod init;
 mod interrupt;
 mod output;
@@ -62,6 +63,8 @@ enum Command {
     Field(field::Field),
     /// Follows an equilibrium while numbers of the scene vary
     Sweep(sweep::Sweep),
+    /// Follows an equilibrium along a recorded path of inputs
+    Follow(follow::Follow),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
@@ -87,6 +90,7 @@ fn main() -> ExitCode {
         Some(Command::Solve(command)) => command.run(),
         Some(Command::Field(command)) => command.run(),
         Some(Command::Sweep(command)) => command.run(),
+        Some(Command::Follow(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.

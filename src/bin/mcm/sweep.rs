@@ -17,7 +17,9 @@ use super::output::{Table, is_stream, print, warn};
 use super::progress::progress_bar;
 use journal::{Journal, Kept};
 use range::{MOST_VALUES, Range};
+pub(super) use rows::{Columns, Row};
 use walk::{Plan, Walk};
+pub(super) use way::Way;
 
 /// Follows one branch along the first key, for every combination of the other keys.
 #[derive(clap::Args)]

@@ -80,13 +80,13 @@ const SEARCH: [&str; 11] = [
 
 /// Which columns the scene's table has.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Columns {
+pub(crate) struct Columns {
     vessel: bool,
     shaft: bool,
 }
 
 impl Columns {
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         Self { vessel: scene.vessel.is_some(), shaft: scene.shaft.is_some() }
     }
 
@@ -97,14 +97,14 @@ impl Columns {
     }
 
     /// The table's header for these keys.
-    pub(super) fn header<'a>(self, keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
+    pub(crate) fn header<'a>(self, keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
         let numbers = self.numbers().map(|name| -> &'a str { name });
         keys.chain(["way"]).chain(numbers).chain(SEARCH)
     }
 }
 
 /// One line of the table.
-pub(super) struct Row {
+pub(crate) struct Row {
     columns: Columns,
     varied: Vec<f64>,
     way: Way,
@@ -126,7 +126,7 @@ pub(super) struct Row {
 
 impl Row {
     /// The cells in the order of [`Columns::header`].
-    pub(super) fn cells(&self) -> impl serde::Serialize + '_ {
+    pub(crate) fn cells(&self) -> impl serde::Serialize + '_ {
         let converged = self.converged();
         let number = |index| self.numbers.as_ref().map(|numbers| numbers[index]);
         let numbers: Vec<Option<f64>> = (0..self.columns.numbers().count()).map(number).collect();
@@ -144,7 +144,7 @@ impl Row {
     }
 
     /// The row with these cells and this number of keys; `None` for anything else.
-    pub(super) fn read<'a>(
+    pub(crate) fn read<'a>(
         mut cells: impl Iterator<Item = &'a str>,
         keys: usize,
         columns: Columns,
@@ -180,7 +180,7 @@ impl Row {
         })
     }
 
-    pub(super) fn new(
+    pub(crate) fn new(
         columns: Columns,
         varied: Vec<f64>,
         way: Way,
@@ -231,35 +231,35 @@ impl Row {
     }
 
     /// The first key's value.
-    pub(super) fn value(&self) -> f64 {
+    pub(crate) fn value(&self) -> f64 {
         self.varied[0]
     }
 
     /// Why it did not converge, or is neutral.
-    pub(super) fn reason(&self) -> &str {
+    pub(crate) fn reason(&self) -> &str {
         self.reason.as_deref().unwrap_or(&self.outcome)
     }
 
     /// How far the last step to it got, 0 to 1.
-    pub(super) fn progress(&self) -> f64 {
+    pub(crate) fn progress(&self) -> f64 {
         self.progress
     }
 
     /// The tip angle, deg; `None` without a shape.
-    pub(super) fn angle(&self) -> Option<f64> {
+    pub(crate) fn angle(&self) -> Option<f64> {
         Some(self.numbers.as_ref()?[0])
     }
 
-    pub(super) fn way(&self) -> Way {
+    pub(crate) fn way(&self) -> Way {
         self.way
     }
 
-    pub(super) fn converged(&self) -> bool {
+    pub(crate) fn converged(&self) -> bool {
         self.numbers.is_some()
     }
 
     /// Whether the tip positions differ by more than their errors, or only one of the two rows converged.
-    pub(super) fn differs(&self, other: &Self) -> bool {
+    pub(crate) fn differs(&self, other: &Self) -> bool {
         let (Some(own), Some(other)) = (&self.numbers, &other.numbers) else {
             return self.converged() != other.converged();
         };

@@ -4,17 +4,17 @@ use serde::{Deserialize, Serialize};
 
 /// Direction in which the first key varies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Way {
+pub(crate) enum Way {
     Forth,
     Back,
 }
 
 impl Way {
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         if self == Self::Forth { "forth" } else { "back" }
     }
 
-    pub(super) fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         [Self::Forth, Self::Back].into_iter().find(|way| way.name() == name)
     }
 }

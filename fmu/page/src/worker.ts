@@ -1,0 +1,123 @@
+/** The worker: keeps the core, takes requests of the page, and steps between them. */
+
+import { Core, Refusal } from "./core";
+import type { Reply, Request } from "./protocol";
+import { Schedule } from "./schedule";
+
+/** What the page sends first: the core's code, and the distance grid of the mesh that comes with the page (empty for none). */
+export interface Start {
+    code: ArrayBuffer;
+    grid: ArrayBuffer;
+}
+
+let module: WebAssembly.Module;
+let core: Core;
+let grid = new Uint8Array();
+let scene = "";
+let schedule: Schedule | null = null;
+let planned: ReturnType<typeof setTimeout> | "at once" | null = null;
+const again = new MessageChannel();
+
+function reply(message: Reply): void {
+    postMessage(message);
+}
+
+function open(text: string): void {
+    const description = core.open(0, text, grid);
+    schedule = new Schedule(core, description);
+    scene = text;
+    reply({ kind: "opened", description });
+    const start = Float64Array.from(description.inputs, (input) => input.start ?? 0);
+    reply({ kind: "answer", answer: schedule.load(start) });
+}
+
+function take(request: Request): void {
+    switch (request.kind) {
+        case "open":
+            open(request.scene);
+            break;
+        case "restart":
+            if (schedule !== null) {
+                reply({ kind: "answer", answer: schedule.load(request.inputs) });
+            }
+            break;
+        case "move":
+            schedule?.move(request.inputs, request.every, performance.now());
+            break;
+    }
+}
+
+/** Takes one step, and comes again while there are more: requests are read in between. */
+function work(): void {
+    planned = null;
+    guarded(() => {
+        const answer = schedule?.work(performance.now());
+        if (answer != null) {
+            reply({ kind: "answer", answer });
+        }
+    });
+    wake();
+}
+
+/** Plans the next step, as soon as it must be; the plan made before gives way to it. */
+function wake(): void {
+    if (planned === "at once" || schedule === null || !schedule.busy) {
+        return;
+    }
+    if (planned !== null) {
+        clearTimeout(planned);
+    }
+    const wait = schedule.wait(performance.now());
+    if (wait > 0) {
+        planned = setTimeout(work, wait);
+    } else {
+        planned = "at once";
+        again.port2.postMessage(null); // a timer would wait for 4 ms
+    }
+}
+
+/** Does this; a scene that is refused is told, and a core that has ended is started anew with the last scene that it knew. */
+function guarded(does: () => void): void {
+    try {
+        does();
+    } catch (error) {
+        if (error instanceof Refusal) {
+            reply({ kind: "refused", message: error.message });
+        } else {
+            void revive(String(error));
+        }
+    }
+}
+
+async function revive(reason: string): Promise<void> {
+    schedule = null;
+    try {
+        core = await Core.start(module);
+        reply({ kind: "refused", message: `the core ended (${reason}) and was started anew` });
+        if (scene !== "") {
+            open(scene);
+        }
+    } catch (error) {
+        reply({ kind: "broken", message: `${reason}; ${String(error)}` });
+    }
+}
+
+async function start({ code, grid: bytes }: Start): Promise<void> {
+    const begin = performance.now();
+    try {
+        module = await WebAssembly.compile(code);
+        core = await Core.start(module);
+    } catch (error) {
+        reply({ kind: "broken", message: String(error) });
+        return;
+    }
+    grid = new Uint8Array(bytes);
+    onmessage = (event: MessageEvent<Request>) => {
+        guarded(() => take(event.data));
+        wake();
+    };
+    reply({ kind: "ready", seconds: (performance.now() - begin) / 1000 });
+}
+
+again.port1.onmessage = work;
+onmessage = (event: MessageEvent<Start>) => void start(event.data);

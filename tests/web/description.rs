@@ -1,0 +1,75 @@
+//! What a page draws.
+
+use approx::assert_relative_eq;
+use mcm::manipulator::Scene;
+use mcm::vessel::Aorta;
+use mcm::web::Device;
+use serde_json::Value;
+
+use super::BESIDE;
+
+fn described(scene: &str) -> Value {
+    serde_json::from_str(&Device::open(scene, None).unwrap().description().unwrap()).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value}"))
+}
+
+#[test]
+fn bodies_follow_one_another_to_the_tip() {
+    let scene = "[design]\nsegments = 3\nspiral = \"alternating\"";
+    let design = Scene::parse(scene, "test").unwrap().design().unwrap();
+    let described = described(scene);
+    let bodies = described["bodies"].as_array().unwrap();
+    let mut end = 0.0;
+    for body in bodies {
+        assert_relative_eq!(number(&body["begin"]), end, epsilon = 1e-15);
+        end += number(&body["length"]);
+    }
+    assert_relative_eq!(end, design.length(), epsilon = 1e-15);
+    let of = |kind: &str| bodies.iter().filter(|body| body["kind"] == kind).collect::<Vec<_>>();
+    assert_eq!([of("ring").len(), of("core").len(), of("disc").len()], [4, 3, 6]);
+    let turns: Vec<f64> = of("core").iter().map(|body| number(&body["spiral"]["turn"])).collect();
+    assert_eq!(turns, [1.0, -1.0, 1.0]);
+    for core in of("core") {
+        assert_relative_eq!(number(&core["boundaryAngle"]).to_degrees(), 40.0, epsilon = 1e-9);
+    }
+    assert!(of("ring").iter().all(|ring| (number(&ring["remanence"]) - 1.35).abs() < 1e-12));
+    assert_eq!(described["level"], "auto");
+    assert!(described["vessel"].is_null() && described["shaft"].is_null());
+}
+
+#[test]
+fn the_magnet_has_its_cylinders_and_inputs_their_start() {
+    let described = described(BESIDE);
+    let cylinders = described["magnet"].as_array().unwrap();
+    assert_eq!(cylinders.len(), 2);
+    assert_relative_eq!(number(&cylinders[0]["outerRadius"]), 0.0225);
+    let inputs = described["inputs"].as_array().unwrap();
+    let start =
+        |name: &str| inputs.iter().find(|row| row["name"] == name).map(|row| number(&row["start"])).unwrap();
+    assert_relative_eq!(start("magnet.position[2]"), -0.12);
+    assert_relative_eq!(start("magnet.strength"), 1.0);
+}
+
+#[test]
+fn a_vessel_has_its_branches() {
+    let aorta = Aorta::planar().scene_text().unwrap();
+    let scene = format!(
+        "[feed]\nmode = \"insertion\"\n[design.backbone]\nouter_radius_mm = 0.75\ninner_radius_mm = 0.25\nshore_a = 40.0\npoisson = 0.45\n[vessel]\n{aorta}"
+    );
+    let lumen = Scene::parse(&scene, "test").unwrap().vessel.unwrap().lumen;
+    let described = described(&scene);
+    let branches = described["vessel"]["branches"].as_array().unwrap();
+    assert_eq!(branches.len(), lumen.branches().len());
+    for (described, branch) in branches.iter().zip(lumen.branches()) {
+        assert_eq!(described["name"], branch.name());
+        let balls: Vec<f64> = described["balls"].as_array().unwrap().iter().map(number).collect();
+        let (centre, radius) = branch.ball(0.0);
+        assert_eq!(balls[..4], [centre.x, centre.y, centre.z, radius]);
+        let (centre, radius) = branch.ball(*branch.range().end());
+        assert_eq!(balls[balls.len() - 4..], [centre.x, centre.y, centre.z, radius]);
+    }
+    assert!(number(&described["shaft"]["outerRadius"]) > 0.0);
+}
