@@ -17,13 +17,13 @@ if (given.core === undefined || given.out === undefined) {
     throw new Error("--core and --out are needed");
 }
 
-/** A script with all that it imports, as one text. */
+/** A script or style with all that it imports, as one text. */
 async function bundled(entry, format) {
     const { outputFiles } = await build({
-        entryPoints: [join(here, "src", entry)],
+        entryPoints: [join(here, entry)],
         bundle: true,
         minify: true,
-        format,
+        ...(format === undefined ? {} : { format }),
         target: "es2022",
         loader: { ".toml": "text" },
         legalComments: "eof", // the licences of three.js and uPlot stay with their code
@@ -43,7 +43,7 @@ async function packed(id, path) {
     return element(id, gzipSync(await readFile(path), { level: 9 }).toString("base64"));
 }
 
-let data = (await packed("core", given.core)) + element("worker", await bundled("worker.ts", "iife"));
+let data = (await packed("core", given.core)) + element("worker", await bundled("src/worker.ts", "iife"));
 if (given.scene !== undefined) {
     const scene = { name: basename(given.scene), text: await readFile(given.scene, "utf8") };
     data += element("scene", JSON.stringify(scene));
@@ -52,9 +52,8 @@ if (given.grid !== undefined && given.mesh !== undefined) {
     data += (await packed("grid", given.grid)) + (await packed("mesh", given.mesh));
 }
 
-const style = `${await readFile(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8")}
-${await readFile(join(here, "style.css"), "utf8")}`;
-const script = (await bundled("main.ts", "esm")).replaceAll("</script", "<\\/script");
+const style = await bundled("style.css");
+const script = (await bundled("src/main.ts", "esm")).replaceAll("</script", "<\\/script");
 const page = (await readFile(join(here, "index.html"), "utf8"))
     .replace("/*STYLE*/", () => style)
     .replace(/<script type="module">\s*\/\*SCRIPT\*\/\s*<\/script>/, () => {

@@ -214,6 +214,13 @@ impl Instance {
         manipulator.filter(|manipulator| manipulator.has_shape()).map(Manipulator::outputs)
     }
 
+    /// Why no equilibrium was found, if the last step or the first solve failed for that; without what a host can do.
+    #[must_use]
+    pub fn why_failed(&self) -> Option<String> {
+        let manipulator = self.fmu_state.manipulator.as_ref()?;
+        (self.state() == State::Failed).then(|| why_not_solved(manipulator))
+    }
+
     /// Goes on from the last good equilibrium after a step that failed, for a host that need not reset or restore a state, as the
     /// standard demands; without effect where there is none.
     pub fn recover(&mut self) {
@@ -295,7 +302,8 @@ impl Instance {
             if now.state == State::Stepping {
                 now.state = State::Failed;
             }
-            let reason = why_not_solved(manipulator, time);
+            let reason =
+                format!("after t = {time}: {}; {}", why_not_solved(manipulator), advice(manipulator));
             return Ok(self.refuse(&reason));
         }
         now.solved = true;
@@ -312,18 +320,19 @@ impl Instance {
     }
 }
 
-/// Why no equilibrium was found, and what the host can do.
-fn why_not_solved(manipulator: &Manipulator, time: f64) -> String {
-    let (outcome, percent) = (manipulator.outputs().outcome, 100.0 * manipulator.outputs().progress);
+/// What a host can do where no equilibrium was found.
+fn advice(manipulator: &Manipulator) -> &'static str {
     if manipulator.has_shape() {
-        format!(
-            "no equilibrium found after t = {time}, {percent:.0} % of the way: {outcome}; the last good outputs can be read, \
-             reset or restore a state"
-        )
+        "the last good outputs can be read, reset or restore a state"
     } else {
-        format!(
-            "no equilibrium found for the first inputs, {percent:.0} % of the way from the unloaded shape: {outcome}; there \
-             are no outputs, reset and start elsewhere"
-        )
+        "there are no outputs, reset and start elsewhere"
     }
+}
+
+/// Why no equilibrium was found.
+fn why_not_solved(manipulator: &Manipulator) -> String {
+    let (outcome, percent) = (manipulator.outputs().outcome, 100.0 * manipulator.outputs().progress);
+    let inputs = if manipulator.has_shape() { "" } else { " for the first inputs" };
+    let from = if manipulator.has_shape() { "" } else { " from the unloaded shape" };
+    format!("no equilibrium found{inputs}, {percent:.0} % of the way{from}: {outcome}")
 }

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
 use crate::fmi::variable::{Causality, Variable};
+use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
 
 /// Distance between the balls of a branch that a page gets, m, and the most of them.
@@ -24,6 +25,7 @@ pub(super) struct Description {
     shape_points: usize,
     bodies: Vec<Body>,
     shaft: Option<Tube>,
+    feed_mode: FeedMode,
     guidewire: Option<Wire>,
     magnet: Vec<Cylinder>,
     vessel: Option<Wall>,
@@ -135,6 +137,7 @@ impl Description {
             shaft: design
                 .shaft()
                 .map(|span| Tube { inner_radius: span.inner_radius, outer_radius: span.outer_radius }),
+            feed_mode: start.feed_mode,
             guidewire: design.guidewire().map(|wire| Wire { radius: wire.radius }),
             magnet: cylinders.collect(),
             vessel: walls,

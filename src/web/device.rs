@@ -21,6 +21,10 @@ const POINTS_OF_SHAFT: usize = 120;
 const FEWEST_POINTS: usize = 49;
 const MOST_POINTS: usize = 500;
 
+/// Factor on the scene's time budget: a page knows the time of the wall alone, shares the processor with the pictures that it draws, and its
+/// code is slow until the browser has compiled it well.
+const PATIENCE: f64 = 5.0;
+
 /// A device that follows its inputs.
 ///
 /// It answers as the FMU of the same scene does, number by number, but goes on from its last good shape where a step fails.
@@ -111,12 +115,15 @@ impl Device {
     /// Loads the device at these inputs, from its unloaded shape; false if that fails, see [`Device::said`].
     pub fn load(&mut self, inputs: &[f64]) -> bool {
         self.instance.reset();
-        let level = self.package.table().reference("model.interaction");
-        let level = level.map(|reference| (reference, Value::Integer(self.level as i32)));
-        let of_level = level.into_iter();
-        self.instance
-            .set(&of_level.clone().map(|(at, _)| at).collect::<Vec<_>>(), of_level.map(|(_, value)| value))
-            == Ending::Ok
+        let budget = PATIENCE * self.package.start().settings.time_budget;
+        let parameters = [
+            ("model.interaction", Value::Integer(self.level as i32)),
+            ("model.time_budget", Value::Real(budget)),
+        ];
+        let table = self.package.table();
+        let own = parameters.iter().filter_map(|&(name, value)| Some((table.reference(name)?, value)));
+        let (references, values): (Vec<u32>, Vec<Value>) = own.unzip();
+        self.instance.set(&references, values.into_iter()) == Ending::Ok
             && self.set(inputs)
             && self.instance.enter_initialization() == Ending::Ok
             && self.instance.exit_initialization() == Ending::Ok
@@ -159,7 +166,9 @@ impl Device {
     /// What the device has said since the last question, a line each: why a call failed, that it snapped, that a fold is near.
     #[must_use]
     pub fn said(&self) -> String {
-        std::mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner)).join("\n")
+        let said = std::mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
+        // The FMU's advice on what to do then is not for a page, which goes on by itself.
+        self.instance.why_failed().filter(|_| !said.is_empty()).unwrap_or_else(|| said.join("\n"))
     }
 }
 

@@ -121,6 +121,7 @@ WITHOUT = (
         ("libcosimpy", "fmu/examples/coupled_libcosim.py"),
         ("ecospy", "fmu/examples/coupled_ecos.py"),
         ("distributed", "fmu/examples/sweep_dask.py"),
+        ("viser", "fmu/examples/view_viser.py"),
         ("magpylib", "tests/bench/table.py"),
     ],
 )

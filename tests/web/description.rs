@@ -7,6 +7,7 @@ use mcm::web::Device;
 use serde_json::Value;
 
 use super::BESIDE;
+use crate::tolerance::{ROUNDING, assert_close};
 
 fn described(scene: &str) -> Value {
     serde_json::from_str(&Device::open(scene, None).unwrap().description().unwrap()).unwrap()
@@ -66,10 +67,11 @@ fn a_vessel_has_its_branches() {
     for (described, branch) in branches.iter().zip(lumen.branches()) {
         assert_eq!(described["name"], branch.name());
         let balls: Vec<f64> = described["balls"].as_array().unwrap().iter().map(number).collect();
-        let (centre, radius) = branch.ball(0.0);
-        assert_eq!(balls[..4], [centre.x, centre.y, centre.z, radius]);
-        let (centre, radius) = branch.ball(*branch.range().end());
-        assert_eq!(balls[balls.len() - 4..], [centre.x, centre.y, centre.z, radius]);
+        for (at, ball) in [(0.0, &balls[..4]), (*branch.range().end(), &balls[balls.len() - 4..])] {
+            let (centre, radius) = branch.ball(at);
+            assert_close(branch.name(), ball, &[centre.x, centre.y, centre.z, radius], ROUNDING);
+        }
     }
     assert!(number(&described["shaft"]["outerRadius"]) > 0.0);
+    assert_eq!(described["feedMode"], "insertion");
 }

@@ -79,8 +79,12 @@ function begin(): void {
         help: () => help.showModal(),
     });
 
+    let unframed = false;
     session.listen({
-        opened: (description) => view.open(description),
+        opened: (description) => {
+            unframed = true;
+            view.open(description);
+        },
         changed: (origin) => {
             if (origin !== "view") {
                 view.setMagnet(poseOf(session), session.input("magnet.strength"));
@@ -89,6 +93,11 @@ function begin(): void {
         answered: (answer) => {
             if (!answer.behind) {
                 view.show(answer);
+            }
+            if (unframed) {
+                // The first shape may be far from the straight one that a new scene is framed for.
+                unframed = false;
+                requestAnimationFrame(() => view.frame());
             }
             if (!session.busy) {
                 address.later();

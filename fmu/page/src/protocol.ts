@@ -74,6 +74,8 @@ export interface Description {
     bodies: Body[];
     /** Radii of the tube behind the base; null for a clamped device. */
     shaft: { innerRadius: number; outerRadius: number } | null;
+    /** How the device is held at its base: without a shaft, by its shaft's length, or by a push on it. */
+    feedMode: "clamped" | "insertion" | "force";
     /** Radius of the wire inside; null for none. */
     guidewire: { radius: number } | null;
     /** The external magnet; empty where the scene has none (its strength is then 0). */

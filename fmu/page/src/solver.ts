@@ -1,5 +1,6 @@
 /** The page's side of the worker that computes. */
 
+import { trianglesOf } from "./mesh";
 import type { Reply, Request } from "./protocol";
 import type { Start } from "./worker";
 
@@ -18,6 +19,8 @@ export class Solver {
     /** Requests made before the core was there. */
     private waiting: Request[] | null = [];
     private readonly worker: Worker;
+    /** Triangles of the mesh that comes with the page. */
+    private triangles: number[] = [];
 
     /** Starts the core; `reply` gets all that it says, first `ready`. */
     constructor(private readonly reply: (reply: Reply) => void) {
@@ -31,6 +34,9 @@ export class Solver {
                 const requests = this.waiting ?? [];
                 this.waiting = null;
                 requests.forEach((request) => this.send(request));
+            }
+            if (event.data.kind === "opened" && event.data.description.vessel?.branches.length === 0) {
+                event.data.description.vessel.triangles = this.triangles;
             }
             reply(event.data);
         };
@@ -49,6 +55,8 @@ export class Solver {
     private async start(): Promise<void> {
         try {
             const start: Start = { code: await embedded("core"), grid: await embedded("grid") };
+            const mesh = await embedded("mesh");
+            this.triangles = mesh.byteLength > 0 ? trianglesOf(mesh) : [];
             this.worker.postMessage(start, [start.code, start.grid]);
         } catch (error) {
             this.reply({ kind: "broken", message: String(error) });

@@ -1,0 +1,404 @@
+"""The live page in a real browser: it opens from a file, follows the mouse, and gives the same numbers as the FMU.
+
+Needs Debian's `chromium` and `chromium-driver`. Leaves screenshots in `target/live` for looking at.
+"""
+
+import csv
+import json
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PACKAGE, Archive, Device, run
+from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.remote.webelement import WebElement
+from selenium.webdriver.support.ui import Select, WebDriverWait
+
+SHOTS = PACKAGE / "target" / "live"
+LAPTOP = (1366, 768)
+PHONE = (390, 844)
+
+# Largest difference of tip positions between page and FMU on the same path, m: other sines and cosines, same steps.
+SAME_TIP = 1e-9
+
+# Time that the slowest thing a test waits for may take on a loaded machine without a graphics card, s.
+PATIENCE = 60
+
+
+class Page:
+    """The page in a browser."""
+
+    def __init__(self, file: Path, folder: Path, size: tuple[int, int] = LAPTOP, more: str = "") -> None:
+        options = webdriver.ChromeOptions()
+        options.binary_location = "/usr/bin/chromium"
+        # No graphics card, no network: only what is in the file can be shown.
+        for flag in (
+            "--headless=new",
+            "--no-sandbox",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+            "--host-resolver-rules=MAP * ~NOTFOUND",
+        ):
+            options.add_argument(flag)
+        if size == PHONE:
+            metrics = {"width": size[0], "height": size[1], "pixelRatio": 2.0, "touch": True}
+            options.add_experimental_option("mobileEmulation", {"deviceMetrics": metrics})
+        else:
+            options.add_argument(f"--window-size={size[0]},{size[1]}")
+        options.add_experimental_option("prefs", {"download.default_directory": str(folder)})
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+        service = webdriver.ChromeService("/usr/bin/chromedriver")
+        self.browser = webdriver.Chrome(options=options, service=service)
+        self.browser.set_script_timeout(PATIENCE)
+        self.downloads = folder
+        self.browser.get(file.as_uri() + more)
+        self.ready = self.browser.execute_async_script("window.mcm.ready.then(arguments[0])")
+
+    def state(self) -> dict:
+        """What the page shows, SI."""
+        return self.browser.execute_script("return window.mcm.state()")
+
+    def until(self, what: str, holds: Callable[[dict], bool]) -> dict:
+        """Waits until it holds; the state then."""
+        end = time.monotonic() + PATIENCE
+        while not holds(state := self.state()):
+            assert time.monotonic() < end, f"{what}: {shortened(state)}; {self.text('banners')}"
+            time.sleep(0.05)
+        return state
+
+    def at_rest(self) -> dict:
+        """Waits until the model that is asked for has answered the inputs of now."""
+        return self.until("at rest", lambda s: s["status"] >= 0 and not s["busy"] and s["final"])
+
+    def find(self, name: str) -> WebElement:
+        """The element with this id."""
+        return self.browser.find_element(By.ID, name)
+
+    def text(self, name: str) -> str:
+        """What an element shows."""
+        return self.find(name).text
+
+    def press(self, name: str) -> None:
+        """Presses a button, wherever it is scrolled to."""
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.find(name))
+        self.find(name).click()
+
+    def choose(self, name: str) -> dict:
+        """Opens a scene of the menu; its first answer."""
+        Select(self.find("preset")).select_by_value(name)
+        time.sleep(0.2)
+        return self.at_rest()
+
+    def write(self, scene: str) -> None:
+        """Puts a text into the editor, as by typing, and applies it."""
+        set_text = """
+            const text = document.getElementById("scene-text");
+            text.value = arguments[0];
+            text.dispatchEvent(new Event("input", { bubbles: true }));
+        """
+        self.browser.execute_script(set_text, scene)
+        self.browser.execute_script("document.getElementById('scene-apply').click()")
+
+    def saved(self, button: str, name: str) -> Path:
+        """The file that a button gives away."""
+        file = self.downloads / name
+        file.unlink(missing_ok=True)
+        self.press(button)
+        WebDriverWait(self.browser, PATIENCE).until(lambda _: file.exists() and file.stat().st_size > 0)
+        return file
+
+    def shot(self, name: str) -> None:
+        """Leaves a screenshot."""
+        SHOTS.mkdir(parents=True, exist_ok=True)
+        time.sleep(0.3)
+        self.browser.save_screenshot(SHOTS / f"{name}.png")
+
+    def complaints(self) -> list[str]:
+        """What the browser's console has been told."""
+        driver_notes = ("GPU stall", "swiftshader", "WebGL-0x")
+        told = [entry["message"] for entry in self.browser.get_log("browser")]
+        return [line for line in told if not any(note in line for note in driver_notes)]
+
+
+def shortened(state: dict) -> dict:
+    """A state without its many numbers."""
+    return {key: value for key, value in state.items() if key not in ("inputs", "outputs")}
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page, built by `fmu/live` from another folder."""
+    folder = tmp_path_factory.mktemp("live page")
+    done = subprocess.run(
+        [PACKAGE / "fmu" / "live"], cwd=folder, capture_output=True, text=True, check=False, timeout=900
+    )
+    assert done.returncode == 0, done.stderr
+    return folder / "mcm_live.html"
+
+
+@pytest.fixture
+def open_page(file: Path, tmp_path: Path) -> Iterator[Callable[..., Page]]:
+    """Opens the page; at the end no test may leave complaints in the console."""
+    opened: list[Page] = []
+
+    def made(size: tuple[int, int] = LAPTOP, more: str = "") -> Page:
+        opened.append(Page(file, tmp_path, size, more))
+        return opened[-1]
+
+    yield made
+    complaints = [page.complaints() for page in opened]
+    for page in opened:
+        page.browser.quit()
+    assert complaints == [[] for _ in opened]
+
+
+TIP = [f"tip.position[{k}]" for k in (1, 2, 3)]
+
+
+def table(file: Path) -> dict[str, np.ndarray]:
+    """The columns of a table by name."""
+    with file.open(newline="") as lines:
+        names, *rows = csv.reader(lines)
+    return dict(zip(names, np.array(rows, dtype=float).T, strict=True))
+
+
+def replayed(archive: Archive, path: dict[str, np.ndarray]) -> np.ndarray:
+    """Tip positions of the FMU along a path of inputs, m, a row each."""
+    inputs = [name for name in path if name != "time"]
+    values = [{name: path[name][row] for name in inputs} for row in range(len(path["time"]))]
+    device = Device(archive).start(values[0])
+    found = [device.get(TIP)]
+    for size, now in zip(np.diff(path["time"]), values[1:], strict=True):
+        assert size > 0, "times must grow"
+        device.step(size, now)
+        found.append(device.get(TIP))
+    device.slave.freeInstance()
+    return np.array(found)
+
+
+def furthest(got: np.ndarray, expected: np.ndarray) -> float:
+    """Largest distance of tips, m."""
+    return float(np.linalg.norm(got - expected, axis=1).max())
+
+
+def tips(columns: dict[str, np.ndarray]) -> np.ndarray:
+    """Tip positions, m, a row each."""
+    return np.column_stack([columns[name] for name in TIP])
+
+
+def test_the_page_is_one_small_file_and_ready_at_once(file: Path, open_page: Callable[..., Page]) -> None:
+    assert file.stat().st_size < 3_000_000
+    page = open_page()
+    first = page.at_rest()
+    assert first["status"] == 0
+    assert first["level"] == "auto"
+    assert page.find("view").find_element(By.TAG_NAME, "canvas").is_displayed()
+    loaded = "return performance.getEntriesByType('resource').map((entry) => entry.name)"
+    elsewhere = [
+        name for name in page.browser.execute_script(loaded) if not name.startswith(("blob:", "data:"))
+    ]
+    assert elsewhere == []
+    page.shot("demo")
+    print(f"core ready after {page.ready:.3f} s, {file.stat().st_size / 1e6:.2f} MB")
+
+
+def test_the_mouse_moves_the_magnet_and_the_fmu_agrees(
+    open_page: Callable[..., Page], default: Archive, tmp_path: Path
+) -> None:
+    page = open_page()
+    start = page.at_rest()
+    x, y = page.browser.execute_script("return window.mcm.magnetOnScreen()")
+    view = page.find("view")
+    middle = (view.size["width"] / 2, view.size["height"] / 2)
+    drag = ActionChains(page.browser, duration=30)
+    drag.move_to_element_with_offset(view, int(x - middle[0]), int(y - middle[1])).click_and_hold()
+    for _ in range(12):
+        drag.move_by_offset(3, -4)
+    drag.release().perform()
+    end = page.until("moved", lambda s: s["inputs"] != start["inputs"] and not s["busy"] and s["final"])
+    moved = [
+        end["inputs"][f"magnet.position[{k}]"] - start["inputs"][f"magnet.position[{k}]"] for k in (1, 2, 3)
+    ]
+    assert np.linalg.norm(moved) > 5e-3, moved
+    assert end["outputs"]["tip.angle"] != start["outputs"]["tip.angle"]
+    page.shot("dragged")
+
+    path = table(page.saved("save-path", "mcm_path.csv"))
+    results = table(page.saved("save-results", "mcm_results.csv"))
+    shown = np.array([[end["outputs"][name] for name in TIP]])
+    assert furthest(tips(results)[-1:], shown) == 0.0
+    got = replayed(default, path)
+    assert furthest(got, tips(results)) < SAME_TIP
+    print(f"{len(got)} rows, tips of page and FMU apart by {furthest(got, tips(results)):.1e} m")
+
+    # The same table through the command line.
+    done = run(
+        "follow",
+        PACKAGE / "fmu" / "default.toml",
+        "--inputs",
+        tmp_path / "mcm_path.csv",
+        "--out",
+        tmp_path / "f.csv",
+    )
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "f.csv").open(newline="") as lines:
+        rows = [[1e-3 * float(row[f"tip_{axis}_mm"]) for axis in "xyz"] for row in csv.DictReader(lines)]
+    assert furthest(np.array(rows), tips(results)) < SAME_TIP
+
+
+def test_a_snap_is_shown_and_replayed(open_page: Callable[..., Page], pack: Callable[..., Archive]) -> None:
+    page = open_page()
+    page.choose("hysteresis")
+    page.press("play")
+    warned = page.until("a warning ahead", lambda _: "snaps within" in page.text("banners"))
+    assert warned["snaps"] == 0
+    page.shot("before the snap")
+    page.until("a snap", lambda s: s["snaps"] >= 1)
+    assert "snap" in page.text("banners").lower()
+    page.shot("snapped")
+    page.until("both snaps and the end", lambda s: s["snaps"] == 2 and "was played" in page.text("banners"))
+    path = table(page.saved("save-path", "mcm_path.csv"))
+    results = table(page.saved("save-results", "mcm_results.csv"))
+    assert results["stability.snaps"].max() == 2
+    scene = page.browser.execute_script("return document.getElementById('scene-text').value")
+    got = replayed(pack(scene), path)
+    assert furthest(got, tips(results)) < SAME_TIP
+    page.press("replay")
+    page.until("replay", lambda _: "Replay was played" in page.text("banners"))
+    apart = page.text("banners").partition("at most ")[2].partition(" mm")[0]
+    assert float(apart) < 1e3 * SAME_TIP
+    page.shot("replayed")
+
+
+def test_a_bad_scene_is_told_line_by_line_and_the_device_goes_on(
+    open_page: Callable[..., Page], solve: Callable[..., dict]
+) -> None:
+    page = open_page()
+    before = page.at_rest()
+    for scene, said in [
+        ("[design]\nsegmnts = 3\n[field]\nuniform_mt = [0, 1]\n", ["line 2", "`segments`?", "line 4"]),
+        ("[design]\nsegments = 0\n", ["line 2", "from 1 to 64"]),
+        ("this is no scene", ["line 1"]),
+        ("[vessel]\nmesh_stl = 'aorta.stl'", ["fmu/live --scene"]),
+        ("[design]\nsegments = 1\n[design.helix]\nlength_mm = nan\n", ["length_mm", "finite"]),
+    ]:
+        page.write(scene)
+        page.until(
+            scene, lambda s, said=said: all(any(word in line for line in s["faults"]) for word in said)
+        )
+        assert page.state()["outputs"] == before["outputs"]
+        shown = page.find("scene-faults").get_property("textContent")
+        assert all(word.lower() in shown.lower() for word in said), shown
+    page.browser.execute_script("document.getElementById('scene-faults').scrollIntoView()")
+    page.shot("bad scene")
+    sound = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 20, 0]\n[model]\ninteraction = 'none'\n"
+    page.write(sound)
+    page.until("a sound scene", lambda s: not s["faults"] and s["level"] == "none" and not s["busy"])
+    assert page.state()["outputs"]["tip.angle"] == pytest.approx(solve(sound)["alpha_rad"], rel=1e-9)
+
+
+def test_a_pose_without_an_answer_keeps_the_shape_and_is_left_again(open_page: Callable[..., Page]) -> None:
+    page = open_page()
+    before = page.at_rest()
+    field = page.find("magnet-rows").find_elements(By.CSS_SELECTOR, "input[type=number]")[1]
+    field.clear()
+    field.send_keys("0", Keys.ENTER)
+    lost = page.until("no answer", lambda s: s["status"] == 3 and not s["busy"])
+    assert lost["outputs"]["tip.position[2]"] == pytest.approx(before["outputs"]["tip.position[2]"], abs=2e-2)
+    assert "Load anew" in page.text("banners")
+    page.shot("not solved")
+    field.clear()
+    field.send_keys("-120", Keys.ENTER)
+    page.until("back", lambda s: s["status"] == 0 and not s["busy"])
+    assert "Load anew" not in page.text("banners")
+
+
+def test_keys_move_the_magnet_and_the_link_brings_the_state_back(open_page: Callable[..., Page]) -> None:
+    page = open_page()
+    page.at_rest()
+    page.find("view").click()
+    keys = ActionChains(page.browser)
+    keys.send_keys(Keys.ARROW_UP * 3).perform()
+    end = page.until(
+        "keys", lambda s: abs(s["inputs"]["magnet.position[2]"] + 0.117) < 1e-12 and not s["busy"]
+    )
+    WebDriverWait(page.browser, PATIENCE).until(lambda browser: "#" in browser.current_url)
+    link = "#" + page.browser.current_url.partition("#")[2]
+    again = open_page(more=link)
+    state = again.at_rest()
+    assert state["inputs"] == end["inputs"]
+    assert state["outputs"]["tip.angle"] == pytest.approx(end["outputs"]["tip.angle"], abs=1e-4)
+    broken = open_page(more="#v1.broken")
+    assert broken.at_rest()["status"] == 0
+    assert broken.text("banners") != ""
+
+
+def test_it_fits_a_phone(open_page: Callable[..., Page]) -> None:
+    page = open_page(PHONE)
+    page.at_rest()
+    wide = page.browser.execute_script("return document.documentElement.scrollWidth")
+    assert wide <= PHONE[0]
+    canvas = page.find("view").size
+    assert canvas["height"] > 200
+    small = """
+        return [...document.querySelectorAll("button, select, input[type=range]")]
+            .filter((each) => each.checkVisibility())
+            .filter((each) => each.getBoundingClientRect().height < 32)
+            .map((each) => each.id || each.textContent);
+    """
+    assert page.browser.execute_script(small) == []
+    page.shot("phone")
+
+
+def test_every_control_has_a_name(open_page: Callable[..., Page]) -> None:
+    page = open_page()
+    page.at_rest()
+    nameless = """
+        return [...document.querySelectorAll("button, select, input, textarea")]
+            .filter((each) => !(each.labels?.length || each.ariaLabel || each.textContent.trim() || each.title
+                || each.getAttribute("aria-labelledby") || each.hidden || each.type === "file"))
+            .map((each) => each.outerHTML);
+    """
+    assert page.browser.execute_script(nameless) == []
+    page.browser.execute_script("document.getElementById('theme').click()")
+    page.shot("other colours")
+
+
+def test_the_aorta_is_the_program_s(open_page: Callable[..., Page]) -> None:
+    printed = run("init", "--vessel", "aorta").stdout
+    assert (PACKAGE / "fmu" / "page" / "src" / "panel" / "aorta.toml").read_text() == printed
+    page = open_page()
+    state = page.choose("aorta")
+    assert state["status"] == 0
+    assert "feed.length" in state["outputs"]
+    page.shot("aorta")
+
+
+def test_shape_and_picture_can_be_taken_along(open_page: Callable[..., Page]) -> None:
+    page = open_page()
+    page.at_rest()
+    shape = page.saved("save-shape", "mcm.glb").read_bytes()
+    assert shape[:4] == b"glTF"
+    length = int.from_bytes(shape[12:16], "little")
+    assert json.loads(shape[20 : 20 + length])["meshes"]
+    picture = page.saved("save-picture", "mcm.png").read_bytes()
+    assert picture[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_wrong_use_of_the_builder_is_refused(tmp_path: Path) -> None:
+    def refused(*arguments: str) -> str:
+        done = subprocess.run(
+            [PACKAGE / "fmu" / "live", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 1
+        return done.stderr
+
+    assert "--scnee is not known" in refused("--scnee", "x")
+    assert "there is no scene missing.toml" in refused("--scene", "missing.toml")
+    assert "needs a file" in refused("--out")
