@@ -109,7 +109,8 @@ export interface Answer {
     behind: boolean;
     /** Whether this is the last answer once more, with the stability margin measured: steps give an upper bound of it. */
     measured: boolean;
-    /** Whether this is the first answer of a device loaded anew (scene opened, restart). */
+    /** Whether this is the first answer of a device loaded anew (scene opened, restart); where a cheaper model fills in meanwhile, each of the
+     * two models has one. */
     first: boolean;
     /** Time that the step took, ms. */
     cost: number;

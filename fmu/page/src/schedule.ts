@@ -57,17 +57,17 @@ export class Schedule {
         }
     }
 
-    /** Loads the devices anew at these inputs. */
-    load(inputs: Float64Array): Answer {
-        this.asked.way.clear();
-        this.asked.cost = 0;
-        const answer = this.timed(this.asked, inputs, () => this.core.load(0, inputs));
-        this.asked.cost = 0; // a first solve says nothing about steps
-        if (this.cheaper !== null) {
-            this.cheaper.way.clear();
-            this.core.load(1, inputs);
+    /** Loads the devices anew at these inputs, and tells the answers: that of the cheaper model fills in while the one that is asked for
+     * is found. */
+    load(inputs: Float64Array, tell: (answer: Answer) => void): void {
+        for (const follower of [this.cheaper, this.asked]) {
+            if (follower !== null) {
+                follower.way.clear();
+                const load = () => this.core.load(follower.number, inputs);
+                tell({ ...this.timed(follower, inputs, load), first: true });
+                follower.cost = 0; // a first solve says nothing about steps
+            }
         }
-        return { ...answer, first: true };
     }
 
     /** Moves on to these inputs; they are reached by `work`. */

@@ -1,18 +1,9 @@
 /** The page's side of the worker that computes. */
 
 import { trianglesOf } from "./mesh";
+import { packed, unpacked } from "./packed";
 import type { Reply, Request } from "./protocol";
 import type { Start } from "./worker";
-
-/** The bytes, unpacked, of an element of the page that holds them as base64 of gzip; none where there is no such element. */
-async function embedded(id: string): Promise<ArrayBuffer> {
-    const text = document.getElementById(id)?.textContent?.trim() ?? "";
-    if (text === "") {
-        return new ArrayBuffer(0);
-    }
-    const packed = await fetch(`data:application/gzip;base64,${text}`);
-    return new Response(packed.body!.pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-}
 
 /** A worker with the core. */
 export class Solver {
@@ -31,16 +22,17 @@ export class Solver {
         this.worker.onmessage = (event: MessageEvent<Reply>) => {
             if (event.data.kind === "ready") {
                 URL.revokeObjectURL(place);
-                const requests = this.waiting ?? [];
-                this.waiting = null;
-                requests.forEach((request) => this.send(request));
+                void this.begin(event.data);
+                return;
             }
             if (event.data.kind === "opened" && event.data.description.vessel?.branches.length === 0) {
                 event.data.description.vessel.triangles = this.triangles;
             }
             reply(event.data);
         };
-        void this.start();
+        // Unpacked over there, while this side builds its picture.
+        const start: Start = { code: packed("core"), grid: packed("grid") };
+        this.worker.postMessage(start);
     }
 
     /** Sends a request, once the core is there. */
@@ -52,14 +44,18 @@ export class Solver {
         }
     }
 
-    private async start(): Promise<void> {
+    /** Takes the mesh, which a scene may need, then sends what has waited. */
+    private async begin(ready: Reply): Promise<void> {
         try {
-            const start: Start = { code: await embedded("core"), grid: await embedded("grid") };
-            const mesh = await embedded("mesh");
-            this.triangles = mesh.byteLength > 0 ? trianglesOf(mesh) : [];
-            this.worker.postMessage(start, [start.code, start.grid]);
+            const stl = await unpacked(packed("mesh"));
+            this.triangles = stl.byteLength > 0 ? trianglesOf(stl) : [];
         } catch (error) {
             this.reply({ kind: "broken", message: String(error) });
+            return;
         }
+        const requests = this.waiting ?? [];
+        this.waiting = null;
+        requests.forEach((request) => this.send(request));
+        this.reply(ready);
     }
 }

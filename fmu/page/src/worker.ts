@@ -1,13 +1,14 @@
 /** The worker: keeps the core, takes requests of the page, and steps between them. */
 
 import { Core, Refusal } from "./core";
-import type { Reply, Request } from "./protocol";
+import { unpacked } from "./packed";
+import type { Answer, Reply, Request } from "./protocol";
 import { Schedule } from "./schedule";
 
-/** What the page sends first: the core's code, and the distance grid of the mesh that comes with the page (empty for none). */
+/** What the page sends first, packed: the core's code, and the distance grid of the mesh that comes with the page (empty for none). */
 export interface Start {
-    code: ArrayBuffer;
-    grid: ArrayBuffer;
+    code: string;
+    grid: string;
 }
 
 let module: WebAssembly.Module;
@@ -22,13 +23,17 @@ function reply(message: Reply): void {
     postMessage(message);
 }
 
+function answered(answer: Answer): void {
+    reply({ kind: "answer", answer });
+}
+
 function open(text: string): void {
     const description = core.open(0, text, grid);
     schedule = new Schedule(core, description);
     scene = text;
     reply({ kind: "opened", description });
     const start = Float64Array.from(description.inputs, (input) => input.start ?? 0);
-    reply({ kind: "answer", answer: schedule.load(start) });
+    schedule.load(start, answered);
 }
 
 function take(request: Request): void {
@@ -37,9 +42,7 @@ function take(request: Request): void {
             open(request.scene);
             break;
         case "restart":
-            if (schedule !== null) {
-                reply({ kind: "answer", answer: schedule.load(request.inputs) });
-            }
+            schedule?.load(request.inputs, answered);
             break;
         case "move":
             schedule?.move(request.inputs, request.every, performance.now());
@@ -53,7 +56,7 @@ function work(): void {
     guarded(() => {
         const answer = schedule?.work(performance.now());
         if (answer != null) {
-            reply({ kind: "answer", answer });
+            answered(answer);
         }
     });
     wake();
@@ -102,16 +105,16 @@ async function revive(reason: string): Promise<void> {
     }
 }
 
-async function start({ code, grid: bytes }: Start): Promise<void> {
+async function start(packed: Start): Promise<void> {
     const begin = performance.now();
     try {
-        module = await WebAssembly.compile(code);
+        module = await WebAssembly.compile(await unpacked(packed.code));
         core = await Core.start(module);
+        grid = new Uint8Array(await unpacked(packed.grid));
     } catch (error) {
         reply({ kind: "broken", message: String(error) });
         return;
     }
-    grid = new Uint8Array(bytes);
     onmessage = (event: MessageEvent<Request>) => {
         guarded(() => take(event.data));
         wake();

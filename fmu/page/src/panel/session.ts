@@ -163,7 +163,7 @@ export class Session {
         if (answer.inputs.length !== this.inputs.length) {
             return;
         }
-        if (answer.first) {
+        if (answer.first && answer.final) {
             this.loading = Math.max(0, this.loading - 1);
         }
         if (!answer.behind) {
