@@ -16,7 +16,8 @@ from page import LAPTOP, PATIENCE, PHONE, Page
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
-from selenium.webdriver.support.ui import WebDriverWait
+from selenium.webdriver.support.ui import Select, WebDriverWait
+from test_vessel import SCENE, tube
 
 # Largest difference of tip positions between page and FMU on the same path, m: other sines and cosines, same steps.
 SAME_TIP = 1e-9
@@ -273,6 +274,32 @@ def test_shape_and_picture_can_be_taken_along(open_page: Callable[..., Page]) ->
     assert json.loads(shape[20 : 20 + length])["meshes"]
     picture = page.saved("save-picture", "mcm.png").read_bytes()
     assert picture[:8] == b"\x89PNG\r\n\x1a\n"
+
+
+def test_a_page_is_built_with_a_scene_and_its_mesh(tmp_path: Path, pack: Callable[..., Archive]) -> None:
+    (tmp_path / "tube.stl").write_bytes(tube(2.2, -20.0, 40.0))
+    (tmp_path / "mine.toml").write_text(SCENE.format(mesh="tube.stl"))
+    built = subprocess.run(
+        [PACKAGE / "fmu" / "live", "--scene", tmp_path / "mine.toml", "--out", tmp_path / "mine.html"],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=900,
+    )
+    assert built.returncode == 0, built.stderr
+    page = Page(tmp_path / "mine.html", tmp_path)
+    assert page.at_rest()["status"] == 0
+    assert Select(page.find("preset")).first_selected_option.text == "mine.toml"
+    field = page.find("field-rows").find_elements(By.CSS_SELECTOR, "input[type=number]")[1]
+    field.clear()
+    field.send_keys("12", Keys.ENTER)
+    pressed = page.until("pressed", lambda s: s["outputs"]["contact.force[2]"] < -1e-3 and not s["busy"])
+    page.shot("mesh")
+    path = table(page.saved("save-path", "mcm_path.csv"))
+    got = replayed(pack(SCENE.format(mesh=(tmp_path / "tube.stl").as_posix())), path)
+    assert furthest(got[-1:], np.array([[pressed["outputs"][name] for name in TIP]])) < SAME_TIP
+    assert page.complaints() == []
+    page.browser.quit()
 
 
 def test_wrong_use_of_the_builder_is_refused(tmp_path: Path) -> None:
