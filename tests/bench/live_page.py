@@ -116,6 +116,16 @@ def row(page: Page, segments: int, level: str, folder: Path) -> str:
     return f"| {segments} | `{level}` | {found['cold']:.0f} | " + " | ".join(cells) + f" | {apart:.0e} |"
 
 
+def picture(file: Path, folder: Path) -> None:
+    """Leaves the README's picture in `live.png`: the device after its snap."""
+    page = Page(file, folder, (1280, 900))
+    page.choose("hysteresis")
+    page.press("play")
+    page.until("a snap", lambda state: state["snaps"] >= 1)
+    page.browser.save_screenshot(folder / "live.png")
+    page.browser.quit()
+
+
 def main() -> None:
     """Measures and prints the tables."""
     parser = argparse.ArgumentParser(
@@ -158,6 +168,7 @@ def main() -> None:
             f"{preset}: frames {np.median(frames):.0f} ms, 99 % {np.percentile(frames, 99):.0f} ms, {len(frames)}"
         )
     page.browser.quit()
+    picture(file, arguments.scratch)
 
 
 if __name__ == "__main__":

@@ -180,12 +180,27 @@ def test_a_bad_scene_is_told_line_by_line_and_the_device_goes_on(
         assert page.state()["outputs"] == before["outputs"]
         shown = page.find("scene-faults").get_property("textContent")
         assert all(word.lower() in shown.lower() for word in said), shown
-    page.browser.execute_script("document.getElementById('scene-faults').scrollIntoView()")
+    page.browser.execute_script("document.getElementById('scene-section').open = true")
+    page.browser.execute_script("document.getElementById('scene-faults').scrollIntoView({ block: 'end' })")
     page.shot("bad scene")
     sound = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 20, 0]\n[model]\ninteraction = 'none'\n"
     page.write(sound)
     page.until("a sound scene", lambda s: not s["faults"] and s["level"] == "none" and not s["busy"])
     assert page.state()["outputs"]["tip.angle"] == pytest.approx(solve(sound)["alpha_rad"], rel=1e-9)
+
+
+def test_a_scene_is_opened_while_the_magnet_moves(open_page: Callable[..., Page]) -> None:
+    page = open_page()
+    page.at_rest()
+    for preset, place in [("hysteresis", -0.04), ("demo", 0.023), ("hysteresis", -0.04)]:
+        page.drag(20)
+        state = page.choose(preset)
+        assert state["inputs"]["magnet.position[3]"] == pytest.approx(place)
+        assert state["snaps"] == 0
+    page.press("play")
+    page.until("played", lambda s: s["inputs"]["magnet.position[3]"] > -0.0395)
+    assert page.choose("fig-7b")["outputs"]["tip.angle"] > 1.0
+    assert "stopped" in page.text("banners")
 
 
 def test_a_pose_without_an_answer_keeps_the_shape_and_is_left_again(open_page: Callable[..., Page]) -> None:

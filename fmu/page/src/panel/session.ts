@@ -47,6 +47,8 @@ export class Session {
     /** Number of answers to come from a device loaded anew. */
     private loading = 0;
     private frame = 0;
+    /** Whether inputs were asked for while a scene was opened. */
+    private held = false;
 
     constructor(private readonly send: (request: Request) => void) {}
 
@@ -86,9 +88,17 @@ export class Session {
         // A hand moves more often than the screen is drawn: only the newest inputs of a frame are sent.
         this.frame ||= requestAnimationFrame(() => {
             this.frame = 0;
-            this.send({ kind: "move", inputs: this.inputs.slice(), every: false });
+            this.move();
         });
         this.tell("changed", origin);
+    }
+
+    /** Sends the inputs asked for; while a scene is opened, whose inputs are others, they wait. */
+    private move(): void {
+        this.held = this.opening.length > 0;
+        if (!this.held) {
+            this.send({ kind: "move", inputs: this.inputs.slice(), every: false });
+        }
     }
 
     /** Asks for these inputs, to be solved by the model asked for even if others follow. */
@@ -124,6 +134,9 @@ export class Session {
                 this.opening.shift();
                 this.loading = 0;
                 this.faults = reply.message.split("\n").filter((line) => line.trim() !== "");
+                if (this.held) {
+                    this.move();
+                }
                 this.tell("refused", this.faults);
                 break;
             case "answer":
@@ -140,6 +153,7 @@ export class Session {
         const asked = this.opening.shift() ?? { scene: this.scene, inputs: {} };
         this.scene = asked.scene;
         this.faults = [];
+        this.held = false;
         this.description = description;
         this.places = new Places(description);
         this.answer = null;

@@ -13,7 +13,7 @@ const SNAP_TOLD = 6;
 export class Warnings {
     /** Ways by model, and by whether margins are measured or bounds: only margins of one kind are compared. */
     private ways = new Map<string, Approach>();
-    private lastAngle = NaN;
+    private lastTip: number[] = [];
 
     constructor(
         private readonly session: Session,
@@ -28,7 +28,7 @@ export class Warnings {
 
     private clear(): void {
         this.ways = new Map();
-        this.lastAngle = NaN;
+        this.lastTip = [];
         (["fold", "snap", "unsolved"] as const).forEach((kind) => this.banners.hide(kind));
     }
 
@@ -40,9 +40,10 @@ export class Warnings {
         if (!answer.final || answer.measured) {
             return;
         }
-        const angle = (180 / Math.PI) * (this.session.places?.output(answer, "tip.angle") ?? NaN);
+        const tip = this.session.places?.vector(answer, "tip.position") ?? [];
         if (answer.status === Status.Snapped) {
-            const jump = `the tip angle went from ${written(this.lastAngle, 1)} to ${written(angle, 1)} deg`;
+            const far = 1e3 * Math.hypot(...tip.map((value, axis) => value - (this.lastTip[axis] ?? NaN)));
+            const jump = Number.isFinite(far) ? `the tip went by ${written(far, 1)} mm` : "the shape jumped";
             const time = `Snapped at ${written(this.seconds(), 1)} s`;
             this.banners.show("snap", `${time}: ${jump}.`, null, SNAP_TOLD);
         }
@@ -52,7 +53,7 @@ export class Warnings {
             this.banners.show("unsolved", `Not solved here; the last good shape is shown.${why}`, anew);
         } else {
             this.banners.hide("unsolved");
-            this.lastAngle = angle;
+            this.lastTip = tip;
         }
     }
 

@@ -109,10 +109,10 @@ export class Drawing {
         return new Box3().setFromPoints(outline).expandByScalar(3);
     }
 
-    /** The box around all. */
+    /** The box around all; a magnet that is switched off does not count. */
     box(): Box3 {
         const box = this.deviceBox();
-        if (this.magnet) box.union(this.magnet.box());
+        if (this.magnet && !this.magnet.faded) box.union(this.magnet.box());
         if (this.vessel) box.union(this.vessel.bounds);
         return box;
     }

@@ -29,6 +29,8 @@ const FADED = 0.22;
 
 /** The external magnet: coaxial cylinders about its z axis, each half in the colour of its pole and with its letter. */
 export class Magnet {
+    /** Whether it is switched off. */
+    faded = false;
     readonly group = new Group();
     private readonly materials: (MeshStandardMaterial | MeshBasicMaterial)[] = [];
     private readonly textures: Texture[] = [];
@@ -72,6 +74,7 @@ export class Magnet {
     /** Shows how strong it is: without strength it is faded. */
     setStrength(strength: number): void {
         const faded = strength === 0;
+        this.faded = faded;
         for (const material of this.materials) {
             const letters = material instanceof MeshBasicMaterial;
             material.transparent = faded || letters;
