@@ -21,9 +21,10 @@ const POINTS_OF_SHAFT: usize = 120;
 const FEWEST_POINTS: usize = 49;
 const MOST_POINTS: usize = 500;
 
-/// Factor on the scene's time budget: a page knows the time of the wall alone, shares the processor with the pictures that it draws, and its
-/// code is slow until the browser has compiled it well.
+/// Factor on the scene's time budget, as far as the budget stays below some seconds: a page knows the time of the wall alone, shares the
+/// processor with the pictures that it draws, and its code is slow until the browser has compiled it well.
 const PATIENCE: f64 = 5.0;
+const SECONDS: f64 = 5.0;
 
 /// A device that follows its inputs.
 ///
@@ -115,7 +116,8 @@ impl Device {
     /// Loads the device at these inputs, from its unloaded shape; false if that fails, see [`Device::said`].
     pub fn load(&mut self, inputs: &[f64]) -> bool {
         self.instance.reset();
-        let budget = PATIENCE * self.package.start().settings.time_budget;
+        let budget = self.package.start().settings.time_budget;
+        let budget = (PATIENCE * budget).min(budget.max(SECONDS));
         let parameters = [
             ("model.interaction", Value::Integer(self.level as i32)),
             ("model.time_budget", Value::Real(budget)),

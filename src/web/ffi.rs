@@ -140,13 +140,13 @@ pub extern "C" fn mcm_close(number: u32) {
 /// Loads a device at the inputs in the room for them, and leaves its outputs.
 #[unsafe(no_mangle)]
 pub extern "C" fn mcm_load(number: u32) -> u32 {
-    at_desk(|desk| desk.answer(number, |device, inputs| device.load(inputs)))
+    at_desk(|desk| desk.answer(number, Device::load))
 }
 
 /// Moves a device on to the inputs in the room for them, and leaves its outputs.
 #[unsafe(no_mangle)]
 pub extern "C" fn mcm_step(number: u32) -> u32 {
-    at_desk(|desk| desk.answer(number, |device, inputs| device.step(inputs)))
+    at_desk(|desk| desk.answer(number, Device::step))
 }
 
 /// Measures the stability margin of a device, and leaves its outputs.

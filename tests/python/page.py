@@ -7,6 +7,8 @@ from pathlib import Path
 from conftest import PACKAGE
 from selenium import webdriver
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions import interaction
+from selenium.webdriver.common.actions.pointer_input import PointerInput
 from selenium.webdriver.common.by import By
 from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import Select, WebDriverWait
@@ -77,11 +79,12 @@ class Page:
         self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.find(name))
         self.find(name).click()
 
-    def drag(self, moves: int) -> None:
-        """Drags the magnet by the middle of its gizmo, upwards to the right and back."""
+    def drag(self, moves: int, pointer: str = interaction.POINTER_MOUSE) -> None:
+        """Drags the magnet by the middle of its gizmo, by mouse or finger, upwards to the right and back."""
         x, y = self.browser.execute_script("return window.mcm.magnetOnScreen()")
         view = self.find("view")
-        drag = ActionChains(self.browser, duration=30)
+        device = PointerInput(pointer, "pointer")
+        drag = ActionChains(self.browser, duration=30, devices=[device])
         drag.move_to_element_with_offset(
             view, int(x - view.size["width"] / 2), int(y - view.size["height"] / 2)
         )

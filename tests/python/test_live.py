@@ -14,6 +14,7 @@ import pytest
 from conftest import PACKAGE, Archive, Device, run
 from page import LAPTOP, PATIENCE, PHONE, Page
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions import interaction
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select, WebDriverWait
@@ -254,6 +255,9 @@ def test_it_fits_a_phone(open_page: Callable[..., Page]) -> None:
     """
     assert page.browser.execute_script(small) == []
     page.shot("phone")
+    before = page.state()["inputs"]
+    page.drag(12, interaction.POINTER_TOUCH)
+    page.until("a finger moves it", lambda s: s["inputs"] != before and not s["busy"])
 
 
 def test_every_control_has_a_name(open_page: Callable[..., Page]) -> None:
