@@ -1,7 +1,8 @@
 /** What page and worker say to each other. All values are in SI units, names are those of the FMU's variables. */
 
-/** Interaction levels of the model, cheapest first; `auto` chooses by the tolerances asked for. */
-export type Level = "none" | "preceding" | "rings" | "full" | "auto";
+/** Interaction levels of the model in the FMU's order, cheapest first; `auto` chooses by the tolerances asked for. */
+export const LEVELS = ["none", "preceding", "rings", "full", "auto"] as const;
+export type Level = (typeof LEVELS)[number];
 
 /** An input or output of the device. */
 export interface Variable {
@@ -137,6 +138,11 @@ export type Reply =
     /** The core failed in a way that it should not; the page must be loaded anew. */
     | { kind: "broken"; message: string };
 
+/** Values of all inputs at the scene's start. */
+export function startOf(description: Description): Float64Array {
+    return Float64Array.from(description.inputs, (input) => input.start ?? 0);
+}
+
 /** Where variables stand in the arrays of a description. */
 export class Places {
     private readonly inputs: Map<string, number>;
@@ -153,9 +159,24 @@ export class Places {
         return this.inputs.get(name);
     }
 
+    /** Place of an output; undefined where the device has none of this name. */
+    outputPlace(name: string): number | undefined {
+        return this.outputs.get(name);
+    }
+
+    /** Puts values of inputs into their places; those that the device has not are left out. */
+    put(inputs: Float64Array, values: Record<string, number>): void {
+        for (const [name, value] of Object.entries(values)) {
+            const place = this.input(name);
+            if (place !== undefined) {
+                inputs[place] = value;
+            }
+        }
+    }
+
     /** An output of an answer; not a number where there is none. */
     output(answer: Answer, name: string): number {
-        const place = this.outputs.get(name);
+        const place = this.outputPlace(name);
         return place === undefined ? NaN : (answer.outputs[place] ?? NaN);
     }
 

@@ -1,11 +1,8 @@
 /** Which model answers when: the one that the scene asks for where it is fast enough or the inputs rest, else a cheaper one. */
 
 import { type Core, type Result } from "./core";
-import { type Answer, type Description, type Level, Places, Status } from "./protocol";
+import { type Answer, type Description, type Level, LEVELS, Places, Status } from "./protocol";
 import { Way } from "./way";
-
-/** Levels in the order of the FMU. */
-const LEVELS: Level[] = ["none", "preceding", "rings", "full", "auto"];
 
 /** The level that fills in for dearer ones. */
 const CHEAPER: Level = "rings";

@@ -2,7 +2,7 @@
 
 import { Core, Refusal } from "./core";
 import { unpacked } from "./packed";
-import type { Answer, Reply, Request } from "./protocol";
+import { type Answer, type Reply, type Request, startOf } from "./protocol";
 import { Schedule } from "./schedule";
 
 /** What the page sends first, packed: the core's code, and the distance grid of the mesh that comes with the page (empty for none). */
@@ -32,8 +32,7 @@ function open(text: string): void {
     schedule = new Schedule(core, description);
     scene = text;
     reply({ kind: "opened", description });
-    const start = Float64Array.from(description.inputs, (input) => input.start ?? 0);
-    schedule.load(start, answered);
+    schedule.load(startOf(description), answered);
 }
 
 function take(request: Request): void {

@@ -8,13 +8,11 @@ use mcm::manipulator::SceneFile;
 
 use super::doing::Doing;
 use super::failure::Failure;
+use super::nearest::nearest;
 use super::output::{folder, place};
 
 /// Largest length of a scene, bytes.
 const LONGEST_TEXT: u64 = 10_000_000;
-
-/// Smallest similarity (1: equal) at which another file's name is suggested as a correction.
-const PLAUSIBLE: f64 = 0.5;
 
 /// Reads a scene file, and the mesh that it may name.
 pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
@@ -79,15 +77,9 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
 
 /// The file in the same folder whose name is most similar to that of a missing file.
 fn nearest_file(path: &Path) -> Option<String> {
-    let wanted = path.file_name()?.to_string_lossy().into_owned();
+    let wanted = path.file_name()?.to_string_lossy();
     let named = path.parent()?;
-    fs::read_dir(folder(path))
-        .ok()?
-        .filter_map(|entry| {
-            let name = entry.ok()?.file_name().to_string_lossy().into_owned();
-            let similarity = strsim::normalized_damerau_levenshtein(&wanted, &name);
-            (similarity >= PLAUSIBLE).then(|| (similarity, named.join(name).display().to_string()))
-        })
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, name)| name)
+    let entries = fs::read_dir(folder(path)).ok()?;
+    let names = entries.filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()));
+    Some(named.join(nearest(&wanted, names)?).display().to_string())
 }

@@ -10,15 +10,13 @@ use mcm::fmi::variable::{Causality, Variable};
 
 use super::failure::{Failure, NOT_CONVERGED};
 use super::files::{bad_table, open_table, read_scene, refuse_same};
+use super::nearest::nearest;
 use super::output::{Table, print, warn};
 use super::progress::progress_bar;
 use super::sweep::{Columns, Row, Way};
 
 /// Name of the column that orders the rows and is no input.
 const TIME: &str = "time";
-
-/// Smallest similarity (1: equal) at which another input is suggested as a correction.
-const PLAUSIBLE: f64 = 0.5;
 
 /// Fewest points of the centreline that a table of variables can have; none of them is written.
 const SHAPE_POINTS: usize = 2;
@@ -141,9 +139,7 @@ fn input<'a>(package: &'a Package, name: &str) -> Option<&'a Variable> {
 
 fn unknown(package: &Package, title: &str) -> String {
     let inputs = package.table().variables().iter().filter(|row| row.causality == Causality::Input);
-    let similarity = |name: &str| strsim::normalized_damerau_levenshtein(name, title);
-    let nearest = inputs.max_by(|a, b| similarity(&a.name).total_cmp(&similarity(&b.name)));
-    let nearest = nearest.filter(|row| similarity(&row.name) > PLAUSIBLE);
-    let suggested = nearest.map_or(String::new(), |row| format!("; did you mean {}?", row.name));
+    let nearest = nearest(title, inputs.map(|row| row.name.clone()));
+    let suggested = nearest.map_or(String::new(), |name| format!("; did you mean {name}?"));
     format!("{title} is no input of this scene's FMU{suggested}")
 }

@@ -12,6 +12,7 @@ mod files;
 mod follow;
 mod init;
 mod interrupt;
+mod nearest;
 mod output;
 mod pack;
 mod picture;

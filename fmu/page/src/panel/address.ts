@@ -47,16 +47,16 @@ export class Address {
         if (state === null) {
             return null;
         }
+        const hash = await hashOf(state).catch(() => null);
+        if (hash === null) {
+            return null;
+        }
         try {
-            const hash = await hashOf(state);
             history.replaceState(null, "", hash);
-            return new URL(hash, location.href).href;
         } catch {
             // Some browsers do not let a file change its address; the link can still be copied.
-            return hashOf(state)
-                .then((hash) => location.href.replace(/#.*$/, "") + hash)
-                .catch(() => null);
         }
+        return location.href.replace(/#.*$/, "") + hash;
     }
 
     private async copy(): Promise<void> {

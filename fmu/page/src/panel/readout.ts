@@ -1,12 +1,9 @@
 /** The line of numbers over the picture, and the status in words. */
 
-import { type Answer, Status } from "../protocol";
+import { type Answer, LEVELS, Status } from "../protocol";
 import { element } from "./element";
 import { length, written } from "./number";
 import type { Session } from "./session";
-
-/** Levels by the number that `model.level` has. */
-const LEVELS = ["none", "preceding", "rings", "full"];
 
 /** Least time between two numbers of the same place, ms: faster ones cannot be read. */
 const READABLE = 60;

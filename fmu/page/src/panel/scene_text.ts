@@ -13,7 +13,7 @@ const ARRAY_HEADER = /^\s*\[\[\s*([^[\]]+?)\s*\]\]\s*(#.*)?$/;
 /** The value of a key as it is written, such as `"rings"` or `9`; null where the text does not have it. */
 export function valueIn(text: string, table: string, key: string): string | null {
     const found = find(lines(text), table, key);
-    return found === null ? null : (split(found.line.text)?.value ?? null);
+    return found === undefined ? null : (split(found.text)?.value ?? null);
 }
 
 /** The text with a key set to a value as TOML writes it; null where it is written in a way that cannot be changed by line. */
@@ -21,12 +21,12 @@ export function withValue(text: string, table: string, key: string, value: strin
     const rows = text.split("\n");
     const known = lines(text);
     const found = find(known, table, key);
-    if (found !== null) {
-        const parts = split(found.line.text);
+    if (found !== undefined) {
+        const parts = split(found.text);
         if (parts === null || !closed(parts.value)) {
             return null;
         }
-        rows[found.line.number] = `${parts.before}${value}${parts.after}`;
+        rows[found.number] = `${parts.before}${value}${parts.after}`;
         return rows.join("\n");
     }
     const inline = known.some((line) => line.table === "" && keyOf(line.text) === table);
@@ -47,12 +47,11 @@ export function withValue(text: string, table: string, key: string, value: strin
     return `${text.replace(/\n*$/, text.trim() === "" ? "" : "\n\n")}[${table}]\n${key} = ${value}\n`;
 }
 
-function find(known: Line[], table: string, key: string): { line: Line } | null {
-    const line = known.find(
+function find(known: Line[], table: string, key: string): Line | undefined {
+    return known.find(
         ({ text, table: within }) =>
             (within === table && keyOf(text) === key) || (within === "" && keyOf(text) === `${table}.${key}`),
     );
-    return line === undefined ? null : { line };
 }
 
 /** The lines that begin outside of any array or string that spans lines. */

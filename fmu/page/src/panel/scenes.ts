@@ -1,14 +1,11 @@
 /** The menu of scenes, and the two keys of a scene that have controls of their own: segments and level. */
 
-import type { Level } from "../protocol";
+import { LEVELS } from "../protocol";
 import { element } from "./element";
 import type { Editor } from "./editor";
 import { builtIn, PRESETS, type Preset } from "./presets";
 import { valueIn, withValue } from "./scene_text";
 import type { Session } from "./session";
-
-/** Levels of the model, cheapest first. */
-const LEVELS: Level[] = ["none", "preceding", "rings", "full", "auto"];
 
 /** Number of segments that a scene has which does not say it. */
 const SEGMENTS = 9;

@@ -1,6 +1,6 @@
 /** The session with the core: the scene that is open, the inputs asked for, and the newest answer. */
 
-import { type Answer, type Description, Places, type Reply, type Request } from "../protocol";
+import { type Answer, type Description, Places, type Reply, type Request, startOf } from "../protocol";
 
 /** Who changed inputs: the 3-D view, the controls, a way that is played, or a scene that was opened. */
 export type Origin = "view" | "controls" | "way" | "opened";
@@ -77,14 +77,10 @@ export class Session {
         this.tell("changed", "way");
     }
 
-    /** Asks for some inputs, by name; those that the device has not are left out. */
+    /** Asks for some inputs, by name; those that the device has not, or that are no numbers, are left out. */
     set(values: Record<string, number>, origin: Origin): void {
-        for (const [name, value] of Object.entries(values)) {
-            const place = this.places?.input(name);
-            if (place !== undefined && Number.isFinite(value)) {
-                this.inputs[place] = value;
-            }
-        }
+        const known = Object.entries(values).filter(([, value]) => Number.isFinite(value));
+        this.places?.put(this.inputs, Object.fromEntries(known));
         // A hand moves more often than the screen is drawn: only the newest inputs of a frame are sent.
         this.frame ||= requestAnimationFrame(() => {
             this.frame = 0;
@@ -157,15 +153,10 @@ export class Session {
         this.description = description;
         this.places = new Places(description);
         this.answer = null;
-        this.start = Float64Array.from(description.inputs, (input) => input.start ?? 0);
+        this.start = startOf(description);
         this.take(this.start);
         this.loading = 1;
-        for (const [name, value] of Object.entries(asked.inputs)) {
-            const place = this.places.input(name);
-            if (place !== undefined) {
-                this.inputs[place] = value;
-            }
-        }
+        this.places.put(this.inputs, asked.inputs);
         this.tell("opened", description);
         this.tell("changed", "opened");
         if (!same(this.inputs, this.start)) {

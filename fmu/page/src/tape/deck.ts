@@ -80,9 +80,7 @@ export class Deck {
     /** Plays the tape, which is kept as it is. */
     private replay(): void {
         const places = this.session.places;
-        const tip = [1, 2, 3].map((k) =>
-            this.session.description?.outputs.findIndex(isNamed(`tip.position[${k}]`)),
-        );
+        const tip = [1, 2, 3].map((k) => places?.outputPlace(`tip.position[${k}]`));
         const legs = this.tape.rows
             .filter((row) => row.solved)
             .map(({ time, inputs, outputs }) => ({
@@ -117,12 +115,7 @@ export class Deck {
     /** All inputs: those given, and the scene's start values. */
     private at(given: Record<string, number>): Float64Array {
         const inputs = this.session.start.slice();
-        for (const [name, value] of Object.entries(given)) {
-            const place = this.session.places?.input(name);
-            if (place !== undefined) {
-                inputs[place] = value;
-            }
-        }
+        this.session.places?.put(inputs, given);
         return inputs;
     }
 
@@ -195,10 +188,6 @@ export class Deck {
         element("stop", HTMLButtonElement).disabled = !recording && !this.player.playing;
         element("record", HTMLButtonElement).setAttribute("aria-pressed", String(recording));
     }
-}
-
-function isNamed(wanted: string): (variable: { name: string }) => boolean {
-    return ({ name }) => name === wanted;
 }
 
 function counted(rows: number): string {

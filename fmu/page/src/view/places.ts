@@ -1,4 +1,4 @@
-import type { Description } from "../protocol";
+import { type Description, Places, startOf } from "../protocol";
 
 /** Places of three numbers that belong together. */
 export type Triple = readonly [number, number, number];
@@ -8,22 +8,20 @@ export type Triple = readonly [number, number, number];
  * costs no strings. What a device does not have is at the place -1, which reads as not a number.
  */
 export class ValuePlaces {
-    private readonly inputs: Map<string, number>;
-    private readonly outputs: Map<string, number>;
+    private readonly places: Places;
 
     constructor(private readonly description: Description) {
-        this.inputs = new Map(description.inputs.map((variable, place) => [variable.name, place]));
-        this.outputs = new Map(description.outputs.map((variable, place) => [variable.name, place]));
+        this.places = new Places(description);
     }
 
     /** Place of an input. */
     input(name: string): number {
-        return this.inputs.get(name) ?? -1;
+        return this.places.input(name) ?? -1;
     }
 
     /** Place of an output. */
     output(name: string): number {
-        return this.outputs.get(name) ?? -1;
+        return this.places.outputPlace(name) ?? -1;
     }
 
     /** Places of the inputs `name[1]`, `name[2]`, `name[3]`. */
@@ -43,7 +41,7 @@ export class ValuePlaces {
 
     /** Inputs at the start. */
     start(): Float64Array {
-        return Float64Array.from(this.description.inputs, (variable) => variable.start ?? NaN);
+        return startOf(this.description);
     }
 }
 
