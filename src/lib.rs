@@ -37,6 +37,9 @@ pub mod methods; // other methods for the same equilibrium, kept to compare with
 
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
 
+#[cfg(feature = "uncertainty")]
+pub mod uncertainty; // how sure the outputs are: bands and samples
+
 #[cfg(feature = "studies")]
 pub mod studies; // the paper's figures as numbers
 

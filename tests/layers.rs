@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms in order, and what each may use; what those may use is allowed too.
-const ROOMS: [(&str, &[&str]); 15] = [
+const ROOMS: [(&str, &[&str]); 16] = [
     ("constants", &[]),
     ("error", &[]),
     ("numerics", &["constants", "error"]),
@@ -17,7 +17,8 @@ const ROOMS: [(&str, &[&str]); 15] = [
     ("equilibrium", &["magnetics", "rod", "vessel"]),
     ("methods", &["equilibrium"]),
     ("manipulator", &["methods"]),
-    ("studies", &["manipulator"]),
+    ("uncertainty", &["manipulator"]),
+    ("studies", &["uncertainty"]),
     ("fmi", &["manipulator"]),
     ("web", &["fmi"]),
     ("bin", &["studies", "fmi"]),

@@ -35,6 +35,8 @@ mod methods;
 
 mod manipulator;
 
+mod uncertainty;
+
 mod studies;
 
 mod fmi;

@@ -72,6 +72,11 @@ fn discretisation(settings: &Settings) -> Discretisation {
 
 impl Chain {
     pub(crate) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
+        Self::beside(design, settings, &[])
+    }
+
+    /// The same, with the tables of `others` as far as they have those of its rings.
+    pub(super) fn beside(design: &Design, settings: &Settings, others: &[Arc<Self>]) -> Result<Self, Error> {
         let mut rings = Vec::new();
         let shaft = design.shaft().map_or(0, |_| SHAFT_ELEMENTS);
         if let Some(ring) = design.base_ring() {
@@ -142,7 +147,7 @@ impl Chain {
         let skins: Vec<Vec<[f64; 2]>> =
             chains.iter().map(|pieces| pieces.iter().map(skin).collect()).collect();
         let radii = skins.iter().map(|skin| skin.iter().map(|piece| piece[1]).fold(0.0, f64::max)).collect();
-        let pair_tables = pair_tables(&rings, settings.pair_accuracy);
+        let pair_tables = pair_tables(&rings, settings.pair_accuracy, others);
         let made_from = (design.clone(), discretisation(settings));
         let tip_offset = offset;
         let lining = design.guidewire().map(|wire| Lining::new(wire, &elements, shaft));
@@ -225,12 +230,15 @@ impl Chain {
     }
 }
 
-/// Rules for pairs of `rings` to a relative accuracy, one table for each.
-fn pair_tables(rings: &[RingBody], accuracy: f64) -> Vec<Arc<PairTable>> {
+/// Rules for pairs of `rings` to a relative accuracy, one table for each; those that `others` have are not made again.
+fn pair_tables(rings: &[RingBody], accuracy: f64, others: &[Arc<Chain>]) -> Vec<Arc<PairTable>> {
+    let alike = |chain: &&Arc<Chain>| chain.made_from.1.3.to_bits() == accuracy.to_bits();
+    let known: Vec<_> = others.iter().filter(alike).flat_map(|chain| &chain.pair_tables).collect();
     let mut tables: Vec<Arc<PairTable>> = Vec::new();
     for body in rings {
         let (inner, outer, length) = (body.ring.inner_radius, body.ring.outer_radius, body.ring.length);
-        let equal = tables.iter().find(|table| table.is_of(inner, outer, length)).cloned();
+        let equal = |table: &&Arc<PairTable>| table.is_of(inner, outer, length);
+        let equal = tables.iter().find(equal).or_else(|| known.iter().copied().find(equal)).cloned();
         tables.push(equal.unwrap_or_else(|| Arc::new(PairTable::new(inner, outer, length, accuracy))));
     }
     tables

@@ -121,12 +121,12 @@ impl Equilibrium {
     }
 
     /// Length (m) that counts as inserted.
-    fn inserted(&self, inputs: &Inputs) -> f64 {
+    pub(super) fn inserted(&self, inputs: &Inputs) -> f64 {
         self.chain.inserted(self.chain.growth(inputs.insertion))
     }
 
     /// The unknowns whose change moves a shape as a growing inserted length does, and their rates.
-    fn growing(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
+    pub(super) fn growing(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
         let shaft = self.chain.shaft;
         let first = self.chain.first[..shaft].to_vec();
         first.into_iter().map(move |first| (first + EXTENSION, 1.0 / shaft as f64))

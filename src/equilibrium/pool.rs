@@ -23,10 +23,10 @@ impl Chain {
     pub(super) fn shared(design: &Design, settings: &Settings) -> Result<Arc<Self>, Error> {
         // Outside the lock, which a chain takes when it is dropped.
         let all: Vec<Arc<Self>> = live(|live| live.iter().filter_map(Weak::upgrade).collect());
-        if let Some(equal) = all.into_iter().find(|chain| chain.is_of(design, settings)) {
-            return Ok(equal);
+        if let Some(equal) = all.iter().find(|chain| chain.is_of(design, settings)) {
+            return Ok(Arc::clone(equal));
         }
-        let made = Arc::new(Self::new(design, settings)?);
+        let made = Arc::new(Self::beside(design, settings, &all)?);
         live(|live| live.push(Arc::downgrade(&made)));
         Ok(made)
     }

@@ -64,16 +64,7 @@ impl Equilibrium {
         let shape = self.branch.unknowns.clone();
         let by_insertion = self.by_insertion(inputs, &shape);
         let mut potential = self.potential(inputs, &shape);
-        let stiffness = match potential.linearise(&shape) {
-            Some(_) if potential.factorise(0.0) => potential.softest_stiffness(),
-            _ => 0.0,
-        };
-        if stiffness.is_nan() || stiffness < SINGULAR {
-            let reason = format!(
-                "the shape is at a fold: its softest direction has {stiffness:.1e} of the elastic stiffness"
-            );
-            return Err(Error::NoDerivatives(reason));
-        }
+        potential.factorise_regular(&shape)?;
         let mut columns = potential.columns(&counts);
         let with_magnet = columns.is_some();
         if columns.is_none() && inputs.magnet_strength == 0.0 {
@@ -110,6 +101,24 @@ impl Equilibrium {
 }
 
 impl Potential<'_> {
+    /// Linearises at the shape `unknowns` and factorises its Hessian.
+    ///
+    /// # Errors
+    /// [`Error::NoDerivatives`] at a fold.
+    pub(super) fn factorise_regular(&mut self, unknowns: &[f64]) -> Result<(), Error> {
+        let stiffness = match self.linearise(unknowns) {
+            Some(_) if self.factorise(0.0) => self.softest_stiffness(),
+            _ => 0.0,
+        };
+        if stiffness.is_nan() || stiffness < SINGULAR {
+            let reason = format!(
+                "the shape is at a fold: its softest direction has {stiffness:.1e} of the elastic stiffness"
+            );
+            return Err(Error::NoDerivatives(reason));
+        }
+        Ok(())
+    }
+
     /// Stiffness of the softest direction relative to the elastic stiffness, by inverse iteration: an upper bound, close
     /// where it is small, for conservative and non-conservative forces.
     fn softest_stiffness(&mut self) -> f64 {

@@ -4,10 +4,14 @@ use std::sync::Arc;
 
 use super::directional_derivatives::{direction, output_derivative};
 use super::fmu_state::FmuState;
+use super::host_values::HostValues;
 use super::instance::Instance;
-use super::state::Ending;
-use super::variable::{Causality, Variability};
+use super::state::{Ending, State};
+use super::units::DENSITY;
+use super::value::{DataType, Value};
+use super::variable::{Causality, Variability, Variable};
 use crate::error::Error;
+use crate::manipulator::{Manipulator, Number, Outputs};
 
 impl Instance {
     /// Sets time derivatives of inputs for the next step, in the unit of the input per second: all of them, or none if one
@@ -64,7 +68,8 @@ impl Instance {
 
     /// Derivatives of the outputs `unknowns` with respect to the inputs `knowns`, times the direction `seed`.
     ///
-    /// Gravity, a tunable parameter, counts as an input.
+    /// Gravity, a tunable parameter, counts as an input. During initialisation fixed parameters of type Real are known too (FMI 2.0.4,
+    /// section 2.1.9).
     ///
     /// # Errors
     /// [`Ending::Error`], explained in the log, when there are none.
@@ -76,11 +81,11 @@ impl Instance {
     ) -> Result<Vec<f64>, Ending> {
         for &reference in knowns {
             let variable = self.variable(reference).ok_or(Ending::Error)?;
-            if !variable.derivative_role.is_known() {
-                let name = &variable.name;
-                return Err(
-                    self.refuse(&format!("there are no derivatives by {name}: it is not a continuous input"))
-                );
+            let varies = self.state() == State::Initialization && varies_the_device(variable);
+            if !variable.derivative_role.is_known() && !varies {
+                let (name, reason) = (&variable.name, "it is not a continuous input");
+                let until = if varies_the_device(variable) { ", and initialisation is over" } else { "" };
+                return Err(self.refuse(&format!("there are no derivatives by {name}: {reason}{until}")));
             }
         }
         for &reference in unknowns {
@@ -116,21 +121,61 @@ impl Instance {
             None => jacobian.insert(Arc::new(manipulator.jacobian()?)),
         };
         let table = self.package.table();
-        let seeded = knowns.iter().zip(seed).filter_map(|(&known, &seed)| Some((table.find(known)?, seed)));
-        let direction = direction(jacobian, host_values, seeded).ok_or_else(not_solved)?;
+        let seeded = knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
+        let seeded = seeded.filter_map(|(&known, &seed)| Some((table.find(known)?, seed)));
+        let (parameters, seeded): (Vec<_>, Vec<_>) = seeded.partition(|(known, _)| varies_the_device(known));
+        let direction = direction(jacobian, host_values, seeded.into_iter()).ok_or_else(not_solved)?;
         let all = jacobian.along(&direction)?;
         let of_output = |&unknown: &u32| {
             let variable = table.find(unknown)?;
             output_derivative(jacobian, all.as_slice(), manipulator.outputs(), variable)
         };
-        let derivatives: Vec<f64> = unknowns
+        let mut derivatives: Vec<f64> = unknowns
             .iter()
             .map(|unknown| of_output(unknown).ok_or_else(not_solved))
             .collect::<Result<_, _>>()?;
+        for (parameter, seed) in parameters {
+            let (sides, apart) = beside(manipulator, host_values, parameter)?;
+            for (derivative, unknown) in derivatives.iter_mut().zip(unknowns) {
+                let read = |outputs| table.find(*unknown)?.output(outputs)?.real();
+                let [before, after] = sides.each_ref().map(read);
+                *derivative += seed * (after.zip(before).map(|(a, b)| a - b)).ok_or_else(not_solved)? / apart;
+            }
+        }
         if derivatives.iter().all(|derivative| derivative.is_finite()) {
             Ok(derivatives)
         } else {
             Err(Error::NoDerivatives("they are too large for numbers".into()))
         }
     }
+}
+
+/// Whether the variable is a number on which the device depends, and its surroundings: a fixed parameter of type Real.
+fn varies_the_device(variable: &Variable) -> bool {
+    (variable.causality, variable.variability) == (Causality::Parameter, Variability::Fixed)
+        && matches!(variable.data_type, DataType::Real(_))
+}
+
+/// The outputs of two devices beside the solved one, one with a smaller and one with a larger value of a parameter, and by how much it
+/// differs between them.
+fn beside(
+    manipulator: &Manipulator,
+    values: &HostValues,
+    parameter: &Variable,
+) -> Result<([Outputs; 2], f64), Error> {
+    let unknown = || Error::NoDerivatives(format!("{} has no value", parameter.name));
+    let value = parameter.host_value(values).and_then(Value::real).ok_or_else(unknown)?;
+    let DataType::Real(quantity) = parameter.data_type else { return Err(unknown()) };
+    if value == 0.0 && quantity == DENSITY {
+        return Err(Error::NoDerivatives(format!(
+            "{} = 0 stands for the rule of its material",
+            parameter.name
+        )));
+    }
+    let number = Number { value, usual: quantity.nominal.unwrap_or(1.0) };
+    manipulator.outputs_beside(number, |value| {
+        let mut varied = values.clone();
+        parameter.set(&mut varied, Value::Real(value))?;
+        varied.variant()
+    })
 }

@@ -7,7 +7,7 @@ use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet};
-use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile};
+use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile, Variant};
 use crate::methods::Method;
 use crate::vessel::{Vessel, Wall};
 
@@ -178,18 +178,29 @@ impl HostValues {
         design.with(shaft, self.guidewire.as_ref())
     }
 
+    /// The device that the parameters describe in its surroundings, checked, with its inputs.
+    ///
+    /// # Errors
+    /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`HostValues::inputs`].
+    pub fn variant(&self) -> Result<Variant, Error> {
+        let (design, magnet) = (self.design()?, Some(Assembly::new(self.magnets.clone())?));
+        let in_lumen = |vessel: &Arc<Vessel>| {
+            let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
+            Ok::<_, Error>(Vessel { wall, lumen: vessel.lumen.clone() })
+        };
+        let vessel = self.vessel.as_ref().map(in_lumen).transpose()?;
+        Ok(Variant { design, magnet, vessel, inputs: self.inputs()? })
+    }
+
     /// The manipulator that the parameters describe, not yet solved.
     ///
     /// # Errors
-    /// Those of [`HostValues::design`], [`Assembly::new`] and [`Manipulator::new`].
+    /// Those of [`HostValues::variant`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
-        let magnet = Assembly::new(self.magnets.clone())?;
-        let made = Manipulator::new(&self.design()?, Some(&magnet), self.settings, shape_points)?;
-        Ok(match &self.vessel {
-            Some(vessel) => {
-                let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
-                made.in_vessel(&Vessel { wall, lumen: vessel.lumen.clone() })
-            }
+        let Variant { design, magnet, vessel, .. } = self.variant()?;
+        let made = Manipulator::new(&design, magnet.as_ref(), self.settings, shape_points)?;
+        Ok(match &vessel {
+            Some(vessel) => made.in_vessel(vessel),
             None => made,
         })
     }

@@ -6,7 +6,7 @@ use super::hierarchy::{self, Hierarchy};
 use super::outputs::Resolution;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Settings, TipDeviation};
+use crate::equilibrium::{Equilibrium, Report, Settings, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::methods::Method;
@@ -229,6 +229,25 @@ impl Manipulator {
         let jacobian = equilibrium.jacobian()?;
         let pushed = equilibrium.inputs().is_some_and(|inputs| inputs.feed_force.is_some());
         Ok(if pushed { jacobian.at_given_push() } else { jacobian })
+    }
+
+    /// The model of the last shape.
+    pub(super) fn model(&self) -> &Equilibrium {
+        self.hierarchy.present()
+    }
+
+    /// What is read from the shape of another model of the same discretisation.
+    pub(super) fn outputs_of(&self, model: &Equilibrium, inputs: &Inputs) -> Outputs {
+        let mut out = self.outputs.clone();
+        out.read(model, inputs, resolution(&self.hierarchy));
+        out
+    }
+
+    /// The same after a solve of that model.
+    pub(super) fn outputs_of_solve(&self, model: &Equilibrium, inputs: &Inputs, report: &Report) -> Outputs {
+        let mut out = self.outputs_of(model, inputs);
+        out.record(report, self.hierarchy.fold_margin());
+        out
     }
 
     /// Sets the tolerances of tip position (m) and angle (rad) relative to the converged model, from the next solve on.

@@ -41,6 +41,11 @@ pub trait Solve: fmt::Debug {
         Err(Error::Unsupported("this method has no snapshots".into()))
     }
 
+    /// The manipulator itself, which alone has sensitivities; `None` for any other method.
+    fn manipulator(&self) -> Option<&Manipulator> {
+        None
+    }
+
     /// A full copy, which gives bit for bit the same answers as the original.
     fn duplicate(&self) -> Box<dyn Solve>;
 }
@@ -72,6 +77,10 @@ impl Solve for Manipulator {
 
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         Self::restore(self, snapshot)
+    }
+
+    fn manipulator(&self) -> Option<&Manipulator> {
+        Some(self)
     }
 
     fn duplicate(&self) -> Box<dyn Solve> {

@@ -7,6 +7,7 @@
 //! written here.
 
 mod accuracy;
+mod bands;
 mod bending;
 mod bifurcation;
 mod budget;
@@ -31,6 +32,7 @@ mod stability;
 mod study;
 
 pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_picture, front};
+pub use bands::bands;
 pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 pub use budget::{BUDGET_SCENES, BudgetKind, BudgetScene, Contribution, budget, budget_picture};
 pub use communication_step::communication_step;

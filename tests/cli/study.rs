@@ -9,7 +9,7 @@ use super::{assert_status, folder, mcm, stderr, table};
 /// Largest size of a picture that the README shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
-const STUDIES: [&str; 11] = [
+const STUDIES: [&str; 12] = [
     "field_ring",
     "fig4",
     "fig5",
@@ -19,6 +19,7 @@ const STUDIES: [&str; 11] = [
     "fig7d",
     "fig8",
     "hysteresis",
+    "bands",
     "rest",
     "communication-step",
 ];

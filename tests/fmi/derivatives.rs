@@ -150,6 +150,52 @@ fn derivatives_that_are_none_are_refused_by_name() {
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
 }
 
+/// Parameters of the design, of the magnet and of the vessel's surroundings are known while they can still be set.
+#[test]
+fn during_initialisation_parameters_have_derivatives() {
+    let scene = "[design]\nsegments = 2\n[field]\nuniform_mt = [0.0, 5.0, 0.0]\n[magnet]\n";
+    let at = |changed: Option<(&str, f64)>| {
+        let (mut instance, package, told) = super::instance(scene);
+        instance.enter_initialization();
+        if let Some((name, value)) = changed {
+            assert_eq!(set(&mut instance, package.table(), name, value), Ending::Ok, "{}", last(&told));
+        }
+        (instance, package, told)
+    };
+    let outputs = ["tip.angle", "tip.position[2]", "magnet.reaction_torque[1]", "shape.arc_length[5]"];
+    for name in [
+        "design.helix.shore_a",
+        "design.helix.length",
+        "design.ring.remanence",
+        "magnet.design.cylinder[1].remanence",
+    ] {
+        let (mut instance, package, told) = at(None);
+        let table = package.table();
+        let unknowns = outputs.map(|output| reference(table, output));
+        let knowns = [reference(table, name), reference(table, "field.uniform[2]")];
+        let found = instance.directional_derivative(&unknowns, &knowns, &[1.0, 0.0]);
+        let found = found.unwrap_or_else(|_| panic!("{name}: {}", last(&told)));
+        let both = instance.directional_derivative(&unknowns, &knowns, &[0.5, 2.0]).unwrap();
+        let field = instance.directional_derivative(&unknowns, &knowns[1..], &[2.0]).unwrap();
+        let value = get(&mut instance, table, name);
+        for (index, output) in outputs.into_iter().enumerate() {
+            let h = 1e-3 * value;
+            let ends = [-h, h].map(|h| get(&mut at(Some((name, value + h))).0, table, output));
+            let expected = (ends[1] - ends[0]) / (2.0 * h);
+            let error = (found[index] - expected).abs() / (1e-6 + expected.abs());
+            assert!(error < 1e-4, "{output} by {name}: {}, by differences {expected}", found[index]);
+            assert_close(name, &[both[index]], &[0.5 * found[index] + field[index]], ROUNDING);
+        }
+        assert_eq!(instance.exit_initialization(), Ending::Ok);
+        assert_eq!(instance.directional_derivative(&unknowns, &knowns[..1], &[1.0]), Err(Ending::Error));
+        assert!(last(&told).contains("initialisation is over"), "{}", last(&told));
+    }
+    let (mut instance, package, told) = at(None);
+    let [angle, density] = ["tip.angle", "design.helix.density"].map(|name| reference(package.table(), name));
+    assert_eq!(instance.directional_derivative(&[angle], &[density], &[1.0]), Err(Ending::Error));
+    assert!(last(&told).contains("stands for the rule of its material"), "{}", last(&told));
+}
+
 /// A straight rod under its buckling load has no derivatives.
 #[test]
 fn at_a_fold_there_are_no_derivatives_and_the_log_says_so() {

@@ -84,7 +84,7 @@ fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
 }
 
 /// All outputs of two solves as differences.
-fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f64>)> {
+pub(super) fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f64>)> {
     let vector = |a: &Vector3<f64>, b: &Vector3<f64>| (a - b).as_slice().to_vec();
     let turn = |a: &Pose, b: &Pose| rotation_log(&(a.rotation * b.rotation.transpose())).as_slice().to_vec();
     let mut out = vec![

@@ -9,8 +9,12 @@ mod jacobian;
 mod refusals;
 mod scene;
 
+mod sensitivities;
+
 mod snapshot;
 
 mod steps;
 
 mod walks;
+
+mod uncertainty;

@@ -1,6 +1,7 @@
 //! The paper's figures: each claim beside something independent.
 
 mod accuracy;
+mod bands;
 mod budget;
 mod communication_step;
 mod field_ring;

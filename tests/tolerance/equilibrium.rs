@@ -68,6 +68,9 @@ pub(crate) const HESSIAN_DIFFERENCE: f64 = 1e-6;
 /// to the largest effect that an input of usual size has on that output.
 pub(crate) const JACOBIAN: f64 = 1e-6;
 
+/// Derivatives of all outputs by numbers of the scene, from gradients of neighbouring models, by the same differences of solves.
+pub(crate) const SENSITIVITY: f64 = 1e-6;
+
 /// Symmetries of second derivatives, each side from solves of its own with one factorisation.
 pub(crate) const SYMMETRY: f64 = 1e-9;
 

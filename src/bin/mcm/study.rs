@@ -59,6 +59,8 @@ enum Name {
     Fig9,
     /// A magnet passes nine segments with its field against them, and comes back
     Hysteresis,
+    /// Measured values beside bands of 95 % from the tolerances of hardness, remanence and spacing
+    Bands,
     /// Tip angle without any load, over the number of segments, by arrangement of the spirals
     Rest,
     /// The same path of the magnet in few communication steps and in many
@@ -95,6 +97,7 @@ impl Name {
             Self::Fig8 => Some(|_| studies::fig8()),
             Self::Fig9 => Some(|progress| studies::fig9(usize::MAX, progress)),
             Self::Hysteresis => Some(studies::hysteresis),
+            Self::Bands => Some(|_| studies::bands()),
             Self::Rest => Some(|_| studies::rest()),
             Self::CommunicationStep => Some(studies::communication_step),
             Self::Accuracy

@@ -1,5 +1,7 @@
 //! The tables and keys of a scene file, as written: units in the names.
 
+use std::collections::BTreeMap;
+
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -30,6 +32,12 @@ pub struct SceneFile {
     pub(super) feed: Option<FeedEntries>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) guidewire: Option<GuidewireEntries>,
+    /// Standard deviations by key.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) uncertainty: BTreeMap<String, f64>,
+    /// Correlations by two keys.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub(super) correlation: BTreeMap<String, f64>,
     /// The lumen of the mesh that the vessel names, or why there is none.
     #[serde(skip)]
     pub(super) mesh: Option<Result<Lumen, crate::error::Error>>,

@@ -9,10 +9,12 @@ mod resolve;
 mod spiral_start;
 mod text;
 mod tube;
+mod uncertainty;
 mod units;
 mod vessel;
 
 pub use file::SceneFile;
+pub use uncertainty::Uncertainty;
 pub use vessel::FeedMode;
 
 use std::path::Path;

@@ -97,6 +97,7 @@ impl SceneFile {
         }
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         let settings = self.settings()?;
+        self.uncertainty()?;
         Ok(Scene { specification, magnets, vessel, shaft, guidewire, inputs, settings, solver })
     }
 

@@ -76,6 +76,21 @@ impl SceneFile {
         Ok(Self { mesh: file.mesh, ..varied })
     }
 
+    /// The number at `key`, in the unit of the file; a default where the file does not state it.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for a key that does not exist (naming the nearest one), holds no number, or holds a whole one.
+    pub fn number(&self, key: &str) -> Result<f64, Error> {
+        let mut file = self.clone();
+        file.complete_for(key)?;
+        let mut root = Value::Table(file.table()?);
+        match entry(&mut root, key)? {
+            Value::Float(number) => Ok(*number),
+            Value::Integer(_) => Err(Error::Unsupported(format!("`{key}` is a whole number"))),
+            _ => Err(Error::Unsupported(format!("`{key}` holds no number"))),
+        }
+    }
+
     pub(super) fn table(&self) -> Result<Table, Error> {
         Table::try_from(self).map_err(|error| unwritable(&error))
     }

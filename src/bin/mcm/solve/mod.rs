@@ -1,0 +1,126 @@
+//! `mcm solve`: one equilibrium.
+
+mod json;
+mod table;
+mod uncertainty;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use mcm::error::Error;
+use mcm::manipulator::{Inputs, Outputs};
+use serde_json::Value;
+
+use self::json::as_json;
+use self::table::as_table;
+use self::uncertainty::Told;
+use super::doing::Doing;
+use super::failure::Failure;
+use super::files::{read_scene, refuse_same};
+use super::output::{print, warn};
+use super::picture::ShapeFile;
+use super::verdict;
+
+/// Solves one equilibrium, starting from the unloaded shape.
+#[derive(clap::Args)]
+#[command(after_help = "Example: mcm solve scene.toml --json | jq .alpha_rad\n\n\
+In JSON, jacobian holds exact derivatives: tip_by_magnet (6 x 6, null without a magnet) and tip_by_uniform_field (6 x 3). \
+Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) and rotation (rad) of the magnet about its \
+centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
+jacobian_note says why. With --uncertainty, uncertainty.band_95 holds half the width of the band of each number, under the \
+same keys; it is null where there are no derivatives. stability is stable, unstable, neutral (one direction is free, as about the axis of an antiparallel \
+field) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
+solve got on the way from the unloaded shape, and all numbers of the shape are null.\n\n\
+Exit status: 0 solved and stable (or stability unknown: any \
+method but \"potential\"), 1 bad input, 2 not converged, \
+3 solved but known to be unstable, 4 solved but neutral.")]
+pub(crate) struct Solve {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Print JSON in SI units instead of a table
+    #[arg(long)]
+    json: bool,
+    /// Number of centreline points in the shape
+    #[arg(long, value_name = "N", default_value_t = 101)]
+    shape_points: usize,
+    /// Draw the shape to scale, with rings, vessel, magnet and forces of the wall, in the plane in which it spreads most
+    #[arg(long, value_name = "OUT.svg|OUT.png")]
+    picture: Option<PathBuf>,
+    /// Bands of 95 % of all outputs, from the standard deviations in the scene's table [uncertainty]
+    #[arg(long)]
+    uncertainty: bool,
+    /// With --uncertainty: also draw and solve this many random devices, which tells how likely a snap is
+    #[arg(long, value_name = "N", requires = "uncertainty")]
+    samples: Option<usize>,
+}
+
+/// Tip angle above which an unloaded shape is explained, rad.
+const REST_ANGLE: f64 = core::f64::consts::PI / 180.0;
+
+impl Solve {
+    /// Runs the command.
+    pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
+        let written: Vec<&Path> = self.picture.iter().map(PathBuf::as_path).collect();
+        refuse_same(&[&self.scene], &written)?;
+        let picture = self.picture.as_deref().map(ShapeFile::at).transpose()?;
+        let file = read_scene(&self.scene)?;
+        let scene = file.scene()?;
+        let level = scene.settings.interaction.name();
+        let doing = Doing::now(format!("making the models of level {level}"));
+        let mut manipulator = scene.device(self.shape_points)?;
+        let budget = scene.settings.time_budget;
+        doing.then(format!(
+            "solving at level {level}, which may take {budget} s of processor time (model.time_budget_s)"
+        ));
+        manipulator.solve(&scene.inputs)?;
+        doing.then("derivatives and stability margin");
+        let jacobian = manipulator.jacobian();
+        let outputs = manipulator.measure_margin();
+        if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
+            doing.then("drawing");
+            picture.draw(&self.scene.display().to_string(), &scene, outputs)?;
+        }
+        let outputs = outputs.clone();
+        let (told, untold) = match manipulator.manipulator().filter(|_| self.uncertainty) {
+            Some(manipulator) => {
+                doing.then("bands of the outputs");
+                match Told::of(&file, manipulator, self.samples) {
+                    Ok(told) => (Some(told), None),
+                    Err(error @ Error::NoDerivatives(_)) => (None, Some(error.to_string())),
+                    Err(error) => return Err(error.into()),
+                }
+            }
+            None => (None, self.uncertainty.then(|| "they need method \"potential\"".into())),
+        };
+        drop(doing);
+        if let Some(reason) = &untold {
+            warn(&format!("no bands: {reason}"));
+        }
+        print(if self.json {
+            let uncertainty = self.uncertainty.then(|| told.as_ref().map_or(Value::Null, Told::as_json));
+            format!("{:#}\n", as_json(&outputs, &jacobian, scene.magnets.is_some(), uncertainty))
+        } else {
+            let note = told.as_ref().map_or_else(String::new, Told::note);
+            as_table(&outputs, told.as_ref()) + &note + rest_note(&scene.inputs, &outputs)
+        })?;
+        Ok(exit_status(&outputs))
+    }
+}
+
+fn exit_status(outputs: &Outputs) -> ExitCode {
+    let Some((status, message)) = verdict::warning(outputs) else {
+        return ExitCode::SUCCESS;
+    };
+    warn(&message);
+    status.into()
+}
+
+/// Why the manipulator is bent although nothing acts on it; empty where something does or it is nearly straight.
+fn rest_note(inputs: &Inputs, outputs: &Outputs) -> &'static str {
+    let loaded = *inputs != inputs.without_loads();
+    if loaded || !verdict::converged(outputs) || outputs.tip_angle <= REST_ANGLE {
+        return "";
+    }
+    "\nnote: bent at rest, without any load: rings attract the spirals beside them off the axis, and the bends of the segments add up; \
+     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that they cancel\n"
+}
