@@ -40,6 +40,12 @@ pub mod manipulator; // the device as its user sees it: scene in, shape and forc
 #[cfg(feature = "uncertainty")]
 pub mod uncertainty; // how sure the outputs are: bands and samples
 
+#[cfg(feature = "steer")]
+pub mod steer; // where the magnet must be: inputs that bring the tip to a target
+
+#[cfg(feature = "fit")]
+pub mod fit; // what the device is: parameters from measured rows
+
 #[cfg(feature = "studies")]
 pub mod studies; // the paper's figures as numbers
 

@@ -37,6 +37,10 @@ mod manipulator;
 
 mod uncertainty;
 
+mod steer;
+
+mod fit;
+
 mod studies;
 
 mod fmi;

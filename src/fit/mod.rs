@@ -1,0 +1,1 @@
+//! What the device is: its parameters from measured rows of inputs and outputs.

@@ -1,0 +1,1 @@
+//! Where the external magnet must be: inputs that bring the tip to a target.

@@ -1,0 +1,1 @@
+//! Inputs that bring the tip to a target.
