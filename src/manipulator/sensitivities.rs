@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::Outputs;
 
 /// Exact derivatives of all outputs by numbers of the scene at one equilibrium, in SI units of the output per unit of the scene
-/// (mm, deg, MPa, ... as the key says).
+/// (`mm`, `deg`, `mpa`, ... as the key says).
 ///
 /// They are the differences of the outputs of two devices, one with the number a little smaller and one with it larger, each in
 /// equilibrium to first order. So there is a derivative of everything that is read from [`Outputs`], but not of what a solve adds

@@ -115,19 +115,19 @@ impl Variation {
     ) -> Result<Option<[Outputs; 2]>, Error> {
         let model = manipulator.model();
         let known = self.models.take().filter(|(_, settings)| settings == model.settings());
-        let ([before, after], _) = match known {
-            Some(known) => self.models.insert(known),
-            None => {
-                let made =
-                    |side: &Variant| model.alike(&side.design, side.magnet.as_ref(), side.vessel.as_ref());
-                let models = [made(&self.sides[0])?, made(&self.sides[1])?];
-                self.models.insert((models, *model.settings()))
-            }
+        let ([before, after], _) = if let Some(known) = known {
+            self.models.insert(known)
+        } else {
+            let made = |side: &Variant| model.alike(&side.design, side.magnet.as_ref(), side.vessel.as_ref());
+            let models = [made(&self.sides[0])?, made(&self.sides[1])?];
+            self.models.insert((models, *model.settings()))
         };
         let mut inputs = self.sides.each_ref().map(|side| inputs_of(&side.inputs));
         let pushed = here.inputs().feed_force.is_some();
         if pushed {
-            inputs.iter_mut().for_each(|inputs| inputs.insertion = here.inputs().insertion);
+            for inputs in &mut inputs {
+                inputs.insertion = here.inputs().insertion;
+            }
         }
         let mut lead = |before: &mut Equilibrium, after: &mut Equilibrium, inputs: &[Inputs; 2]| {
             here.lead([(before, &inputs[0]), (after, &inputs[1])], self.apart) == Neighbourhood::Smooth

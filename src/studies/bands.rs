@@ -202,7 +202,9 @@ pub fn bands() -> Result<Study, Error> {
     columns.extend(limits("alpha_three", "_deg", &three));
     columns.extend(limits("alpha_cylinder", "_deg", &cylinder));
     let rows = columns.iter().map(|column| column.values.len()).max().unwrap_or(count);
-    columns.iter_mut().for_each(|column| column.values.resize(rows, f64::NAN));
+    for column in &mut columns {
+        column.values.resize(rows, f64::NAN);
+    }
     Ok(Study { title: "Measured values beside bands of 95 %", columns, panels: panels(), comparison })
 }
 

@@ -10,8 +10,8 @@ use super::bands::stated;
 use crate::error::{Error, check};
 use crate::manipulator::{Manipulator, Outputs, SceneFile, Status};
 
-/// Part of a distribution below and above its band of 95 %.
-const TAILS: [f64; 2] = [0.025, 0.975];
+/// Part of a distribution below the limits of its band of 95 %, in fortieths.
+const TAILS: [usize; 2] = [1, 39];
 
 /// Random devices whose numbers are normally distributed about those of a scene, each solved from the shape of the scene's device.
 ///
@@ -121,9 +121,9 @@ impl Samples {
         values.sort_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;
         Some(TAILS.map(|part| {
-            let place = part * last as f64;
-            let before = values[place.floor() as usize];
-            before + (values[place.ceil() as usize] - before) * place.fract()
+            let (place, beyond) = (part * last / 40, (part * last % 40) as f64 / 40.0);
+            let before = values[place];
+            before + (values[(place + 1).min(last)] - before) * beyond
         }))
     }
 

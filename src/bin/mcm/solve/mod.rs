@@ -1,6 +1,7 @@
 //! `mcm solve`: one equilibrium.
 
 mod json;
+mod quantities;
 mod table;
 mod uncertainty;
 

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use serde_json::{Map, Value, json};
 
 use super::json::shape;
-use super::table::quantities;
+use super::quantities::quantities;
 use crate::progress::progress_bar;
 
 /// Seed of the samples: the same scene has the same ones.
@@ -66,30 +66,31 @@ impl Told {
             .zip(&stated.deviations)
             .map(|(key, deviation)| format!("{key} \u{b1} {deviation}"))
             .collect();
-        let mut out = format!(
+        let mut lines = vec![format!(
             "\n\u{b1}: half the width of the 95 % band, first order, from standard deviations of {}\n",
             numbers.join(", ")
-        );
+        )];
         if let Some(distance) = self.bands.distance_of_fold() {
             let told = if self.bands.near_fold() {
                 ": near a fold the distribution is no ellipse and these bands do not hold; only samples tell (--samples 1000)"
             } else {
                 ""
             };
-            out += &format!("a fold is {distance:.1} standard deviations away{told}\n");
+            lines.push(format!("a fold is {distance:.1} standard deviations away{told}\n"));
         }
         if let Some(samples) = &self.samples {
             let (on, refused) = (samples.outputs().len(), samples.refused());
             let snaps = 100.0 * samples.snap_probability();
-            out += &format!(
+            lines.push(format!(
                 "{on} sampled devices hold the shape, {refused} cannot be built; probability of a snap {snaps:.2} %\n"
-            );
+            ));
             if let Some([low, high]) = samples.band(|outputs| outputs.tip_angle.to_degrees()) {
-                out +=
-                    &format!("95 % of those that hold it have a tip angle from {low:.4} to {high:.4} deg\n");
+                lines.push(format!(
+                    "95 % of those that hold it have a tip angle from {low:.4} to {high:.4} deg\n"
+                ));
             }
         }
-        out
+        lines.concat()
     }
 
     /// The same as JSON.
