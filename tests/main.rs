@@ -53,6 +53,8 @@ mod hostile;
 
 mod cli;
 
+mod documents;
+
 mod layers;
 
 mod dependencies;

@@ -21,9 +21,9 @@ fn continuation_bisection_and_closed_forms_agree_and_snaps_are_seen_coming() {
     assert_eq!(said, std::fs::read_to_string(file("md")).unwrap());
     assert!(file("csv").is_file() && file("png").is_file());
     let (places, predictions) = said.split_once("\n\n").unwrap();
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../src/studies/README.md");
     for table in [places, predictions.trim_end()] {
-        assert!(readme.contains(table), "the README's table is not what the study writes:\n{table}");
+        assert!(page.contains(table), "the page's table is not what the study writes:\n{table}");
     }
     let (places, predictions) = (cells(places), cells(predictions));
     assert_eq!((places.len(), predictions.len()), (SPANS.len(), 6));

@@ -10,6 +10,7 @@ mod pack;
 mod solve;
 mod study;
 mod sweep;
+mod uncertainty;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};

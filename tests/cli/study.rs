@@ -1,4 +1,4 @@
-//! `mcm study`: tables, pictures, the comparison in the README.
+//! `mcm study`: tables, pictures, the comparison in their page.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::{assert_status, folder, mcm, stderr, table};
 
-/// Largest size of a picture that the README shows, bytes.
+/// Largest size of a picture that a page shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
 const STUDIES: [&str; 12] = [
@@ -26,7 +26,7 @@ const STUDIES: [&str; 12] = [
 
 /// Beginnings of pure numbers' headers, and the ends of all others: their unit.
 const PURE: [&str; 8] =
-    ["mu_rel", "segments", "height_over_pitch", "score_", "gain_", "steps", "snaps_", "refused_"];
+    ["mu_rel", "segments", "height_over_pitch", "score_", "gain", "steps", "snaps_", "refused_"];
 const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
 
 fn assert_picture(path: &Path) {
@@ -55,23 +55,23 @@ fn assert_table(path: &Path) {
 }
 
 #[test]
-fn every_study_leaves_table_and_picture_and_the_readme_has_their_comparison() {
+fn every_study_leaves_table_and_picture_and_their_page_has_the_comparison() {
     let here = folder("study");
-    let readme = include_str!("../../README.md");
+    let page = include_str!("../../src/studies/README.md");
     let output = mcm(&here, &["study", "all", "--out", "figures"]);
     assert_status(&output, 0);
     for name in STUDIES {
         assert_table(&here.join("figures").join(name).with_extension("csv"));
         assert_picture(&here.join("figures").join(name).with_extension("png"));
         let shown = format!("tests/charts/{name}.png");
-        assert!(readme.contains(&shown), "the README does not show {shown}");
+        assert!(page.contains(&shown), "the page does not show {shown}");
         assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(&shown).is_file());
     }
     let comparison = std::fs::read_to_string(here.join("figures/comparison.md")).unwrap();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), comparison);
     assert!(
-        readme.contains(&comparison),
-        "the README's comparison is not what `mcm study all` writes:\n{comparison}"
+        page.contains(&comparison),
+        "the page's comparison is not what `mcm study all` writes:\n{comparison}"
     );
 }
 

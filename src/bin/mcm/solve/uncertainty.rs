@@ -52,7 +52,7 @@ impl Told {
             let components = quantities(outputs).into_iter().map(|quantity| json!(quantity.components));
             Value::Array(components.collect())
         });
-        let bands = self.leaves(&here);
+        let bands = leaves(&here, &|derivatives| self.band(derivatives));
         let rows = bands.as_array().into_iter().flatten();
         rows.map(|row| row.as_array().into_iter().flatten().filter_map(Value::as_f64).collect()).collect()
     }
@@ -98,18 +98,20 @@ impl Told {
         let stated = self.bands.uncertainty();
         let deviations: Map<String, Value> =
             stated.keys.iter().cloned().zip(stated.deviations.iter().map(|value| json!(value))).collect();
-        let keys: Vec<&str> = self.found().iter().map(|(key, _)| *key).collect();
-        let bands: Map<String, Value> = keys
-            .iter()
-            .enumerate()
-            .map(|(index, key)| {
-                let sides = self.sides(|outputs| shape(outputs)[index].1.clone());
-                ((*key).to_owned(), self.leaves(&sides))
-            })
-            .collect();
+        let (mut bands, mut sensitivities) = (Map::new(), vec![Map::new(); stated.keys.len()]);
+        for (index, (key, _)) in self.found().into_iter().enumerate() {
+            let sides = self.sides(|outputs| shape(outputs)[index].1.clone());
+            bands.insert(key.into(), leaves(&sides, &|derivatives| self.band(derivatives)));
+            for (side, sensitivity) in sides.chunks(1).zip(&mut sensitivities) {
+                sensitivity.insert(key.into(), leaves(side, &|derivatives| json!(derivatives[0])));
+            }
+        }
+        let sensitivities: Map<String, Value> =
+            stated.keys.iter().cloned().zip(sensitivities.into_iter().map(Value::Object)).collect();
         json!({
             "deviations": deviations,
             "band_95": bands,
+            "sensitivities": sensitivities,
             "distance_of_fold": self.bands.distance_of_fold(),
             "near_fold": self.bands.near_fold(),
             "samples": self.samples.as_ref().map(|samples| json!({
@@ -135,29 +137,34 @@ impl Told {
         each.map(|(sides, apart)| (sides.each_ref().map(&read), apart)).collect()
     }
 
-    /// The bands of all numbers in values of one form; null where neighbouring devices differ in form.
-    fn leaves(&self, sides: &[([Value; 2], f64)]) -> Value {
-        let derivatives: Option<Vec<f64>> = sides
-            .iter()
-            .map(|([before, after], apart)| Some((after.as_f64()? - before.as_f64()?) / apart))
-            .collect();
-        if let Some(derivatives) = derivatives {
-            return json!(self.bands.band_along(&DVector::from_vec(derivatives)));
-        }
-        let Some(([Value::Array(first), _], _)) = sides.first() else { return Value::Null };
-        let count = first.len();
-        let alike = |value: &Value| value.as_array().is_some_and(|array| array.len() == count);
-        if !sides.iter().all(|(sides, _)| sides.iter().all(alike)) {
-            return Value::Null;
-        }
-        let entry = |index: usize| -> Vec<_> {
-            sides
-                .iter()
-                .map(|(sides, apart)| (sides.each_ref().map(|side| side[index].clone()), *apart))
-                .collect()
-        };
-        (0..count).map(|index| self.leaves(&entry(index))).collect()
+    /// Half the width of the band of a number with these derivatives.
+    fn band(&self, derivatives: &[f64]) -> Value {
+        json!(self.bands.band_along(&DVector::from_column_slice(derivatives)))
     }
+}
+
+/// What `of` tells of the derivatives of each number in values of one form; null where neighbouring devices differ in form.
+fn leaves(sides: &[([Value; 2], f64)], of: &impl Fn(&[f64]) -> Value) -> Value {
+    let derivatives: Option<Vec<f64>> = sides
+        .iter()
+        .map(|([before, after], apart)| Some((after.as_f64()? - before.as_f64()?) / apart))
+        .collect();
+    if let Some(derivatives) = derivatives {
+        return of(&derivatives);
+    }
+    let Some(([Value::Array(first), _], _)) = sides.first() else { return Value::Null };
+    let count = first.len();
+    let alike = |value: &Value| value.as_array().is_some_and(|array| array.len() == count);
+    if !sides.iter().all(|(sides, _)| sides.iter().all(alike)) {
+        return Value::Null;
+    }
+    let entry = |index: usize| -> Vec<_> {
+        sides
+            .iter()
+            .map(|(sides, apart)| (sides.each_ref().map(|side| side[index].clone()), *apart))
+            .collect()
+    };
+    (0..count).map(|index| leaves(&entry(index), of)).collect()
 }
 
 /// The bands of the sampled devices that hold the shape, as pairs of limits.

@@ -1,0 +1,118 @@
+//! The pages: links lead somewhere, every picture is shown, and the first page stays short.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+const LONGEST_FIRST_PAGE: (usize, usize) = (200, 15_000); // lines, bytes
+
+fn package() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files of the project with this ending below a folder, from the package's folder, but those that others bring.
+fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if path.is_dir() && !name.starts_with('.') && !["node_modules", "target"].contains(&name.as_str()) {
+            files(&path, ending, found);
+        } else if path.extension().is_some_and(|extension| extension == ending) {
+            found.push(path);
+        }
+    }
+}
+
+/// A page without what stands between fences.
+fn prose(text: &str) -> String {
+    text.split("\n```").step_by(2).collect::<Vec<_>>().join("\n")
+}
+
+/// Where the links and pictures of a page lead.
+fn links(page: &str) -> Vec<String> {
+    let mut out = Vec::new();
+    for (before, after) in [("](", ')'), ("href=\"", '"'), ("src=\"", '"')] {
+        out.extend(page.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())));
+    }
+    out
+}
+
+/// The anchors of a page's headings, as GitHub makes them.
+fn anchors(page: &str) -> BTreeSet<String> {
+    let headings = page.lines().filter(|line| line.starts_with('#'));
+    let anchor = |heading: &str| {
+        let title = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = title.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        kept.map(|c| if c == ' ' { '-' } else { c }).collect()
+    };
+    headings.map(anchor).collect()
+}
+
+/// A path without `..`.
+fn plain(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        if part == Component::ParentDir {
+            out.pop();
+        } else {
+            out.push(part);
+        }
+    }
+    out
+}
+
+/// What of the links of a page, in this folder, leads nowhere; and the files that it does lead to.
+fn followed(page: &Path) -> (Vec<String>, BTreeSet<PathBuf>) {
+    let text = prose(&fs::read_to_string(page).unwrap());
+    let (mut dead, mut met) = (Vec::new(), BTreeSet::new());
+    for link in links(&text).into_iter().filter(|link| !link.contains("://")) {
+        let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
+        let target = if path.is_empty() { page.into() } else { plain(&page.parent().unwrap().join(path)) };
+        let found = target.exists()
+            && (anchor.is_empty() || anchors(&prose(&fs::read_to_string(&target).unwrap())).contains(anchor));
+        if !found {
+            dead.push(format!("{}: {link}", page.display()));
+        }
+        met.insert(target);
+    }
+    (dead, met)
+}
+
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec![package().join("README.md")];
+    for folder in ["src", "fmu", "tests"] {
+        files(&package().join(folder), "md", &mut pages);
+    }
+    assert!(pages.len() > 10, "only {} pages found", pages.len());
+    pages
+}
+
+#[test]
+fn links_of_all_pages_lead_somewhere_and_every_page_is_linked() {
+    let (mut dead, mut met) = (Vec::new(), BTreeSet::new());
+    for page in pages() {
+        let (lost, found) = followed(&page);
+        dead.extend(lost);
+        met.extend(found);
+    }
+    assert!(dead.is_empty(), "{}", dead.join("\n"));
+    let mut shown = pages();
+    files(&package().join("tests/charts"), "png", &mut shown);
+    shown.retain(|path| !met.contains(path) && *path != package().join("README.md"));
+    assert!(shown.is_empty(), "no page leads to {shown:?}");
+}
+
+#[test]
+fn the_first_page_is_short() {
+    let page = fs::read_to_string(package().join("README.md")).unwrap();
+    let size = (page.lines().count(), page.len());
+    assert!(size.0 <= LONGEST_FIRST_PAGE.0 && size.1 <= LONGEST_FIRST_PAGE.1, "{size:?}");
+}
+
+#[test]
+fn dead_links_are_seen() {
+    let text = "# A b: c\n[x](y.md#z) <img src=\"p.png\">\n```\n[no](no.md)\n```\n## More-or less (1)\n";
+    assert_eq!(links(&prose(text)), ["y.md#z", "p.png"]);
+    assert_eq!(anchors(text), ["a-b-c", "more-or-less-1"].map(String::from).into());
+    assert_eq!(plain(Path::new("a/b/../c.md")), Path::new("a/c.md"));
+}
