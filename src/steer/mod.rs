@@ -1,1 +1,23 @@
-//! Where the external magnet must be: inputs that bring the tip to a target.
+//! Where the external magnet must be: inputs that bring the tip to a target, along a way without a snap.
+//!
+//! [`Steering`] walks: every step is solved from the shape before, so that what it finds can be driven. It uses the exact Jacobian of the
+//! device, keeps to [`Limits`], and says which of them stops it.
+
+mod approach;
+mod bounds;
+mod limits;
+mod moves;
+mod plan;
+mod quadratic;
+mod state;
+mod steering;
+mod target;
+mod track;
+mod tree;
+
+pub use approach::Step;
+pub use limits::{Limit, Limits};
+pub use moves::Move;
+pub use plan::Plan;
+pub use steering::{Answer, Steering};
+pub use target::{Residual, Target, Tolerances};

@@ -1,0 +1,156 @@
+//! The inputs that may move, and their freedoms.
+
+use nalgebra::{DVector, Vector3};
+
+use super::limits::Limits;
+use crate::error::Error;
+use crate::geometry::{Pose, RotationVector};
+use crate::manipulator::{Input, Inputs, Jacobian, Output};
+
+/// An input that may be moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Move {
+    /// Position of the external magnet.
+    MagnetPosition,
+    /// Direction of the external magnet's axis; its spin about that axis does nothing.
+    MagnetOrientation,
+    /// Factor on the field of the external magnet.
+    MagnetStrength,
+    /// Uniform background field.
+    UniformField,
+    /// Length of shaft inside the port.
+    Insertion,
+}
+
+/// Names of all moves.
+const NAMES: [(&str, Move); 5] = [
+    ("magnet.position", Move::MagnetPosition),
+    ("magnet.orientation", Move::MagnetOrientation),
+    ("magnet.strength", Move::MagnetStrength),
+    ("field.uniform", Move::UniformField),
+    ("feed.insertion", Move::Insertion),
+];
+
+/// Longest step of the magnet's strength, 1.
+const STRENGTH_STEP: f64 = 0.05;
+
+/// Longest step of the uniform field, T.
+const FIELD_STEP: f64 = 1e-3;
+
+/// Longest step of the inserted length, m.
+const INSERTION_STEP: f64 = 2e-3;
+
+impl Move {
+    /// The move with this name: `magnet.position`, `magnet.orientation`, `magnet.strength`, `field.uniform`, `feed.insertion`.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for another name, and for `coil.current`: there are no coils.
+    pub fn named(name: &str) -> Result<Self, Error> {
+        let found = NAMES.iter().find(|(known, _)| *known == name).map(|(_, each)| *each);
+        found.ok_or_else(|| {
+            let known: Vec<&str> = NAMES.iter().map(|(known, _)| *known).collect();
+            Error::Unsupported(format!("`{name}` cannot be moved; what can: {}", known.join(", ")))
+        })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        NAMES.iter().find(|(_, each)| *each == self).map_or("", |(name, _)| name)
+    }
+}
+
+/// One freedom: an input and the direction along which it moves by one step.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Freedom {
+    pub(super) input: Input,
+    pub(super) along: Vector3<f64>,
+}
+
+impl Freedom {
+    /// Rate of an output, at most three numbers, by one step of this freedom.
+    pub(super) fn rate(&self, jacobian: &Jacobian, output: Output) -> Vector3<f64> {
+        let Some(block) = jacobian.block(output, self.input) else { return Vector3::zeros() };
+        let mut out = Vector3::zeros();
+        for (row, rate) in out.iter_mut().enumerate().take(block.nrows()) {
+            *rate = block.row(row).iter().zip(&self.along).map(|(a, b)| a * b).sum();
+        }
+        out
+    }
+}
+
+/// The freedoms of these moves at `inputs`, each a step long.
+pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<Freedom> {
+    let mut out = Vec::new();
+    let mut add = |input, along| out.push(Freedom { input, along });
+    let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+    for each in moves {
+        match each {
+            Move::MagnetPosition => {
+                for axis in axes {
+                    add(Input::MagnetPosition, axis * limits.step);
+                }
+            }
+            Move::MagnetOrientation => {
+                for column in 0..2 {
+                    let across = inputs.magnet.rotation.column(column).into_owned();
+                    add(Input::MagnetRotation, across * limits.turn);
+                }
+            }
+            Move::MagnetStrength => add(Input::MagnetStrength, Vector3::x() * STRENGTH_STEP),
+            Move::UniformField => {
+                for axis in axes {
+                    add(Input::UniformField, axis * FIELD_STEP);
+                }
+            }
+            Move::Insertion => add(Input::Insertion, Vector3::x() * INSERTION_STEP),
+        }
+    }
+    out
+}
+
+/// The inputs after a step of the freedoms, in units of their longest steps.
+pub(super) fn moved(inputs: &Inputs, freedoms: &[Freedom], step: &DVector<f64>) -> Inputs {
+    let mut out = inputs.clone();
+    let mut turn = Vector3::zeros();
+    for (freedom, by) in freedoms.iter().zip(step) {
+        let by = freedom.along * *by;
+        match freedom.input {
+            Input::MagnetPosition => out.magnet.position += by,
+            Input::MagnetRotation => turn += by,
+            Input::MagnetStrength => out.magnet_strength += by.x,
+            Input::UniformField => out.uniform_field += by,
+            _ => out.insertion += by.x,
+        }
+    }
+    out.magnet.rotation = turned(&out.magnet, turn);
+    out
+}
+
+/// The rotation of a pose turned by a rotation vector, made orthogonal anew.
+fn turned(pose: &Pose, by: Vector3<f64>) -> nalgebra::Matrix3<f64> {
+    if by == Vector3::zeros() {
+        return pose.rotation;
+    }
+    let rotation = RotationVector::new(by).matrix() * pose.rotation;
+    let (first, axis) = (rotation.column(0).into_owned(), rotation.column(2).normalize());
+    let second = axis.cross(&first).normalize();
+    nalgebra::Matrix3::from_columns(&[second.cross(&axis), second, axis])
+}
+
+/// The step that leads from the inputs of these freedoms to `goal`, without the magnet's spin.
+pub(super) fn between(inputs: &Inputs, freedoms: &[Freedom], goal: &Inputs) -> DVector<f64> {
+    let (from, to) = (inputs.magnet.axis(), goal.magnet.axis());
+    let turn = super::target::turn(&from, &to, &inputs.magnet.rotation.column(0).into_owned());
+    let each = |freedom: &Freedom| {
+        let by = match freedom.input {
+            Input::MagnetPosition => goal.magnet.position - inputs.magnet.position,
+            Input::MagnetRotation => turn,
+            Input::MagnetStrength => Vector3::x() * (goal.magnet_strength - inputs.magnet_strength),
+            Input::UniformField => goal.uniform_field - inputs.uniform_field,
+            _ => Vector3::x() * (goal.insertion - inputs.insertion),
+        };
+        by.dot(&freedom.along) / freedom.along.norm_squared()
+    };
+    DVector::from_iterator(freedoms.len(), freedoms.iter().map(each))
+}

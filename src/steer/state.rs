@@ -1,0 +1,143 @@
+//! A device at its inputs, and steps from one to the next.
+
+use nalgebra::DVector;
+
+use super::bounds::{Bodies, Bound};
+use super::limits::{Limit, Limits};
+use super::moves::{Freedom, Move, freedoms, moved};
+use crate::error::Error;
+use crate::manipulator::{Inputs, Manipulator, Outputs, Status};
+
+/// Stability margin, in least margins, below which it is computed at every step, not only bounded.
+const NEAR: f64 = 2.0;
+
+/// Step of the differences that give the gradient of the margin, in longest steps.
+const STEP: f64 = 0.02;
+
+/// How far beyond a face of the workspace the solver of quadratic problems may end, m.
+const ROUNDING: f64 = 1e-7;
+
+/// What stays the same on all ways.
+#[derive(Debug, Clone)]
+pub(super) struct Rules {
+    pub(super) bodies: Bodies,
+    pub(super) moves: Vec<Move>,
+    pub(super) limits: Limits,
+}
+
+/// A solved device and its inputs.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub(super) manipulator: Manipulator,
+    pub(super) inputs: Inputs,
+}
+
+impl State {
+    pub(super) fn outputs(&self) -> &Outputs {
+        self.manipulator.outputs()
+    }
+
+    pub(super) fn freedoms(&self, rules: &Rules) -> Vec<Freedom> {
+        freedoms(&rules.moves, &rules.limits, &self.inputs)
+    }
+
+    /// The state after a step, or what forbids it.
+    pub(super) fn stepped(
+        &self,
+        rules: &Rules,
+        freedoms: &[Freedom],
+        step: &DVector<f64>,
+    ) -> Result<Result<Self, Limit>, Error> {
+        let mut inputs = moved(&self.inputs, freedoms, step);
+        if let Some([low, high]) = &rules.limits.workspace {
+            // A step that ends on a face of the box ends there to rounding.
+            let place = &mut inputs.magnet.position;
+            *place = place.zip_zip_map(low, high, |at, low, high| {
+                if at < low && low - at < ROUNDING {
+                    low
+                } else if at > high && at - high < ROUNDING {
+                    high
+                } else {
+                    at
+                }
+            });
+        }
+        self.at(rules, inputs)
+    }
+
+    /// The state at other inputs, followed from here, or what forbids it.
+    pub(super) fn at(&self, rules: &Rules, inputs: Inputs) -> Result<Result<Self, Limit>, Error> {
+        if let Some(limit) = rules.forbids(&inputs) {
+            return Ok(Err(limit));
+        }
+        let mut next = Self { manipulator: self.manipulator.clone(), inputs };
+        let snaps = self.outputs().snaps;
+        let outputs = next.manipulator.solve(&next.inputs)?;
+        if outputs.status == Status::NotSolved {
+            return Ok(Err(Limit::NoShape(outputs.outcome)));
+        }
+        if outputs.snaps != snaps || outputs.stable == Some(false) {
+            return Ok(Err(Limit::Snap));
+        }
+        if rules.bodies.gap(&next.inputs.magnet, outputs) < rules.limits.distance {
+            return Ok(Err(Limit::Distance));
+        }
+        let least = rules.limits.margin;
+        if least > 0.0 && outputs.stability_margin < NEAR * least {
+            let margin = next.manipulator.measure_margin().stability_margin;
+            if margin < least {
+                return Ok(Err(Limit::Margin));
+            }
+        }
+        Ok(Ok(next))
+    }
+
+    /// Gradient of the stability margin by the freedoms, from the margins of the equilibria a little on both sides; `None` where one
+    /// of them does not exist.
+    pub(super) fn margin_gradient(&self, freedoms: &[Freedom]) -> Result<Option<DVector<f64>>, Error> {
+        let snaps = self.outputs().snaps;
+        let mut gradient = DVector::zeros(freedoms.len());
+        for (index, rate) in gradient.iter_mut().enumerate() {
+            let mut margins = [0.0; 2];
+            for (margin, by) in margins.iter_mut().zip([-STEP, STEP]) {
+                let mut step = DVector::zeros(freedoms.len());
+                step[index] = by;
+                let mut beside = self.manipulator.clone();
+                let outputs = beside.solve(&moved(&self.inputs, freedoms, &step))?;
+                if outputs.status == Status::NotSolved || outputs.snaps != snaps {
+                    return Ok(None);
+                }
+                *margin = beside.measure_margin().stability_margin;
+            }
+            *rate = (margins[1] - margins[0]) / (2.0 * STEP);
+        }
+        Ok(Some(gradient))
+    }
+
+    /// The least margin as a bound, where it is near.
+    pub(super) fn margin_bound(&self, rules: &Rules, freedoms: &[Freedom]) -> Result<Option<Bound>, Error> {
+        let (least, margin) = (rules.limits.margin, self.outputs().stability_margin);
+        if least <= 0.0 || margin >= NEAR * least {
+            return Ok(None);
+        }
+        let gradient = self.margin_gradient(freedoms)?;
+        Ok(gradient.map(|gradient| Bound { limit: Limit::Margin, slack: margin - least, gradient }))
+    }
+}
+
+impl Rules {
+    /// The limit that these inputs exceed before anything is solved.
+    fn forbids(&self, inputs: &Inputs) -> Option<Limit> {
+        if let Some([low, high]) = &self.limits.workspace {
+            let place = inputs.magnet.position;
+            let inside = |axis: usize| (low[axis]..=high[axis]).contains(&place[axis]);
+            if !(0..3).all(inside) {
+                return Some(Limit::Workspace);
+            }
+        }
+        if self.limits.field.is_some_and(|most| inputs.uniform_field.norm() > most * (1.0 + 1e-9)) {
+            return Some(Limit::Field);
+        }
+        (!(0.0..=1.0).contains(&inputs.insertion)).then_some(Limit::Insertion)
+    }
+}

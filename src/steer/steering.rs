@@ -1,0 +1,208 @@
+//! A device that is steered.
+
+use super::approach::{Attempt, Linear, Step, approach};
+use super::bounds::Bodies;
+use super::limits::{Limit, Limits};
+use super::moves::{Move, freedoms};
+use super::state::{Rules, State};
+use super::target::{Residual, Target, Tolerances};
+use super::tree::Tree;
+use crate::error::Error;
+use crate::manipulator::{Inputs, Jacobian, Outputs, Scene, Status};
+
+/// Number of states of the map from which a target is tried that cannot be reached directly, and how many of them are tried.
+const MAP: usize = 48;
+const STARTS: usize = 8;
+
+/// Most steps between two states of the map.
+const APART: usize = 12;
+
+/// Seed of all random draws: the same question has the same answer.
+pub(super) const SEED: u64 = 1;
+
+/// The answer to a target: the inputs, and the way to them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Whether the target is met within its tolerances.
+    pub reached: bool,
+    /// What is left, at the end of the way.
+    pub residual: Residual,
+    /// What stops the tip where it is nearest to its target; `None` where that is reached.
+    pub limit: Option<Limit>,
+    /// The steps from the state before to the last one, none of which snaps; empty where nothing had to move.
+    pub way: Vec<Step>,
+}
+
+/// A device whose inputs are moved so that its tip comes where it is wanted.
+///
+/// It stays where the last target was met, or where it came nearest, and goes on from there.
+///
+/// ```
+/// use mcm::manipulator::Scene;
+/// use mcm::steer::{Limits, Move, Steering, Target};
+/// let text = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 10, 0]\n[model]\ninteraction = \"rings\"";
+/// let scene = Scene::parse(text, "example")?;
+/// let mut steering = Steering::new(&scene, &[Move::UniformField], Limits::default())?;
+/// let answer = steering.to(&Target { angle: Some(0.5), ..Target::default() })?;
+/// assert!(answer.reached && answer.residual.angle < Some(1e-4));
+/// assert!(steering.inputs().uniform_field.norm() > 0.01);
+/// # Ok::<(), mcm::error::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Steering {
+    pub(super) rules: Rules,
+    pub(super) tolerances: Tolerances,
+    pub(super) state: State,
+    pub(super) linear: Option<Linear>,
+}
+
+impl Steering {
+    /// The device of a scene at the scene's inputs, of which these may move.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] where nothing may move, an input that the scene does not have, or a limit that its inputs exceed, and where
+    /// they have no shape; those of the limits and of the scene.
+    pub fn new(scene: &Scene, moves: &[Move], limits: Limits) -> Result<Self, Error> {
+        limits.check()?;
+        let refuse = |reason: String| Err(Error::Unsupported(reason));
+        if moves.is_empty() {
+            return refuse("nothing may move".into());
+        }
+        for (number, each) in moves.iter().enumerate() {
+            let name = each.name();
+            if moves[..number].contains(each) {
+                return refuse(format!("`{name}` is named twice"));
+            }
+            let (known, what) = match each {
+                Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
+                Move::UniformField => (true, ""),
+                _ => (scene.magnets.is_some(), "the scene has no magnet"),
+            };
+            if !known {
+                return refuse(format!("`{name}` cannot be moved: {what}"));
+            }
+            if *each == Move::Insertion && scene.inputs.feed_force.is_some() {
+                return refuse(format!("`{name}` cannot be moved: the push on the shaft is given"));
+            }
+        }
+        let design = scene.design()?;
+        let bodies = Bodies { magnet: scene.assembly()?, radius: design.largest_radius() };
+        // Two points a segment: the device between them is as near to the magnet to a tenth of a millimetre.
+        let mut manipulator = scene.manipulator(2 * design.segments().len() + 2)?;
+        let inputs = scene.inputs.clone();
+        let outputs = manipulator.solve(&inputs)?;
+        if outputs.status == Status::NotSolved {
+            let outcome = outputs.outcome.name().replace('_', " ");
+            return refuse(format!("the scene's inputs have no shape to begin with: {outcome}"));
+        }
+        let rules = Rules { bodies, moves: moves.to_vec(), limits };
+        let state = State { manipulator, inputs: inputs.clone() };
+        // The first place is no step, but keeps to the same limits.
+        if let Err(limit) = state.at(&rules, inputs)? {
+            return refuse(format!("the scene's inputs already exceed a limit: {limit}"));
+        }
+        Ok(Self { rules, tolerances: Tolerances::default(), state, linear: None })
+    }
+
+    /// The same with other tolerances.
+    ///
+    /// # Errors
+    /// As [`Tolerances::checked`].
+    pub fn with_tolerances(mut self, tolerances: Tolerances) -> Result<Self, Error> {
+        self.tolerances = tolerances.checked()?;
+        Ok(self)
+    }
+
+    /// The present inputs.
+    #[must_use]
+    pub fn inputs(&self) -> &Inputs {
+        &self.state.inputs
+    }
+
+    /// The present outputs.
+    #[must_use]
+    pub fn outputs(&self) -> &Outputs {
+        self.state.outputs()
+    }
+
+    /// Derivatives of all outputs by all inputs, here.
+    ///
+    /// # Errors
+    /// As [`crate::manipulator::Manipulator::jacobian`].
+    pub fn jacobian(&self) -> Result<Jacobian, Error> {
+        self.state.manipulator.jacobian()
+    }
+
+    /// Gradient of the stability margin by the freedoms of the moves, in SI units, and their names; by central differences of the margins
+    /// of neighbouring equilibria. `None` beside a fold.
+    ///
+    /// # Errors
+    /// Those of the solves.
+    pub fn margin_gradient(&self) -> Result<Option<Vec<f64>>, Error> {
+        let freedoms = freedoms(&self.rules.moves, &self.rules.limits, &self.state.inputs);
+        let gradient = self.state.margin_gradient(&freedoms)?;
+        let lengths = freedoms.iter().map(|freedom| freedom.along.norm());
+        Ok(gradient
+            .map(|gradient| gradient.iter().zip(lengths).map(|(rate, length)| rate / length).collect()))
+    }
+
+    /// Moves the device to a target: directly, and where that does not lead there, by way of other states that can be reached without a
+    /// snap.
+    ///
+    /// # Errors
+    /// Those of [`Target::check`] and of the solves; [`Error::NoDerivatives`] at a fold.
+    pub fn to(&mut self, target: &Target) -> Result<Answer, Error> {
+        target.check()?;
+        let direct = self.approach(target)?;
+        let found = if direct.limit.is_none() { direct } else { self.detour(target, direct)? };
+        Ok(self.settle(target, found))
+    }
+
+    /// A direct walk, from the present state.
+    pub(super) fn approach(&mut self, target: &Target) -> Result<Attempt, Error> {
+        approach(&self.state, target, &self.tolerances, &self.rules, &mut self.linear)
+    }
+
+    /// The best of the walks by way of other states, and of the direct one.
+    fn detour(&self, target: &Target, direct: Attempt) -> Result<Attempt, Error> {
+        let mut tree = Tree::new(&self.state, SEED);
+        for _ in 0..MAP {
+            let goal = tree.drawn(&self.rules);
+            let from = tree.nearest(&self.rules, &goal);
+            tree.extend(from, &goal, &self.rules, APART)?;
+        }
+        let misfit = |state: &State| target.misfit(state.outputs(), &self.tolerances);
+        let mut starts: Vec<(usize, f64)> =
+            tree.states().map(|(index, state)| (index, misfit(state))).collect();
+        starts.sort_by(|(_, a), (_, b)| a.total_cmp(b));
+        let mut best = direct;
+        for (start, _) in starts.into_iter().take(STARTS) {
+            let mut attempt =
+                match approach(tree.state(start), target, &self.tolerances, &self.rules, &mut None) {
+                    Ok(attempt) => attempt,
+                    // Another start is not at a fold.
+                    Err(Error::NoDerivatives(_)) => continue,
+                    Err(error) => return Err(error),
+                };
+            if attempt.misfit < best.misfit {
+                let mut way = tree.way(start);
+                way.append(&mut attempt.way);
+                best = Attempt { way, ..attempt };
+            }
+            if best.limit.is_none() {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    /// Stays where a walk has ended.
+    pub(super) fn settle(&mut self, target: &Target, found: Attempt) -> Answer {
+        let Attempt { state, way, limit, .. } = found;
+        if limit.is_some() {
+            self.linear = None;
+        }
+        self.state = state;
+        Answer { reached: limit.is_none(), residual: target.residual(self.outputs()), limit, way }
+    }
+}

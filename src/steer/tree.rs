@@ -1,0 +1,122 @@
+//! A tree of equilibria that were reached from one of them without a snap: a map of where the tip can be brought.
+
+use nalgebra::{DVector, UnitQuaternion, Vector3};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+use super::approach::{Step, straight};
+use super::moves::{Move, between};
+use super::state::{Rules, State};
+use crate::error::Error;
+use crate::manipulator::Inputs;
+
+/// How far from its place the magnet is looked for where no workspace is given, m.
+const AROUND: f64 = 0.06;
+
+/// Largest uniform field that is tried where none is given, T.
+const FIELD: f64 = 0.02;
+
+/// How far the shaft is moved, m, and the strength is changed.
+const INSERTION: f64 = 0.02;
+const STRENGTH: f64 = 0.5;
+
+/// A state, and the way that led to it from another one.
+#[derive(Debug, Clone)]
+struct Node {
+    state: State,
+    parent: usize,
+    way: Vec<Step>,
+}
+
+/// States that are connected without snaps; the first is the root.
+#[derive(Debug)]
+pub(super) struct Tree {
+    nodes: Vec<Node>,
+    random: StdRng,
+}
+
+impl Tree {
+    pub(super) fn new(root: &State, seed: u64) -> Self {
+        let root = Node { state: root.clone(), parent: 0, way: Vec::new() };
+        Self { nodes: vec![root], random: StdRng::seed_from_u64(seed) }
+    }
+
+    /// The states, but for the root.
+    pub(super) fn states(&self) -> impl Iterator<Item = (usize, &State)> {
+        self.nodes.iter().map(|node| &node.state).enumerate().skip(1)
+    }
+
+    pub(super) fn state(&self, index: usize) -> &State {
+        &self.nodes[index].state
+    }
+
+    /// The way from the root to a state.
+    pub(super) fn way(&self, index: usize) -> Vec<Step> {
+        let (mut ways, mut at) = (Vec::new(), index);
+        while at != 0 {
+            ways.push(self.nodes[at].way.clone());
+            at = self.nodes[at].parent;
+        }
+        ways.into_iter().rev().flatten().collect()
+    }
+
+    /// Random inputs about those of the root, within the workspace.
+    pub(super) fn drawn(&mut self, rules: &Rules) -> Inputs {
+        let mut out = self.nodes[0].state.inputs.clone();
+        let random = &mut self.random;
+        let mut number = || 2.0 * random.random::<f64>() - 1.0;
+        for each in &rules.moves {
+            match each {
+                Move::MagnetPosition => {
+                    let centre = out.magnet.position;
+                    let around = Vector3::repeat(AROUND);
+                    let [low, high] = rules.limits.workspace.unwrap_or([centre - around, centre + around]);
+                    out.magnet.position = (low + high) * 0.5 + (high - low).map(|side| 0.5 * side * number());
+                }
+                Move::MagnetOrientation => {
+                    let axis = Vector3::from_fn(|_, _| number());
+                    let turn = UnitQuaternion::rotation_between(&out.magnet.axis(), &axis);
+                    if let Some(turn) = turn {
+                        out.magnet.rotation = turn.to_rotation_matrix().matrix() * out.magnet.rotation;
+                    }
+                }
+                Move::MagnetStrength => out.magnet_strength *= 1.0 + STRENGTH * number(),
+                Move::UniformField => {
+                    let most = rules.limits.field.unwrap_or(FIELD) / 3.0_f64.sqrt();
+                    out.uniform_field = Vector3::from_fn(|_, _| most * number());
+                }
+                Move::Insertion => {
+                    out.insertion = (out.insertion + INSERTION * number()).clamp(0.0, 1.0);
+                }
+            }
+        }
+        out
+    }
+
+    /// The state nearest to these inputs, in longest steps.
+    pub(super) fn nearest(&self, rules: &Rules, goal: &Inputs) -> usize {
+        let far = |node: &Node| -> f64 {
+            let rest: DVector<f64> = between(&node.state.inputs, &node.state.freedoms(rules), goal);
+            rest.norm_squared()
+        };
+        let distances = self.nodes.iter().map(far).enumerate();
+        distances.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(index, _)| index)
+    }
+
+    /// Walks from a state straight towards `goal`, at most so many steps, and keeps where that ends; `None` where no step was possible,
+    /// otherwise the new state and whether it is at the goal.
+    pub(super) fn extend(
+        &mut self,
+        from: usize,
+        goal: &Inputs,
+        rules: &Rules,
+        most: usize,
+    ) -> Result<Option<(usize, bool)>, Error> {
+        let (state, way, limit) = straight(&self.nodes[from].state, goal, rules, most)?;
+        if way.is_empty() {
+            return Ok(limit.is_none().then_some((from, true)));
+        }
+        self.nodes.push(Node { state, parent: from, way });
+        Ok(Some((self.nodes.len() - 1, limit.is_none())))
+    }
+}

@@ -1,0 +1,131 @@
+//! Targets that can be reached are reached, without a snap.
+
+use mcm::geometry::RotationVector;
+use mcm::manipulator::{Inputs, Scene, Status};
+use mcm::steer::{Limits, Move, Steering, Target};
+use nalgebra::Vector3;
+
+use super::{assert_walked, numbers, reached, scene, solved, vector};
+
+const POSE: [Move; 2] = [Move::MagnetPosition, Move::MagnetOrientation];
+
+/// Inputs with the magnet at random near its place, at which the device has a shape on the way from there without a snap.
+fn elsewhere(scene: &Scene, number: &mut impl FnMut() -> f64) -> (Inputs, Target) {
+    loop {
+        let mut inputs = scene.inputs.clone();
+        inputs.magnet.position += vector(number, 0.02);
+        let turn = RotationVector::new(vector(number, 0.5)).matrix();
+        inputs.magnet.rotation = turn * inputs.magnet.rotation;
+        let mut device = solved(scene);
+        let outputs = device.solve(&inputs).unwrap();
+        if outputs.status == Status::Solved {
+            let (position, direction) = (Some(outputs.tip.position), Some(outputs.tip.axis()));
+            return (inputs, Target { position, direction, ..Target::default() });
+        }
+    }
+}
+
+#[test]
+fn tips_of_random_poses_are_met_in_position_and_direction() {
+    for (segments, count) in [(1, 30), (3, 30), (9, 8)] {
+        let scene = scene(segments);
+        let mut number = numbers(segments as u64);
+        let mut missed = 0;
+        for _ in 0..count {
+            let (_, target) = elsewhere(&scene, &mut number);
+            let mut steering = Steering::new(&scene, &POSE, Limits::default()).unwrap();
+            let answer = steering.to(&target).unwrap();
+            assert_walked(&solved(&scene), &answer.way);
+            if answer.reached {
+                reached(&answer);
+            } else {
+                missed += 1;
+                println!("S = {segments}: {:?} {:?}", answer.limit, answer.residual);
+            }
+        }
+        println!("S = {segments}: {missed} of {count} missed");
+        assert!(missed * 30 <= count, "S = {segments}: {missed} of {count} missed");
+    }
+}
+
+#[test]
+fn a_uniform_field_gives_the_angle_of_the_forward_solve() {
+    let text = "[design]\nsegments = 3\n[field]\nuniform_mt = [0, 2, 0]\n[model]\ninteraction = \"rings\"";
+    let scene = Scene::parse(text, "field").unwrap();
+    let mut steering = Steering::new(&scene, &[Move::UniformField], Limits::default()).unwrap();
+    for degrees in [10.0_f64, 40.0, 60.0, 5.0] {
+        let answer = steering.to(&Target { angle: Some(degrees.to_radians()), ..Target::default() }).unwrap();
+        reached(&answer);
+        let angle = scene.manipulator(2).unwrap().solve(steering.inputs()).unwrap().tip_angle;
+        assert!((angle.to_degrees() - degrees).abs() < 6e-3, "{angle}");
+    }
+}
+
+#[test]
+fn a_straight_device_begins_to_bend() {
+    let text = "[design]\nsegments = 3\n[model]\ninteraction = \"rings\"";
+    let scene = Scene::parse(text, "straight").unwrap();
+    let mut steering = Steering::new(&scene, &[Move::UniformField], Limits::default()).unwrap();
+    reached(&steering.to(&Target { angle: Some(0.5), ..Target::default() }).unwrap());
+    let opposite = Target { direction: Some(-Vector3::y()), ..Target::default() };
+    // From 29 degrees to one side over straight to 90 on the other, which takes an infinite field in this direction.
+    let answer = steering.to(&opposite).unwrap();
+    assert!(!answer.reached && answer.limit.is_some() && !answer.way.is_empty());
+    assert!(answer.residual.direction < Some(0.6), "{:?}", answer.residual);
+}
+
+#[test]
+fn the_force_on_the_device_is_met() {
+    let scene = scene(3);
+    let mut steering = Steering::new(&scene, &POSE, Limits::default()).unwrap();
+    let force = steering.outputs().magnetic_force * 1.5;
+    let answer = steering.to(&Target { force: Some(force), ..Target::default() }).unwrap();
+    reached(&answer);
+    assert!((steering.outputs().magnetic_force - force).norm() < 1e-6);
+    let mut device = solved(&scene);
+    assert_walked(&device, &answer.way);
+    device.solve(steering.inputs()).unwrap();
+    assert!((device.outputs().magnetic_force - force).norm() < 2e-6);
+}
+
+#[test]
+fn the_length_of_shaft_is_a_move() {
+    let text = "[design]\nsegments = 2\n[field]\nuniform_mt = [0, 5, 0]\n[model]\ninteraction = \"rings\"\n\
+                [feed]\nmode = \"insertion\"\ninsertion_mm = 20.0\n[feed.shaft]\nouter_radius_mm = 0.9\ninner_radius_mm = 0.7\nelastic_modulus_mpa = 5.0\npoisson = 0.45";
+    let scene = Scene::parse(text, "shaft").unwrap();
+    let mut device = solved(&scene);
+    let mut inputs = scene.inputs.clone();
+    (inputs.insertion, inputs.uniform_field) = (0.027, Vector3::new(0.001, 0.004, 0.0));
+    let position = device.solve(&inputs).unwrap().tip.position;
+    let moves = [Move::UniformField, Move::Insertion];
+    let mut steering = Steering::new(&scene, &moves, Limits::default()).unwrap();
+    reached(&steering.to(&Target { position: Some(position), ..Target::default() }).unwrap());
+}
+
+#[test]
+fn a_target_that_is_met_moves_nothing() {
+    let scene = scene(1);
+    let mut steering = Steering::new(&scene, &POSE, Limits::default()).unwrap();
+    let target = Target { position: Some(steering.outputs().tip.position), ..Target::default() };
+    let answer = steering.to(&target).unwrap();
+    assert!(answer.reached && answer.way.is_empty());
+    assert_eq!(*steering.inputs(), scene.inputs);
+}
+
+#[test]
+fn a_circle_of_the_tip_is_followed() {
+    let scene = scene(3);
+    let mut steering = Steering::new(&scene, &POSE, Limits::default()).unwrap();
+    let centre = steering.outputs().tip.position;
+    let around = |step: usize| {
+        let angle = core::f64::consts::TAU * step as f64 / 40.0;
+        let position = centre + Vector3::new(angle.sin(), 0.3 * (angle.cos() - 1.0), 0.0) * 2e-3;
+        Target { position: Some(position), ..Target::default() }
+    };
+    let targets: Vec<Target> = (0..=40).map(around).collect();
+    let answers = steering.track(&targets).unwrap();
+    assert_eq!(answers.len(), targets.len());
+    let way: Vec<_> = answers.iter().flat_map(|answer| answer.way.clone()).collect();
+    answers.iter().for_each(reached);
+    assert_walked(&solved(&scene), &way);
+}
