@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounds::Bound;
 use super::limits::Limit;
-use super::moves::{Freedom, moved};
+use super::moves::{Freedom, between, moved};
 use super::quadratic;
 use super::state::{Rules, State};
 use super::target::{Target, Tolerances};
@@ -21,7 +21,10 @@ const SHORTEST: f64 = 1.0 / 1024.0;
 const GAIN: f64 = 1e-3;
 
 /// Difference between predicted and found errors, relative to the errors before, up to which a Jacobian is kept and corrected.
-const FAITHFUL: f64 = 0.2;
+const FAITHFUL: f64 = 0.5;
+
+/// Number of steps in which a tenth of the misfit must go: a walk that creeps along a limit ends.
+const PATIENCE: usize = 24;
 
 /// Step, in longest steps, below which nothing moves.
 const STILL: f64 = 1e-7;
@@ -127,11 +130,17 @@ pub(super) fn approach(
     let mut way = Vec::new();
     let mut known = linear.take().filter(|linear| linear.kind == kind(target));
     let mut stopped = Some(Limit::Nearest);
+    let mut misfits: Vec<f64> = Vec::new();
     for _ in 0..STEPS {
-        if target.misfit(state.outputs(), tolerances) <= 1.0 {
+        let misfit = target.misfit(state.outputs(), tolerances);
+        if misfit <= 1.0 {
             stopped = None;
             break;
         }
+        if misfits.len() >= PATIENCE && misfit > 0.9 * misfits[misfits.len() - PATIENCE] {
+            break;
+        }
+        misfits.push(misfit);
         let mut here = match known.take() {
             Some(known) => known,
             None => Linear::at(&state, target, tolerances, rules)?,
@@ -140,6 +149,7 @@ pub(super) fn approach(
             Ok(next) => {
                 way.push(Step::of(&next.state));
                 state = next.state;
+                stopped = Some(next.met.unwrap_or(Limit::Nearest));
                 known = next.faithful.then_some(here);
             }
             // Derivatives of another place may mislead.
@@ -160,6 +170,8 @@ struct Stride {
     state: State,
     /// Whether the derivatives have predicted it well enough to be used again.
     faithful: bool,
+    /// A limit that shortens or turns it.
+    met: Option<Limit>,
 }
 
 /// One step towards the target, as long as it gains, or what forbids any.
@@ -190,7 +202,7 @@ fn stride(
                     let predicted = &errors - &linear.rates * &step;
                     let faithful = (&left - predicted).norm() <= FAITHFUL * before;
                     linear.learn(&step, &(&errors - &left));
-                    return Ok(Ok(Stride { state: next, faithful }));
+                    return Ok(Ok(Stride { state: next, faithful, met: refused.or(met) }));
                 }
             }
             Err(limit) => refused = Some(limit),
@@ -210,7 +222,7 @@ pub(super) fn straight(
     let (mut state, mut way) = (start.clone(), Vec::new());
     for _ in 0..most {
         let freedoms = state.freedoms(rules);
-        let rest = super::moves::between(&state.inputs, &freedoms, goal);
+        let rest = between(&state.inputs, &freedoms, goal);
         let far = rest.amax();
         if far < STILL {
             return Ok((state, way, None));

@@ -141,7 +141,7 @@ fn turned(pose: &Pose, by: Vector3<f64>) -> nalgebra::Matrix3<f64> {
 /// The step that leads from the inputs of these freedoms to `goal`, without the magnet's spin.
 pub(super) fn between(inputs: &Inputs, freedoms: &[Freedom], goal: &Inputs) -> DVector<f64> {
     let (from, to) = (inputs.magnet.axis(), goal.magnet.axis());
-    let turn = super::target::turn(&from, &to, &inputs.magnet.rotation.column(0).into_owned());
+    let turn = turn(&from, &to, &inputs.magnet.rotation.column(0).into_owned());
     let each = |freedom: &Freedom| {
         let by = match freedom.input {
             Input::MagnetPosition => goal.magnet.position - inputs.magnet.position,
@@ -153,4 +153,14 @@ pub(super) fn between(inputs: &Inputs, freedoms: &[Freedom], goal: &Inputs) -> D
         by.dot(&freedom.along) / freedom.along.norm_squared()
     };
     DVector::from_iterator(freedoms.len(), freedoms.iter().map(each))
+}
+
+/// The shortest rotation vector that turns `from` onto `to`; opposite ones turn about `across`.
+pub(super) fn turn(from: &Vector3<f64>, to: &Vector3<f64>, across: &Vector3<f64>) -> Vector3<f64> {
+    let (angle, axis) = (from.angle(to), from.cross(to));
+    match axis.try_normalize(f64::EPSILON * from.norm() * to.norm()) {
+        Some(axis) => axis * angle,
+        None if angle > 1.0 => across * angle,
+        None => Vector3::zeros(),
+    }
 }

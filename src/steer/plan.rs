@@ -2,6 +2,7 @@
 
 use super::approach::{Step, straight};
 use super::limits::Limit;
+use super::state::State;
 use super::steering::{SEED, Steering};
 use super::target::Target;
 use super::tree::Tree;
@@ -40,9 +41,8 @@ impl Steering {
         shape.map_or(Ok(()), Target::check)?;
         check("number of tries", tries as f64, |v| (1.0..=1e6).contains(&v), "from 1 to 1000000")?;
         goal.check(self.state.inputs.ring_forces.len())?;
-        let arrived = |state: &super::state::State| {
-            shape.is_none_or(|shape| shape.misfit(state.outputs(), &self.tolerances) <= 1.0)
-        };
+        let arrived =
+            |state: &State| shape.is_none_or(|shape| shape.misfit(state.outputs(), &self.tolerances) <= 1.0);
         let (state, way, stopped) = straight(&self.state, goal, &self.rules, STRAIGHT)?;
         if stopped.is_none() && arrived(&state) {
             (self.state, self.linear) = (state, None);

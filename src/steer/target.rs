@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
-use super::moves::Freedom;
+use super::moves::{Freedom, turn};
 use crate::error::{Error, check};
 use crate::manipulator::{Jacobian, Output, Outputs};
 
@@ -177,15 +177,5 @@ impl Target {
             columns.push(DVector::from_vec(column));
         }
         DMatrix::from_columns(&columns)
-    }
-}
-
-/// The shortest rotation vector that turns `from` onto `to`; opposite ones turn about `across`.
-pub(super) fn turn(from: &Vector3<f64>, to: &Vector3<f64>, across: &Vector3<f64>) -> Vector3<f64> {
-    let (angle, axis) = (from.angle(to), from.cross(to));
-    match axis.try_normalize(f64::EPSILON * from.norm() * to.norm()) {
-        Some(axis) => axis * angle,
-        None if angle > 1.0 => across * angle,
-        None => Vector3::zeros(),
     }
 }

@@ -1,6 +1,6 @@
 //! Targets one after the other.
 
-use super::approach::{Attempt, Linear};
+use super::approach::{Attempt, Linear, Step, approach};
 use super::state::State;
 use super::steering::{Answer, Steering};
 use super::target::Target;
@@ -53,13 +53,12 @@ impl Steering {
         let Some(direction) = linear.free(&gradient) else { return Ok(found) };
         let step = &direction * (ASIDE / direction.amax());
         let Ok(moved) = measured.stepped(&self.rules, &freedoms, &step)? else { return Ok(found) };
-        let back =
-            super::approach::approach(&moved, target, &self.tolerances, &self.rules, &mut Some(linear))?;
+        let back = approach(&moved, target, &self.tolerances, &self.rules, &mut Some(linear))?;
         if back.limit.is_some() || margin_of(&back.state) <= margin {
             return Ok(found);
         }
         let mut way = found.way;
-        way.push(super::approach::Step::of(&moved));
+        way.push(Step::of(&moved));
         way.extend(back.way);
         Ok(Attempt { way, ..back })
     }

@@ -8,6 +8,7 @@ mod init;
 mod mesh;
 mod pack;
 mod solve;
+mod steer;
 mod study;
 mod sweep;
 mod uncertainty;

@@ -9,8 +9,8 @@ use mcm::fmi::value::Value;
 use mcm::fmi::variable::{Causality, Variable};
 
 use super::failure::{Failure, NOT_CONVERGED};
-use super::files::{bad_table, open_table, read_scene, refuse_same};
-use super::nearest::nearest;
+use super::files::{read_scene, refuse_same};
+use super::numbers::{Numbers, did_you_mean};
 use super::output::{Table, print, warn};
 use super::progress::progress_bar;
 use super::sweep::{Columns, Row, Way};
@@ -79,46 +79,28 @@ impl Follow {
 
     /// Reads and checks the whole path before anything is solved.
     fn path(&self, package: &Package) -> Result<Path, Failure> {
-        let name = self.inputs.display();
-        let mut table = open_table(&self.inputs)?;
-        let header = table.headers().map_err(|error| bad_table(&self.inputs, &error))?.clone();
-        let titles: Vec<String> = header.iter().map(str::to_owned).collect();
-        let inputs = titles.iter().enumerate().map(|(number, title)| match input(package, title) {
-            _ if titles[..number].contains(title) => Err(Failure(format!("{name} has two columns {title}"))),
-            None if title != TIME => Err(Failure(format!("{name}: {}", unknown(package, title)))),
-            found => Ok(found),
-        });
-        let inputs = inputs.collect::<Result<Vec<_>, _>>()?;
+        let fault = |title: &str| {
+            let known = title == TIME || input(package, title).is_some();
+            (!known).then(|| unknown(package, title))
+        };
+        let Numbers { titles, rows } = Numbers::read(&self.inputs, fault)?;
+        let inputs: Vec<Option<&Variable>> = titles.iter().map(|title| input(package, title)).collect();
+        let time = titles.iter().position(|title| title == TIME);
         let mut points: Vec<(Vec<f64>, HostValues)> = Vec::new();
-        for record in table.records() {
-            let record = record.map_err(|error| bad_table(&self.inputs, &error))?;
-            let at = || format!("{name}, line {}", record.position().map_or(0, csv::Position::line));
-            let (mut cells, mut values) = (Vec::new(), package.start().clone());
-            for ((text, title), input) in record.iter().zip(&titles).zip(&inputs) {
-                let number = text.parse().ok().filter(|number: &f64| number.is_finite());
-                let number = number.ok_or_else(|| {
-                    Failure(format!("{}: {title} = \"{text}\" is not a finite number", at()))
-                })?;
-                let set = input.map_or(Ok(()), |input| input.set(&mut values, Value::Real(number)));
-                set.map_err(|error| Failure(format!("{}: {error}", at())))?;
-                cells.push(number);
+        for row in rows {
+            let mut values = package.start().clone();
+            for (number, input) in row.cells.iter().zip(&inputs) {
+                let set = input.map_or(Ok(()), |input| input.set(&mut values, Value::Real(*number)));
+                set.map_err(|error| row.failure(error))?;
             }
-            values.inputs().map_err(|error| Failure(format!("{}: {error}", at())))?;
-            if let (Some(time), Some((last, _))) =
-                (titles.iter().position(|title| title == TIME), points.last())
-                && cells[time] <= last[time]
+            values.inputs().map_err(|error| row.failure(error))?;
+            if let Some((time, (last, _))) = time.zip(points.last())
+                && row.cells[time] <= last[time]
             {
-                return Err(Failure(format!(
-                    "{}: time = {} does not come after {}",
-                    at(),
-                    cells[time],
-                    last[time]
-                )));
+                let (time, last) = (row.cells[time], last[time]);
+                return Err(row.failure(format_args!("time = {time} does not come after {last}")));
             }
-            points.push((cells, values));
-        }
-        if points.is_empty() {
-            return Err(Failure(format!("{name} has no rows")));
+            points.push((row.cells, values));
         }
         Ok(Path { titles, points })
     }
@@ -139,7 +121,6 @@ fn input<'a>(package: &'a Package, name: &str) -> Option<&'a Variable> {
 
 fn unknown(package: &Package, title: &str) -> String {
     let inputs = package.table().variables().iter().filter(|row| row.causality == Causality::Input);
-    let nearest = nearest(title, inputs.map(|row| row.name.clone()));
-    let suggested = nearest.map_or(String::new(), |name| format!("; did you mean {name}?"));
+    let suggested = did_you_mean(title, inputs.map(|row| row.name.clone()));
     format!("{title} is no input of this scene's FMU{suggested}")
 }

@@ -13,12 +13,14 @@ mod follow;
 mod init;
 mod interrupt;
 mod nearest;
+mod numbers;
 mod output;
 mod pack;
 mod picture;
 mod progress;
 mod solve;
 mod stability;
+mod steer;
 mod study;
 mod study_files;
 mod sweep;
@@ -66,6 +68,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Follows an equilibrium along a recorded path of inputs
     Follow(follow::Follow),
+    /// Brings the tip to a target by moving the magnet, the field or the shaft
+    Steer(Box<steer::Steer>),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
@@ -92,6 +96,7 @@ fn main() -> ExitCode {
         Some(Command::Field(command)) => command.run(),
         Some(Command::Sweep(command)) => command.run(),
         Some(Command::Follow(command)) => command.run(),
+        Some(Command::Steer(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.
