@@ -3,7 +3,6 @@
 mod bifurcation;
 mod branches;
 mod field;
-mod fit;
 mod follow;
 mod init;
 mod mesh;

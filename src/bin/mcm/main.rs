@@ -9,7 +9,6 @@ mod failure;
 mod fidelity;
 mod field;
 mod files;
-mod fit;
 mod follow;
 mod init;
 mod interrupt;
@@ -71,8 +70,6 @@ enum Command {
     Follow(follow::Follow),
     /// Brings the tip to a target by moving the magnet, the field or the shaft
     Steer(Box<steer::Steer>),
-    /// Fits numbers of a scene to measured rows
-    Fit(fit::Fit),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
@@ -100,7 +97,6 @@ fn main() -> ExitCode {
         Some(Command::Sweep(command)) => command.run(),
         Some(Command::Follow(command)) => command.run(),
         Some(Command::Steer(command)) => command.run(),
-        Some(Command::Fit(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.
