@@ -9,6 +9,7 @@ mod failure;
 mod fidelity;
 mod field;
 mod files;
+mod fit;
 mod follow;
 mod init;
 mod interrupt;
@@ -66,6 +67,8 @@ enum Command {
     Sweep(sweep::Sweep),
     /// Follows an equilibrium along a recorded path of inputs
     Follow(follow::Follow),
+    /// Finds numbers of the scene from measured rows, and how sure they are
+    Fit(fit::Fit),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
@@ -92,6 +95,7 @@ fn main() -> ExitCode {
         Some(Command::Field(command)) => command.run(),
         Some(Command::Sweep(command)) => command.run(),
         Some(Command::Follow(command)) => command.run(),
+        Some(Command::Fit(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.
