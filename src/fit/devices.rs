@@ -49,8 +49,9 @@ pub(super) struct Rows {
 pub(super) struct Device<'a> {
     rows: &'a Rows,
     file: SceneFile,
-    scene: Scene,
     variant: Variant,
+    /// Unsolved, for rows that share it.
+    unsolved: Manipulator,
 }
 
 /// The scene with these values at these keys.
@@ -79,8 +80,11 @@ impl Rows {
         let scene = file.scene()?;
         let scenes = values.par_iter().map(|(name, values)| {
             let own = with(file, keys, values).and_then(|own| own.scene());
-            own.and_then(|own| own.variant().map(|_| own))
-                .map_err(|error| Error::Syntax { what: name.clone(), reason: error.to_string() })
+            // A row that is another device is checked as one.
+            own.and_then(
+                |own| if is_same_device(&own, &scene) { Ok(own) } else { own.variant().map(|_| own) },
+            )
+            .map_err(|error| Error::Syntax { what: name.clone(), reason: error.to_string() })
         });
         let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
         let tables: Vec<String> = keys.iter().map(|key| table(key).to_owned()).collect();
@@ -125,6 +129,12 @@ impl Rows {
         overlaid(device, &rows[row], &tables)
     }
 
+    /// Whether these values of the parameters are those of a device.
+    pub(super) fn allows(&self, file: &SceneFile, parameters: &[f64]) -> bool {
+        let scene = with(file, &self.parameters, parameters).and_then(|file| file.scene());
+        scene.and_then(|scene| scene.variant()).is_ok()
+    }
+
     /// The device with these values of the parameters.
     ///
     /// # Errors
@@ -132,8 +142,8 @@ impl Rows {
     pub(super) fn device(&self, file: &SceneFile, parameters: &[f64]) -> Result<Device<'_>, Error> {
         let file = with(file, &self.parameters, parameters)?;
         let scene = file.scene()?;
-        let variant = scene.variant()?;
-        Ok(Device { rows: self, file, scene, variant })
+        let (variant, unsolved) = (scene.variant()?, scene.manipulator(SHAPE_POINTS)?);
+        Ok(Device { rows: self, file, variant, unsolved })
     }
 }
 
@@ -157,17 +167,14 @@ impl Device<'_> {
     /// # Errors
     /// Those of inputs out of range.
     pub(super) fn fresh(&self, row: usize) -> Result<Manipulator, Error> {
-        let scene = match self.rows.shared {
-            Some(_) => &self.scene,
-            None => &self.file(row)?.scene()?,
-        };
-        let mut manipulator = scene.manipulator(SHAPE_POINTS)?;
-        let inputs = if self.rows.shared.is_some() {
-            self.rows.inputs(row, &scene.inputs)
-        } else {
-            scene.inputs.clone()
-        };
-        manipulator.solve(&inputs)?;
+        if self.rows.shared.is_none() {
+            let scene = self.file(row)?.scene()?;
+            let mut manipulator = scene.manipulator(SHAPE_POINTS)?;
+            manipulator.solve(&scene.inputs)?;
+            return Ok(manipulator);
+        }
+        let mut manipulator = self.unsolved.clone();
+        manipulator.solve(&self.rows.inputs(row, &self.variant.inputs))?;
         Ok(manipulator)
     }
 

@@ -23,8 +23,8 @@ const MORE: f64 = 8.0;
 const NONE: f64 = 1e-9;
 const TOO_MUCH: f64 = 1e12;
 
-/// Expected part of the loss that a step gains, at which the loop ends: rounding of the loss.
-const GAIN: f64 = 1e-13;
+/// Expected part of the loss that a step gains, at which the loop ends: a step of a ten thousandth of a standard deviation.
+const GAIN: f64 = 1e-10;
 
 /// The same, at which a step that fails ends the loop.
 const NOISE: f64 = 1e-7;
@@ -96,19 +96,27 @@ impl Estimate {
             converged: false,
         };
         out.descend(problem, settings, stated)?;
-        // Rows that had no shape at the start may have one now.
-        for (row, found) in problem.first(&out.parameters)?.into_iter().enumerate() {
-            if let (Some(_), Ok(found)) = (&out.reasons[row], found)
-                && !out.reasons[row].as_ref().is_some_and(|reason| reason.starts_with("no derivatives"))
-            {
-                (out.shapes[row], out.reasons[row]) = (Some(found), None);
-                out.converged = false;
-            }
-        }
+        out.regain(problem)?;
         if !out.converged {
             out.descend(problem, settings, stated)?;
         }
         Ok(out)
+    }
+
+    /// Rows that had no shape at the start and have one now count again.
+    fn regain(&mut self, problem: &Problem) -> Result<(), Error> {
+        if self.reasons.iter().all(Option::is_none) {
+            return Ok(());
+        }
+        for (row, found) in problem.first(&self.parameters)?.into_iter().enumerate() {
+            // One without derivatives would be lost again.
+            let without = |reason: &String| !reason.starts_with("no derivatives");
+            if let (true, Ok(found)) = (self.reasons[row].as_ref().is_some_and(without), found) {
+                (self.shapes[row], self.reasons[row]) = (Some(found), None);
+                self.converged = false;
+            }
+        }
+        Ok(())
     }
 
     fn descend(&mut self, problem: &Problem, settings: &Settings, stated: bool) -> Result<(), Error> {

@@ -69,7 +69,7 @@ impl<'a> Problem<'a> {
 
     /// Whether these parameters are allowed.
     pub(super) fn allows(&self, parameters: &DVector<f64>) -> bool {
-        self.device(parameters).is_ok()
+        self.rows.allows(self.file, parameters.as_slice())
     }
 
     /// Every row from the unloaded shape: its shape, or why it has none.

@@ -46,12 +46,12 @@ pub(super) fn of(fit: &Fit) -> Study {
         let label = if outputs.len() > 1 && outputs.len() <= OUTPUTS { output.name() } else { "" };
         Curve::new(label, format!("residual {}", output.name()), number, Stroke::Dots)
     };
-    let unit = if fit.stated { "standard deviations" } else { "unit of the outputs" };
+    let unit = if fit.stated { "residual (sd)" } else { "residual" };
     let width = 2.0 * if fit.stated { 1.0 } else { fit.scatter };
     panels.push(Panel::Curves {
         title: "residuals".into(),
         x: ("line of the table".into(), "line".into()),
-        y: format!("residual ({unit})"),
+        y: unit.into(),
         curves: outputs.iter().enumerate().map(curve).collect(),
         marks: vec![Mark::Band("two standard deviations".into(), [-width, width])],
     });
