@@ -49,7 +49,15 @@ def test_scipy_finds_the_same(pack: Callable[..., Archive], tmp_path: Path) -> N
     (tmp_path / "scene.toml").write_text(SCENE)
     vary = [word for key in KEYS for word in ("--vary", key)]
     begin = time.perf_counter()
-    done = run("fit", tmp_path / "scene.toml", "--measured", tmp_path / "data.csv", *vary, "--out", tmp_path / "fit.toml")
+    done = run(
+        "fit",
+        tmp_path / "scene.toml",
+        "--measured",
+        tmp_path / "data.csv",
+        *vary,
+        "--out",
+        tmp_path / "fit.toml",
+    )
     own = time.perf_counter() - begin
     assert done.returncode == 0, done.stderr
     fitted = tomllib.loads((tmp_path / "fit.toml").read_text())
@@ -61,13 +69,17 @@ def test_scipy_finds_the_same(pack: Callable[..., Archive], tmp_path: Path) -> N
     begin = time.perf_counter()
     found = least_squares(residuals, [1.0, 1.0], jac="3-point", method="lm", xtol=1e-12, ftol=1e-12)
     peer = time.perf_counter() - begin
-    print(f"mcm fit {1e3 * own:.0f} ms with start of the program, least_squares {1e3 * peer:.0f} ms, {peer / own:.0f} times")
+    print(
+        f"mcm fit {1e3 * own:.0f} ms with its start, least_squares {1e3 * peer:.0f} ms, {peer / own:.0f} times"
+    )
     expected = [start * factor for start, factor in zip(START.values(), found.x, strict=True)]
     values = [fitted["design"]["helix"]["length_mm"], fitted["design"]["ring"]["remanence_t"]]
     for value, unit, other in zip(values, UNITS, expected, strict=True):
         assert value * unit == pytest.approx(other, rel=AGREE)
     # Their deviations, from its Jacobian and what is left.
     scatter = math.sqrt(2 * found.cost / (2 * ROWS - 2))
-    deviations = scatter * np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac))) * np.array(list(START.values()))
+    deviations = (
+        scatter * np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac))) * np.array(list(START.values()))
+    )
     for key, unit, other in zip(KEYS, UNITS, deviations, strict=True):
         assert fitted["uncertainty"][key] * unit == pytest.approx(other, rel=1e-3)
