@@ -59,9 +59,9 @@ impl Profile<'_> {
                 return Some(self.parameters[index] + by);
             }
             if height < 1.0 {
-                below = [by, height]
+                below = [by, height];
             } else {
-                above = Some([by, height])
+                above = Some([by, height]);
             }
             by = match above {
                 Some([at, high]) if high.is_finite() => {
