@@ -137,7 +137,7 @@ impl Estimate {
             if settled || gain <= GAIN * loss + f64::MIN_POSITIVE || damping > TOO_MUCH {
                 settled = false;
                 if self.rescale(settings.loss, stated) {
-                    self.converged = true;
+                    self.converged = damping <= TOO_MUCH;
                     break;
                 }
                 continue;

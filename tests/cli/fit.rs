@@ -86,7 +86,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         ("fit_few", "alpha_deg\n5\n", &["--vary", "design.ring.remanence_t"], "2 parameters need as many"),
         ("fit_sigma", "alpha_deg\n5\n", &["--sigma", "alpha_deg"], "OUTPUT=VALUE"),
         ("fit_zero", "alpha_deg\n5\n", &["--sigma", "alpha_deg=0"], "standard deviation of alpha_deg = 0"),
-        ("fit_key", "alpha_deg\n5\n", &["--vary", "design.helix.shore_b"], "did you mean `shore_a`?"),
+        ("fit_key", "alpha_deg\n5\n6\n", &["--vary", "design.helix.shore_b"], "did you mean `shore_a`?"),
         ("fit_twice", "alpha_deg\n5\n6\n", &["--vary", KEY], "is named twice"),
         ("fit_range", "alpha_deg\n5\n", &["--vary", "design.ring.remanence_t=1:2:3"], "takes a key alone"),
         ("fit_svg", "alpha_deg\n5\n", &["--picture", "fit.svg"], "must end in .png"),
