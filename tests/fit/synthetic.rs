@@ -94,19 +94,18 @@ fn outliers_hardly_move_a_robust_fit() {
 #[test]
 fn parameters_stay_in_their_ranges() {
     let file = scene(ONE);
-    // Stiffer than any value of Poisson's ratio allows: more than the largest is asked for.
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for field in [5.0, 10.0] {
-        rows.push(measure(
-            &file,
-            &[("design.helix.shore_a", 20.0)],
-            &[("field.uniform_mt[2]", field)],
-            &["alpha_deg"],
-        ));
-    }
+    // Magnets that are stronger than those of the scene: its permeability, 1 at least, can only weaken them.
+    let strong = [("design.ring.remanence_t", 1.5)];
+    let rows: Vec<Vec<f64>> = [5.0, 10.0]
+        .map(|field| measure(&file, &strong, &[("field.uniform_mt[2]", field)], &["alpha_deg"]))
+        .to_vec();
     let measured = table(&file, &["field.uniform_mt[2]", "alpha_deg"], &rows);
-    let fit = fitted(&file, &["design.helix.volume_fraction"], &measured);
-    let parameter = &fit.parameters[0];
-    println!("{parameter:?}");
-    assert!(file.with("design.helix.volume_fraction", parameter.value).unwrap().scene().is_ok());
+    let key = "design.ring.recoil_permeability";
+    for start in [1.0, 1.05] {
+        let fit = fitted(&file.with(key, start).unwrap(), &[key], &measured);
+        let parameter = &fit.parameters[0];
+        println!("{parameter:?}");
+        assert!((1.0..1.0001).contains(&parameter.value) && parameter.at_limit, "{parameter:?}");
+        assert_eq!(parameter.deviation, None);
+    }
 }
