@@ -236,6 +236,13 @@ impl Manipulator {
         self.hierarchy.present()
     }
 
+    /// This device with its present model replaced by another one of the same discretisation, and what was read from that.
+    pub(super) fn with_model(&self, model: Equilibrium, outputs: Outputs) -> Self {
+        let mut hierarchy = self.hierarchy.clone();
+        hierarchy.replace_present(model);
+        Self { hierarchy, outputs, has_shape: true }
+    }
+
     /// What is read from the shape of another model of the same discretisation.
     pub(super) fn outputs_of(&self, model: &Equilibrium, inputs: &Inputs) -> Outputs {
         let mut out = self.outputs.clone();

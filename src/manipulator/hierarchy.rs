@@ -137,6 +137,11 @@ impl Hierarchy {
         self.models.at(self.present)
     }
 
+    /// Puts another model in the place of the one in use.
+    pub(super) fn replace_present(&mut self, model: Equilibrium) {
+        *self.models.at_mut(self.present) = model;
+    }
+
     /// Stability margin below which a shape is reported as close to a fold.
     pub(super) fn fold_margin(&self) -> f64 {
         self.fold_margin

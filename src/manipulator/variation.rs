@@ -2,7 +2,7 @@
 
 use super::{Inputs, Manipulator, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Linearised, Neighbourhood, Settings, Solution};
+use crate::equilibrium::{Equilibrium, Linearised, Neighbourhood, Report, Settings, Solution};
 use crate::error::Error;
 use crate::magnetics::Assembly;
 use crate::vessel::Vessel;
@@ -168,6 +168,22 @@ impl Manipulator {
     /// [`Error::Unsupported`] before the first solve, where the push on a shaft is given, and for a variant with another number of
     /// bodies; those of its model and its inputs.
     pub fn variant(&self, variant: &Variant) -> Result<Outputs, Error> {
+        let (model, report) = self.solved_variant(variant)?;
+        Ok(self.outputs_of_solve(&model, &variant.inputs, &report))
+    }
+
+    /// A variant of this device as a device, solved as by [`Self::variant`]. Only its present model is one of the variant: what it tells
+    /// of this shape and the next variants hold, further solves do not.
+    ///
+    /// # Errors
+    /// As [`Self::variant`].
+    pub(crate) fn varied(&self, variant: &Variant) -> Result<Self, Error> {
+        let (model, report) = self.solved_variant(variant)?;
+        let outputs = self.outputs_of_solve(&model, &variant.inputs, &report);
+        Ok(self.with_model(model, outputs))
+    }
+
+    fn solved_variant(&self, variant: &Variant) -> Result<(Equilibrium, Report), Error> {
         let model = self.model();
         let Some(inputs) = model.inputs().filter(|_| self.outputs().status != Status::NotSolved) else {
             return Err(Error::Unsupported(
@@ -184,7 +200,7 @@ impl Manipulator {
         }
         varied.adopt(model, model.unknowns(), inputs);
         let report = varied.solve(inputs)?;
-        Ok(self.outputs_of_solve(&varied, inputs, &report))
+        Ok((varied, report))
     }
 
     /// Derivative of all that is read from outputs by a number on which the device depends, as the outputs of two devices and by how

@@ -3,6 +3,7 @@
 mod bifurcation;
 mod branches;
 mod field;
+mod fit;
 mod follow;
 mod init;
 mod mesh;

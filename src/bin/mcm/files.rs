@@ -41,12 +41,22 @@ pub(crate) fn open_table(path: &Path) -> Result<csv::Reader<File>, Failure> {
     Ok(csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(file))
 }
 
-/// Refuses to write over what is read, and to write two outputs into one file.
+/// Refuses to write over what is read or a scene, and to write two outputs into one file.
 pub(crate) fn refuse_same(read: &[&Path], written: &[&Path]) -> Result<(), Failure> {
+    match written.iter().find(|out| is_scene(out)) {
+        Some(out) => Err(Failure(format!("{} is called like a scene: choose another name", out.display()))),
+        None => refuse_over(read, written),
+    }
+}
+
+/// Whether a file is called like a scene.
+pub(crate) fn is_scene(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending == "toml")
+}
+
+/// Refuses to write over what is read, and to write two outputs into one file.
+pub(crate) fn refuse_over(read: &[&Path], written: &[&Path]) -> Result<(), Failure> {
     for (number, out) in written.iter().enumerate() {
-        if out.extension().is_some_and(|ending| ending == "toml") {
-            return Err(Failure(format!("{} is called like a scene: choose another name", out.display())));
-        }
         let own = place(out);
         if let Some(input) = read.iter().find(|input| place(input) == own) {
             return Err(Failure(format!(

@@ -9,6 +9,7 @@ mod failure;
 mod fidelity;
 mod field;
 mod files;
+mod fit;
 mod follow;
 mod init;
 mod interrupt;
@@ -70,6 +71,8 @@ enum Command {
     Follow(follow::Follow),
     /// Brings the tip to a target by moving the magnet, the field or the shaft
     Steer(Box<steer::Steer>),
+    /// Finds numbers of the scene from measured rows, and how sure they are
+    Fit(fit::Fit),
     /// Packs a design as an FMI 2.0 co-simulation FMU
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
         Some(Command::Sweep(command)) => command.run(),
         Some(Command::Follow(command)) => command.run(),
         Some(Command::Steer(command)) => command.run(),
+        Some(Command::Fit(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.
