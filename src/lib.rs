@@ -61,6 +61,10 @@ pub use nalgebra;
 #[doc = include_str!("../README.md")]
 mod readme {} // its Rust example is a doctest
 
+#[cfg(all(doctest, feature = "steer"))]
+#[doc = include_str!("steer/README.md")]
+mod steer_page {} // and that of a page
+
 #[cfg(doctest)]
 #[doc = concat!("```\n", include_str!("../tests/examples/ring_field.rs"), "```")]
 #[doc = concat!("```\n", include_str!("../tests/examples/shape.rs"), "```")]

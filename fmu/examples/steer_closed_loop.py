@@ -2,9 +2,9 @@
 
     .venv/bin/python fmu/examples/steer_closed_loop.py mcm.fmu --out loop.csv --picture loop.png
 
-The FMU serves twice: as the model, with its own parameters, and as the device, whose helices are harder by `HARDER` and
-whose tip is seen with noise. The model is steered onto the circle by its directional derivatives (feedforward). Feedback
-adds to the magnet's position what the error that is seen asks for, filtered.
+The FMU serves twice: as the model, with its own parameters, and as the device, whose helices are harder by `HARDER`
+and whose tip is seen with noise. The model is steered onto the circle by its directional derivatives (feedforward).
+Feedback adds to the magnet's position what the error that is seen asks for, filtered.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from component import Component
 STEP = 1e-3  # s
 STOP = 2.0  # s
 PERIOD = 1.0  # s, of a turn
-RADIUS = 1.5e-3  # m
+RADIUS = 1e-3  # m
 HARDER = 1.0  # Shore A
 NOISE = 20e-6  # m, standard deviation of the position that is seen
 GAIN = 60.0  # share of the error that feedback takes away per second, 1/s
@@ -26,7 +26,7 @@ EVERY = 10  # steps between Jacobians
 SETTLED = 0.5  # s: errors are told from here on
 
 TIP = [f"tip.position[{axis}]" for axis in (1, 2)]
-MAGNET = [f"magnet.position[{axis}]" for axis in (1, 2)]
+MAGNET = [f"magnet.position[{axis}]" for axis in (1, 2, 3)]
 COLUMNS = ["time", *(f"wanted[{axis}]" for axis in (1, 2)), *TIP, *MAGNET]
 
 
@@ -61,14 +61,14 @@ def run(fmu: Path, *, feedback: bool) -> np.ndarray:
     try:
         start = tip(model)
         planned = np.array([model.get(name) for name in MAGNET])
-        added = np.zeros(2)
+        added = np.zeros(len(MAGNET))
         rows = []
         for index in range(round(STOP / STEP)):
             time = index * STEP
             angle = 2 * np.pi * time / PERIOD
             wanted = start + RADIUS * np.array([np.sin(angle), np.cos(angle) - 1.0])
             if index % EVERY == 0:
-                inverse = np.linalg.inv(jacobian(model))
+                inverse = np.linalg.pinv(jacobian(model))
             planned = planned + inverse @ (wanted - tip(model))
             place(model, planned)
             place(device, planned + added)

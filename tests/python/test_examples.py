@@ -246,3 +246,24 @@ def test_a_shaft_is_pushed_into_an_aorta(mcm: Path, tmp_path: Path) -> None:
     hertz = (force / (4 / 3 * 1e6 / 0.75 * math.sqrt(2e-3))) ** (2 / 3)
     assert (depth < 1.1 * hertz + 1e-6).all()
     assert "has no shaft in a vessel" in refused("push_in.py", mcm, "--out", pushed)
+
+
+def test_feedback_makes_up_for_a_wrong_model(tmp_path: Path) -> None:
+    scene, fmu = tmp_path / "loop.toml", tmp_path / "loop.fmu"
+    scene.write_text(
+        '[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, -120.0, 9.0]\n[model]\ninteraction = "rings"\n'
+    )
+    done = run(program(), "pack", "--scene", scene, "--out", fmu)
+    assert done.returncode == 0, done.stderr
+    said = example(
+        "steer_closed_loop.py", fmu, "--out", tmp_path / "loop.csv", "--picture", tmp_path / "loop.png"
+    )
+    assert (tmp_path / "loop.png").stat().st_size > 10_000
+    forward, closed = (float(line.split()[-2]) for line in said.splitlines() if "error" in line)
+    # A Shore degree is 4 % of the stiffness; noise of 20 um is filtered to a quarter.
+    assert 0.02 < forward < 0.2
+    assert closed < 0.2 * forward
+    rows = np.loadtxt(tmp_path / "loop.csv", delimiter=",", skiprows=1)
+    late = rows[rows[:, 0] >= 0.5]
+    off = np.sqrt(np.mean(np.sum((late[:, 1:3] - late[:, 3:5]) ** 2, axis=1)))
+    np.testing.assert_allclose(1e3 * off, closed, atol=1e-4)
