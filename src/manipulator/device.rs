@@ -237,6 +237,7 @@ impl Manipulator {
     }
 
     /// This device with its present model replaced by another one of the same discretisation, and what was read from that.
+    #[cfg(feature = "fit")]
     pub(super) fn with_model(&self, model: Equilibrium, outputs: Outputs) -> Self {
         let mut hierarchy = self.hierarchy.clone();
         hierarchy.replace_present(model);

@@ -138,6 +138,7 @@ impl Hierarchy {
     }
 
     /// Puts another model in the place of the one in use.
+    #[cfg(feature = "fit")]
     pub(super) fn replace_present(&mut self, model: Equilibrium) {
         *self.models.at_mut(self.present) = model;
     }

@@ -177,6 +177,7 @@ impl Manipulator {
     ///
     /// # Errors
     /// As [`Self::variant`].
+    #[cfg(feature = "fit")]
     pub(crate) fn varied(&self, variant: &Variant) -> Result<Self, Error> {
         let (model, report) = self.solved_variant(variant)?;
         let outputs = self.outputs_of_solve(&model, &variant.inputs, &report);
