@@ -142,6 +142,27 @@ fn a_way_round_a_snap_is_found() {
 }
 
 #[test]
+fn a_device_is_led_up_an_aorta() {
+    let here = super::folder("steer aorta");
+    assert_status(&super::mcm(&here, &["init", "--vessel", "aorta", "--out", "scene.toml"]), 0);
+    let scene = std::fs::read_to_string(here.join("scene.toml")).unwrap();
+    let goal = scene
+        .replace("position_mm = [0.0, -120.0, 20.0]", "position_mm = [0.0, -120.0, 60.0]")
+        .replace("\ninsertion_mm = 0.0", "\ninsertion_mm = 40.0");
+    std::fs::write(here.join("goal.toml"), goal).unwrap();
+    let moves = "magnet.position,magnet.orientation,feed.insertion";
+    let arguments = ["steer", "scene.toml", "--to", "goal.toml", "--move", moves, "--out", "way.csv"];
+    let output = super::mcm(&here, &arguments);
+    assert_status(&output, 0);
+    assert!(stdout(&output).starts_with("the straight way leads there"), "{}", stdout(&output));
+    let rows = table(&here.join("way.csv"));
+    assert!(rows.iter().all(|row| row["snaps"] == "0"));
+    let last = rows.last().unwrap();
+    assert!((number(last, "feed.insertion_mm") - 40.0).abs() < 1e-6);
+    assert!(number(last, "tip_z_mm") > 80.0 && number(last, "contact_count") >= 0.0, "{last:?}");
+}
+
+#[test]
 fn bad_questions_are_refused() {
     let steer = |more: &[&str]| {
         let (_, output) = with_scene("steer bad", SCENE, &[&["steer", "scene.toml"], more].concat());
