@@ -8,7 +8,7 @@ use super::state::{Rules, State};
 use super::target::{Residual, Target, Tolerances};
 use super::tree::Tree;
 use crate::error::Error;
-use crate::manipulator::{Inputs, Jacobian, Outputs, Scene, Status};
+use crate::manipulator::{Inputs, Outputs, Scene, Status};
 
 /// Number of states of the map from which a target is tried that cannot be reached directly, and how many of them are tried.
 const MAP: usize = 48;
@@ -125,16 +125,8 @@ impl Steering {
         self.state.outputs()
     }
 
-    /// Derivatives of all outputs by all inputs, here.
-    ///
-    /// # Errors
-    /// As [`crate::manipulator::Manipulator::jacobian`].
-    pub fn jacobian(&self) -> Result<Jacobian, Error> {
-        self.state.manipulator.jacobian()
-    }
-
-    /// Gradient of the stability margin by the freedoms of the moves, in SI units, and their names; by central differences of the margins
-    /// of neighbouring equilibria. `None` beside a fold.
+    /// Gradient of the stability margin by the freedoms of the moves, in their order and per SI unit: three for a position, two for the
+    /// orientation, about the magnet's `d1` and `d2`. By central differences of the margins of neighbouring equilibria; `None` beside a fold.
     ///
     /// # Errors
     /// Those of the solves.
