@@ -20,6 +20,7 @@ FILES = [
     "fmu/examples/requirements.txt",
     "tests/requirements.txt",
     "tests/bench/requirements.txt",
+    "tests/bench/scipy.txt",
     "tests/bench/finite_elements.txt",
     "tests/bench/mujoco.txt",
 ]
