@@ -1,4 +1,4 @@
-//! Contact: overlap of rings with one another, and of the whole manipulator with the external magnet.
+//! Contact: overlap of rings with one another, and of the whole manipulator with magnets and coils.
 
 use nalgebra::Vector3;
 
@@ -10,7 +10,7 @@ use super::settings::{Interaction, Settings};
 use super::terms::overlap;
 use super::workspace::Workspace;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, Outline};
+use crate::magnetics::{Assembly, Outline, SourceName, Sources};
 use crate::numerics::maximum::largest;
 
 /// Number of parts of an element at whose ends its sections are tested.
@@ -33,7 +33,7 @@ impl Model<'_> {
     /// The deepest contact at the shape placed last, at these inputs.
     pub(crate) fn contact(&self, inputs: &Inputs, work: &Workspace) -> Option<Contact> {
         let placed = Placed { chain: self.chain, nodes: &work.nodes };
-        placed.contact(self.settings, self.magnet, inputs, |k, s| {
+        placed.contact(self.settings, self.sources, inputs, |k, s| {
             let element = &self.chain.elements[k];
             let amplitudes = self.chain.part(k, &work.placed);
             work.nodes[k].compose(&work.configurations[k].pose_at(element, &element.row(s), amplitudes))
@@ -45,11 +45,11 @@ impl Placed<'_> {
     /// The deepest contact; `section` gives the pose of an element's section at an arc length (m) from the element's
     /// start.
     ///
-    /// Contact among rings is tested where rings interact. A magnet of strength 0 counts as absent.
+    /// Contact among rings is tested where rings interact. A magnet or coil of strength 0 counts as absent.
     pub(crate) fn contact(
         &self,
         settings: &Settings,
-        magnet: Option<&Assembly>,
+        sources: &Sources,
         inputs: &Inputs,
         section: impl Fn(usize, f64) -> Pose,
     ) -> Option<Contact> {
@@ -57,8 +57,10 @@ impl Placed<'_> {
         if settings.interaction != Interaction::None {
             self.among_rings(&mut deepest);
         }
-        if let Some(magnet) = magnet.filter(|_| inputs.magnet_strength != 0.0) {
-            self.with_magnet(magnet, &inputs.magnet, section, &mut deepest);
+        for (number, assembly) in sources.numbered() {
+            if let Some(placed) = inputs.source(number).filter(|placed| placed.strength != 0.0) {
+                self.with_source((sources.name(number), assembly, &placed.pose), &section, &mut deepest);
+            }
         }
         deepest
     }
@@ -72,10 +74,9 @@ impl Placed<'_> {
         }
     }
 
-    fn with_magnet(
+    fn with_source(
         &self,
-        magnet: &Assembly,
-        at: &Pose,
+        (source, magnet, at): (SourceName, &Assembly, &Pose),
         section: impl Fn(usize, f64) -> Pose,
         deepest: &mut Option<Contact>,
     ) {
@@ -86,7 +87,7 @@ impl Placed<'_> {
             if distance(&centre) < ring.ring.outer_radius + ring.half_length() {
                 for (number, (cylinder, place)) in magnet.outlines().enumerate() {
                     let depth = outline.depth_in(&cylinder, &seen(&centre, at, &place));
-                    add(deepest, with_cylinder(Body::Ring(i), number, depth));
+                    add(deepest, with_cylinder(Body::Ring(i), (source, number), depth));
                 }
             }
         }
@@ -106,7 +107,7 @@ impl Placed<'_> {
                 let worth = -(STRETCHED * element.length + core::f64::consts::PI * radius) / PARTS as f64;
                 let (depth, _) = largest(level, [0.0, element.length], PARTS, worth);
                 if depth > TOUCHING * radius {
-                    add(deepest, with_cylinder(Body::Segment(k), number, depth));
+                    add(deepest, with_cylinder(Body::Segment(k), (source, number), depth));
                 }
             }
         }
@@ -119,8 +120,8 @@ fn seen(pose: &Pose, at: &Pose, place: &Vector3<f64>) -> Pose {
     Pose { position: pose.position - place, ..pose }
 }
 
-fn with_cylinder(first: Body, cylinder: usize, depth: f64) -> Contact {
-    Contact { first, second: Body::MagnetCylinder(cylinder), depth }
+fn with_cylinder(first: Body, (source, cylinder): (SourceName, usize), depth: f64) -> Contact {
+    Contact { first, second: Body::Source(source, cylinder), depth }
 }
 
 /// Keeps the deeper contact.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DMatrixView, Matrix3, Matrix6, Vector3};
 use super::inputs::Inputs;
 use super::layout::{Counts, Input};
 use super::potential::Potential;
-use super::terms::Frame;
+use super::terms::{Frame, NearStation};
 use crate::geometry::hat;
 use crate::magnetics::LinearField;
 use crate::rod::{Load, START};
@@ -29,7 +29,7 @@ pub(super) fn turned(rotation: &Matrix3<f64>, twists: &DMatrix<f64>) -> DMatrix<
 }
 
 impl Potential<'_> {
-    /// The mixed derivatives at the shape linearised last; `None` where a body lies inside or on an edge of the magnet,
+    /// The mixed derivatives at the shape linearised last; `None` where a body lies inside or on an edge of a magnet,
     /// even if that is switched off.
     pub(super) fn columns(&mut self, counts: &Counts) -> Option<InputDerivatives> {
         let mut gradient = DMatrix::zeros(self.chain.freedoms(), counts.inputs());
@@ -41,10 +41,10 @@ impl Potential<'_> {
             let mut block = self.end_motion(k) * turned(&into, &clamp);
             let element = &self.chain.elements[k];
             for (index, station) in element.stations.iter().enumerate() {
-                let (frame, pose) = (Frame::Station(station, &[]), self.work.station(k, index));
+                let (frame, pose) = (Frame::Station(station, NearStation::NONE), self.work.station(k, index));
                 let growth = self.work.configurations[k].growth;
                 let load =
-                    turned(&into, &self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0) * growth;
+                    turned(&into, &self.terms.input_derivatives(&frame, &pose, counts)?.matrix) * growth;
                 let state = &self.work.configurations[k].stations[index];
                 let tangent = &mut self.work.derivatives[k];
                 let size = tangent.size;
@@ -87,7 +87,7 @@ impl Potential<'_> {
         let pose = self.work.nodes[node];
         let mut out = DMatrix::zeros(6, counts.inputs());
         for (_, frame) in Frame::at_nodes(self.chain).filter(|(own, _)| *own == node) {
-            out += self.terms.input_derivatives(&frame, &pose, counts.inputs())?.0;
+            out += self.terms.input_derivatives(&frame, &pose, counts)?.matrix;
         }
         for (_, load) in self.work.walls.on_nodes.iter().filter(|(own, _)| *own == node) {
             let mut columns = out.columns_range_mut(Input::of_vessel());
@@ -123,6 +123,7 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
     let Inputs {
         magnet,
         magnet_strength: _, // does not change
+        further,
         uniform_field,
         field_gradient,
         base,
@@ -144,13 +145,18 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         let unit = Vector3::ith(column % 3, 1.0);
         let (shift, spin) = if column < 3 { (unit, Vector3::zeros()) } else { (Vector3::zeros(), unit) };
         let mut set = |input: Input, rate: &[f64]| {
-            out.view_mut((input.columns().start, column), (rate.len(), 1)).copy_from_slice(rate);
+            let Some(rows) = counts.columns(input) else { return };
+            out.view_mut((rows.start, column), (rate.len(), 1)).copy_from_slice(rate);
         };
         let velocity = |point: &Vector3<f64>| shift + spin.cross(&(point - base));
         set(Input::VesselPosition, shift.as_slice());
         set(Input::VesselRotation, spin.as_slice());
         set(Input::MagnetPosition, velocity(&magnet.position).as_slice());
         set(Input::MagnetRotation, spin.as_slice());
+        for (number, source) in further.iter().enumerate() {
+            set(Input::SourcePosition(number), velocity(&source.pose.position).as_slice());
+            set(Input::SourceRotation(number), spin.as_slice());
+        }
         let field = spin.cross(uniform_field) - field_gradient * velocity(&Vector3::zeros());
         set(Input::UniformField, field.as_slice());
         let turn = hat(&spin) * field_gradient - field_gradient * hat(&spin);

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
+use crate::magnetics::Sources;
 
 /// Longest inserted part of a shaft, m.
 pub(crate) const LONGEST_INSERTION: f64 = 1.0;
@@ -18,13 +19,24 @@ const ASIDE: f64 = 0.5;
 /// Maximum length of an input step, relative to the previous step, for which extrapolation is used.
 const FARTHEST: f64 = 4.0;
 
-/// Pose and strength of the external magnet, background field, base pose and loads.
+/// Pose and strength of a further source: of a magnet after the first one, or of a coil.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PlacedSource {
+    /// Pose of the magnet assembly or coil.
+    pub pose: Pose,
+    /// Factor on a magnet's field, or current through a coil, A; 0 switches it off.
+    pub strength: f64,
+}
+
+/// Pose and strength of the external magnet and of further sources, background field, base pose and loads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
     /// Pose of the external magnet assembly.
     pub magnet: Pose,
     /// Factor on the assembly's field; 0 switches it off.
     pub magnet_strength: f64,
+    /// Further magnets, then coils, in the order of [`super::Sources::further`]; one for each of them.
+    pub further: Vec<PlacedSource>,
     /// Uniform background field, T.
     pub uniform_field: Vector3<f64>,
     /// Components `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
@@ -62,6 +74,7 @@ impl Inputs {
         Self {
             magnet: Pose::identity(),
             magnet_strength: 0.0,
+            further: Vec::new(),
             uniform_field: Vector3::zeros(),
             field_gradient: [0.0; 5],
             base: Pose::identity(),
@@ -84,7 +97,9 @@ impl Inputs {
     #[must_use]
     pub fn without_loads(&self) -> Self {
         let Self { magnet, base, insertion, roll, guidewire_insertion, .. } = *self;
-        Self { magnet, base, insertion, roll, guidewire_insertion, ..Self::unloaded(self.ring_forces.len()) }
+        let further = self.further.iter().map(|source| PlacedSource { strength: 0.0, ..*source }).collect();
+        let unloaded = Self::unloaded(self.ring_forces.len());
+        Self { magnet, further, base, insertion, roll, guidewire_insertion, ..unloaded }
     }
 
     /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
@@ -103,11 +118,22 @@ impl Inputs {
         Pose { rotation: self.base.rotation * turn, ..self.base }
     }
 
-    /// Copies `other`, without allocation if it has the same number of rings.
+    /// Pose and strength of a source by its number: 0 is the external magnet, from 1 on the further ones.
+    #[must_use]
+    pub fn source(&self, number: usize) -> Option<PlacedSource> {
+        match number.checked_sub(1) {
+            None => Some(PlacedSource { pose: self.magnet, strength: self.magnet_strength }),
+            Some(further) => self.further.get(further).copied(),
+        }
+    }
+
+    /// Copies `other`, without allocation if it has the same numbers of rings and sources.
     pub fn copy_from(&mut self, other: &Self) {
-        let mut ring_forces = std::mem::take(&mut self.ring_forces);
+        let (mut ring_forces, mut further) =
+            (std::mem::take(&mut self.ring_forces), std::mem::take(&mut self.further));
         ring_forces.clone_from(&other.ring_forces);
-        *self = Self { ring_forces, ..*other };
+        further.clone_from(&other.further);
+        *self = Self { ring_forces, further, ..*other };
     }
 
     /// Interpolates by the fraction `t` towards `other`; orientations turn along the shortest arc.
@@ -118,6 +144,12 @@ impl Inputs {
         Self {
             magnet: self.magnet.between(&other.magnet, t),
             magnet_strength: number(self.magnet_strength, other.magnet_strength),
+            further: (self.further.iter().zip(&other.further))
+                .map(|(a, b)| PlacedSource {
+                    pose: a.pose.between(&b.pose, t),
+                    strength: number(a.strength, b.strength),
+                })
+                .collect(),
             uniform_field: mix(&self.uniform_field, &other.uniform_field),
             field_gradient: core::array::from_fn(|i| number(self.field_gradient[i], other.field_gradient[i])),
             base: self.base.between(&other.base, t),
@@ -163,6 +195,7 @@ impl Inputs {
         let Self {
             magnet,
             magnet_strength,
+            further,
             uniform_field,
             field_gradient,
             base,
@@ -195,7 +228,33 @@ impl Inputs {
             ("widening of the lumen (m)", std::slice::from_ref(widening)),
             ("softening of the wall", std::slice::from_ref(softening)),
         ];
-        named.into_iter().chain(ring_forces.iter().map(|force| ("ring force (N)", force.as_slice())))
+        let further = further.iter().flat_map(|source| {
+            [
+                ("position of a further source (m)", source.pose.position.as_slice()),
+                ("orientation of a further source", source.pose.rotation.as_slice()),
+                ("strength of a further source", std::slice::from_ref(&source.strength)),
+            ]
+        });
+        let forces = ring_forces.iter().map(|force| ("ring force (N)", force.as_slice()));
+        named.into_iter().chain(further).chain(forces)
+    }
+
+    /// Checks that every further source has its pose and strength, and that no two sources overlap; those that are where they were
+    /// in `before` are known to be apart.
+    ///
+    /// # Errors
+    /// [`Error::Count`] where there are more or fewer, [`Error::Unsupported`] for two that overlap.
+    pub(crate) fn check_sources(&self, sources: &Sources, before: Option<&Self>) -> Result<(), Error> {
+        let (given, needed) = (self.further.len(), sources.further().len());
+        if given == needed {
+            return sources.check_apart(|number| {
+                let pose = self.source(number)?.pose;
+                let known = before.and_then(|before| before.source(number));
+                Some((pose, known.is_none_or(|known| known.pose != pose)))
+            });
+        }
+        let expected = format!("{needed}, one for each further magnet and coil");
+        Err(Error::Count { quantity: "poses of further sources".into(), given, expected })
     }
 
     /// Checks that every number is finite and that there is one force for each of `rings` rings.

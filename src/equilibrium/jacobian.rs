@@ -46,10 +46,10 @@ impl Jacobian {
         &self.matrix
     }
 
-    /// The columns of an input; `None` for a ring that the design does not have.
+    /// The columns of an input; `None` for a ring or source that is not there.
     #[must_use]
     pub fn columns(&self, input: Input) -> Option<Range<usize>> {
-        Some(input.columns()).filter(|columns| columns.end <= self.matrix.ncols())
+        self.counts.columns(input)
     }
 
     /// The rows of an output; `None` for a point or body that the design does not have.

@@ -14,6 +14,12 @@ pub enum Input {
     MagnetRotation,
     /// Factor on the field of the external magnet, 1.
     MagnetStrength,
+    /// Position of a further source (counted from 0; magnets first, then coils), m.
+    SourcePosition(usize),
+    /// Rotation of a further source, rad.
+    SourceRotation(usize),
+    /// Factor on the field of a further magnet, 1, or current through a coil, A.
+    SourceStrength(usize),
     /// Uniform background field, T.
     UniformField,
     /// The five independent components of the linear background field, T/m.
@@ -66,6 +72,10 @@ pub enum Output {
     MagnetReactionForce,
     /// Torque on the external magnet about its centre, N m.
     MagnetReactionTorque,
+    /// Force on a further source (counted from 0), N.
+    SourceReactionForce(usize),
+    /// Torque on a further source about its centre, N m.
+    SourceReactionTorque(usize),
     /// External field at the tip, T.
     TipField,
     /// Length of shaft inside the port, m.
@@ -85,7 +95,7 @@ pub enum Output {
     CoreAngle(usize),
 }
 
-/// Inputs of every design in the order of their columns; the forces on the rings follow.
+/// Inputs of every design in the order of their columns; the forces on the rings follow, then the further sources.
 const INPUTS: [Input; 16] = [
     Input::MagnetPosition,
     Input::MagnetRotation,
@@ -105,7 +115,7 @@ const INPUTS: [Input; 16] = [
     Input::VesselRotation,
 ];
 
-/// Outputs of every design in the order of their rows; shape points, rings and cores follow.
+/// Outputs of every design in the order of their rows; shape points, rings, cores and further sources follow.
 const OUTPUTS: [Output; 12] = [
     Output::TipAngle,
     Output::TipPosition,
@@ -132,6 +142,7 @@ impl Input {
     pub(super) const fn width(self) -> usize {
         match self {
             Self::MagnetStrength
+            | Self::SourceStrength(_)
             | Self::Roll
             | Self::Insertion
             | Self::FeedForce
@@ -141,12 +152,23 @@ impl Input {
         }
     }
 
-    /// The columns of this input, for any design that has this ring.
+    /// The columns of this input, for any design that has this ring; those of the further sources depend on the number of rings:
+    /// [`Counts::columns`].
     pub(super) fn columns(self) -> Range<usize> {
         let before: usize =
             INPUTS.iter().take_while(|input| **input != self).map(|input| input.width()).sum();
         let first = before + if let Self::RingForce(ring) = self { ring * self.width() } else { 0 };
         first..first + self.width()
+    }
+
+    /// Number of a further source and which of its inputs this is; `None` for another input.
+    fn of_source(self) -> Option<(usize, usize)> {
+        match self {
+            Self::SourcePosition(source) => Some((source, 0)),
+            Self::SourceRotation(source) => Some((source, VECTOR)),
+            Self::SourceStrength(source) => Some((source, 2 * VECTOR)),
+            _ => None,
+        }
     }
 
     /// The columns of displacement and rotation of the vessel.
@@ -155,23 +177,60 @@ impl Input {
     }
 }
 
-/// Numbers of rings, shape points and cores of a design.
+/// Number of columns of a source: displacement, rotation and strength.
+pub(super) const OF_SOURCE: usize = 2 * VECTOR + 1;
+
+/// Numbers of rings, shape points and cores of a design, and of sources beside the external magnet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) rings: usize,
     pub(super) shape_points: usize,
     pub(super) cores: usize,
+    pub(super) further: usize,
 }
 
 impl Counts {
     /// Number of columns.
     pub(super) fn inputs(&self) -> usize {
-        Input::RingForce(self.rings).columns().start
+        self.of_further(self.further)
+    }
+
+    /// First column of a further source.
+    fn of_further(&self, source: usize) -> usize {
+        Input::RingForce(self.rings).columns().start + source * OF_SOURCE
+    }
+
+    /// The columns of an input; `None` for a ring or source that is not there.
+    pub(super) fn columns(&self, input: Input) -> Option<Range<usize>> {
+        let columns = match input.of_source() {
+            Some((source, _)) if source >= self.further => return None,
+            Some((source, within)) => {
+                let first = self.of_further(source) + within;
+                first..first + input.width()
+            }
+            None => input.columns(),
+        };
+        let exists = !matches!(input, Input::RingForce(ring) if ring >= self.rings);
+        Some(columns).filter(|_| exists)
+    }
+
+    /// The columns of a source by its number: 0 is the external magnet.
+    pub(super) fn of_source(&self, number: usize) -> Range<usize> {
+        let first = match number.checked_sub(1) {
+            None => Input::MagnetPosition.columns().start,
+            Some(further) => self.of_further(further),
+        };
+        first..first + OF_SOURCE
+    }
+
+    /// Whether a column is one of the external field: of a source or of the background.
+    pub(super) fn is_of_field(&self, column: usize) -> bool {
+        column < Input::FieldGradient.columns().end || column >= self.of_further(0)
     }
 
     /// Number of rows.
     pub(super) fn outputs(&self) -> usize {
-        self.first(Output::CoreAngle(self.cores))
+        self.first(Output::SourceReactionForce(self.further))
     }
 
     /// The rows of an output; `None` for a point or body that the design does not have.
@@ -182,6 +241,9 @@ impl Counts {
                 ring < self.rings
             }
             Output::CoreAngle(core) => core < self.cores,
+            Output::SourceReactionForce(source) | Output::SourceReactionTorque(source) => {
+                source < self.further
+            }
             _ => true,
         };
         exists.then(|| self.first(output)..self.first(output) + output.width())
@@ -200,6 +262,8 @@ impl Counts {
             Output::ShapePoint(point) => points + point * VECTOR,
             Output::RingPosition(ring) | Output::RingRotation(ring) | Output::RingAxis(ring) => of_ring(ring),
             Output::CoreAngle(core) => cores + core,
+            Output::SourceReactionForce(source) => cores + self.cores + 2 * VECTOR * source,
+            Output::SourceReactionTorque(source) => cores + self.cores + 2 * VECTOR * source + VECTOR,
             _ => OUTPUTS.iter().take_while(|other| **other != output).map(|other| other.width()).sum(),
         }
     }

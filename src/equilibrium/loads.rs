@@ -4,7 +4,8 @@ use nalgebra::{Matrix3, Matrix6};
 
 use super::pair_loads::Made;
 use super::potential::Potential;
-use super::terms::{Frame, Mixed, RingsOnSpans, TermWrenches, blocks};
+use super::source::StationFields;
+use super::terms::{Frame, Mixed, NearStation, RingsOnSpans, TermWrenches, blocks};
 use crate::geometry::hat;
 use crate::numerics::dense;
 use crate::rod::{Configuration, Load, Order, PlacedCoupling, PlacedLoad};
@@ -43,33 +44,40 @@ impl Potential<'_> {
     }
 
     fn load_stations(&mut self, order: Order) -> Option<f64> {
-        let (mut energy, base) = (0.0, self.inputs.base.position);
         let mut fields = std::mem::take(&mut self.work.fields);
+        let energy = self.load_stations_in(&mut fields, order);
+        self.work.fields = fields;
+        energy
+    }
+
+    /// The same with the storage for the fields of the sources.
+    fn load_stations_in(&mut self, fields: &mut [StationFields], order: Order) -> Option<f64> {
+        let (mut energy, base) = (0.0, self.inputs.base.position);
         let stations = self.chain.elements.iter().enumerate().flat_map(|(k, element)| {
             let work = &*self.work;
             element.stations.iter().enumerate().map(move |(index, station)| (station, work.station(k, index)))
         });
-        self.terms.magnet.fields_at(stations, order, &mut fields)?;
-        let mut near = &fields.near[..];
+        self.terms.magnets.fields_at(stations, order, fields)?;
+        let mut number = 0;
         for (k, element) in self.chain.elements.iter().enumerate() {
             let axes = self.work.nodes[k].rotation;
             for (index, station) in element.stations.iter().enumerate() {
-                let own;
-                (own, near) = near.split_at(self.terms.magnet.points_on(station));
-                let (frame, pose) = (Frame::Station(station, own), self.work.station(k, index));
-                let (mut inserted, shaft) = (TermWrenches::none(), k < self.chain.shaft);
-                let wrenches = if shaft { &mut inserted } else { &mut self.work.wrenches };
-                let mut load = self.terms.load(&frame, &pose, &axes, order, (&base, wrenches))?;
-                if shaft {
+                let near = NearStation { fields, station: number };
+                number += 1;
+                let (frame, pose) = (Frame::Station(station, near), self.work.station(k, index));
+                let load = if k < self.chain.shaft {
                     // The inserted part of a shaft is as heavy as it is long.
+                    let mut inserted = TermWrenches::none();
+                    let load = self.terms.load(&frame, &pose, &axes, order, (&base, &mut inserted))?;
                     self.work.wrenches.add(&inserted, self.work.growth);
-                    load = load.times(self.work.growth);
-                }
+                    load.times(self.work.growth)
+                } else {
+                    self.terms.load(&frame, &pose, &axes, order, (&base, &mut self.work.wrenches))?
+                };
                 energy += load.energy;
                 self.work.station_loads[k][index] = load;
             }
         }
-        self.work.fields = fields;
         Some(energy)
     }
 

@@ -1,5 +1,6 @@
 //! Potential energy of the whole chain, its minimum and the stability of that minimum.
 
+mod answers;
 mod chain;
 mod clock;
 mod condensation;
@@ -65,8 +66,8 @@ pub use clock::set_clock;
 pub(crate) use contact::Placed;
 pub use continuation::{Diagram, Shape};
 pub(crate) use deadline::Deadline;
-pub use inputs::Inputs;
 pub(crate) use inputs::LONGEST_INSERTION;
+pub use inputs::{Inputs, PlacedSource};
 pub use jacobian::Jacobian;
 pub use layout::{Input, Output};
 pub use model_transfer::TipDeviation;

@@ -9,11 +9,13 @@
 //! where `@g/@p` is the difference of the exact gradients of two models, with `p` a little smaller and larger, at the same
 //! unknowns: no equilibrium is solved anew. The quadrature of rings is that of the model between the two.
 
+use std::sync::Arc;
+
 use super::inputs::Inputs;
 use super::solver::Equilibrium;
 use crate::design::Design;
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::numerics::trust_region::{Objective, dual_norm};
 use crate::vessel::Vessel;
 
@@ -50,10 +52,10 @@ impl Equilibrium {
     pub(crate) fn alike(
         &self,
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: &Sources,
         vessel: Option<&Vessel>,
     ) -> Result<Self, Error> {
-        let made = Self::of_checked(design, magnet, self.settings, self.shape.len())?;
+        let made = Self::of_checked(design, &Arc::new(sources.clone()), self.settings, self.shape.len())?;
         Ok(match vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,

@@ -4,6 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::magnetics::SourceName;
+
 /// Smallest depth that is printed in numbers, m: half of the last digit in millimetres.
 const SHALLOWEST: f64 = 0.5e-6;
 
@@ -43,8 +45,8 @@ pub enum Body {
     Ring(usize),
     /// The soft part of a segment between two rings (of a plain cylinder, one of its elements), counted from the base.
     Segment(usize),
-    /// A cylinder of the external magnet.
-    MagnetCylinder(usize),
+    /// A cylinder of a magnet, by its number, or the winding of a coil.
+    Source(SourceName, usize),
 }
 
 impl Outcome {
@@ -112,7 +114,8 @@ impl fmt::Display for Body {
         match self {
             Self::Ring(number) => write!(out, "ring {}", number + 1),
             Self::Segment(number) => write!(out, "segment {}", number + 1),
-            Self::MagnetCylinder(number) => write!(out, "cylinder {} of the external magnet", number + 1),
+            Self::Source(name @ SourceName::Coil(_), _) => write!(out, "{name}"),
+            Self::Source(name, cylinder) => write!(out, "cylinder {} of {name}", cylinder + 1),
         }
     }
 }

@@ -13,7 +13,6 @@ use super::response::{Motion, Response, inside, transport_base};
 use super::shape_points::Site;
 use super::solution::Solution;
 use super::solver::Equilibrium;
-use super::terms::FIELD_INPUTS;
 use crate::error::Error;
 use crate::geometry::{Pose, hat};
 use crate::magnetics::Wrench;
@@ -93,30 +92,54 @@ impl Equilibrium {
     /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
     pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let Response { by_base, columns, unknowns, .. } = response;
-        let inputs = rows.inputs;
         let mut with_field = by_base.clone();
-        with_field.rows_mut(FIELD_INPUTS, by_base.nrows() - FIELD_INPUTS).fill(0.0);
+        for row in (0..by_base.nrows()).filter(|row| !response.counts.is_of_field(*row)) {
+            with_field.row_mut(row).fill(0.0);
+        }
         let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
-        let mut on_field = first(&columns.clamp, FIELD_INPUTS);
+        let mut on_field = only(&columns.clamp, |column| response.counts.is_of_field(column));
         transport_base(&mut on_field, by_base);
         let magnetic = [Output::MagneticForce, Output::MagneticTorque];
         rows.set_wrench(magnetic, &(by_shape - on_field), &self.magnetic_wrench());
         let clamp = [Output::BaseReactionForce, Output::BaseReactionMoment];
         rows.set_wrench(clamp, &response.clamp, &self.base_reaction());
 
-        let reaction = self.magnet_reaction(inputs);
-        let (position, rotation) = (Input::MagnetPosition.columns(), Input::MagnetRotation.columns());
-        let by_shape = columns.gradient.columns_range(position.start..rotation.end).tr_mul(unknowns);
-        let mut on_magnet = first(&columns.clamp, Input::MagnetStrength.columns().end);
-        // The torque is moved from the base to the magnet's centre, which may move.
-        let moved = hat(&(inputs.magnet.position - inputs.base.position)) * on_magnet.rows(0, 3);
-        let mut torque = on_magnet.rows_mut(3, 3);
+        self.add_source_wrench(
+            rows,
+            response,
+            0,
+            [Output::MagnetReactionForce, Output::MagnetReactionTorque],
+        );
+        for further in 0..response.counts.further {
+            let outputs = [Output::SourceReactionForce(further), Output::SourceReactionTorque(further)];
+            self.add_source_wrench(rows, response, further + 1, outputs);
+        }
+    }
+
+    /// Wrench of the chain on the source of this number.
+    fn add_source_wrench(
+        &self,
+        rows: &mut OutputDerivatives<'_>,
+        response: &Response,
+        number: usize,
+        outputs: [Output; 2],
+    ) {
+        let Response { by_base, columns, unknowns, counts, .. } = response;
+        let inputs = rows.inputs;
+        let Some(placed) = inputs.source(number) else { return };
+        let reaction = self.source_reaction(number, inputs);
+        let own = counts.of_source(number);
+        let (position, motion) = (own.start..own.start + 3, own.start..own.start + 6);
+        let by_shape = columns.gradient.columns_range(motion).tr_mul(unknowns);
+        let mut on_source = only(&columns.clamp, |column| own.contains(&column));
+        // The torque is moved from the base to the centre of the source, which may move.
+        let moved = hat(&(placed.pose.position - inputs.base.position)) * on_source.rows(0, 3);
+        let mut torque = on_source.rows_mut(3, 3);
         torque -= moved;
         let mut by_position = torque.columns_range_mut(position);
         by_position += hat(&reaction.force);
-        transport_base(&mut on_magnet, by_base);
-        let magnet = [Output::MagnetReactionForce, Output::MagnetReactionTorque];
-        rows.set_wrench(magnet, &(on_magnet - by_shape), &reaction);
+        transport_base(&mut on_source, by_base);
+        rows.set_wrench(outputs, &(on_source - by_shape), &reaction);
     }
 
     /// Length of the shaft, and the push that holds it.
@@ -138,17 +161,19 @@ impl Equilibrium {
         let (inputs, tip) = (rows.inputs, self.tip().position);
         let here = self.field_at(inputs, &tip).ok_or_else(inside)?;
         let mut terms = self.terms(inputs);
-        if !response.with_magnet {
-            terms.magnet = terms.magnet.removed();
+        if !response.with_idle {
+            terms.magnets = terms.magnets.without_idle();
         }
-        let rates = terms.field_rates(&tip).ok_or_else(inside)?;
+        let rates = terms.field_rates(&tip, &response.counts).ok_or_else(inside)?;
         let mut field = DMatrix::zeros(3, response.counts.inputs());
         let mut gradient = terms.background.gradient();
-        for (column, (rate, _)) in rates.iter().enumerate() {
-            field.set_column(column, rate);
-            if column < 3 {
-                // The field moves with the magnet: its derivative is minus its gradient.
-                gradient.set_column(column, &(gradient.column(column) - rate));
+        for (first, rates) in &rates {
+            for (number, (rate, _)) in rates.iter().enumerate() {
+                field.set_column(first + number, rate);
+                if *first != Input::UniformField.columns().start && number < 3 {
+                    // The field moves with the magnet: its derivative is minus its gradient.
+                    gradient.set_column(number, &(gradient.column(number) - rate));
+                }
             }
         }
         transport_base(&mut field, &response.by_base);
@@ -245,9 +270,11 @@ impl Equilibrium {
 }
 
 /// Keeps the first columns and sets the others to zero.
-fn first(rates: &DMatrix<f64>, columns: usize) -> DMatrix<f64> {
+fn only(rates: &DMatrix<f64>, is_kept: impl Fn(usize) -> bool) -> DMatrix<f64> {
     let mut out = rates.clone();
-    out.columns_mut(columns, rates.ncols() - columns).fill(0.0);
+    for column in (0..rates.ncols()).filter(|column| !is_kept(*column)) {
+        out.column_mut(column).fill(0.0);
+    }
     out
 }
 

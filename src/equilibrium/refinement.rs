@@ -6,6 +6,8 @@
 //! these and of the remaining forces on the coarser modes follows from the factorisation left by the solve. Two gradients
 //! of the finer model therefore suffice, without its Hessian.
 
+use std::sync::Arc;
+
 use super::inputs::Inputs;
 use super::model_transfer::{NEAR, TipDeviation};
 use super::settings::{Interaction, Settings};
@@ -13,7 +15,7 @@ use super::solution::Solution;
 use super::solver::Equilibrium;
 use crate::design::Design;
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::numerics::trust_region::{Objective, norm};
 
 /// Polynomial degrees added by one refinement: a single odd degree adds almost nothing.
@@ -73,8 +75,8 @@ impl Settings {
 impl Equilibrium {
     /// Whether there are fields that vary over a ring, so that quadratures are needed.
     fn has_quadratures(&self, inputs: &Inputs) -> bool {
-        let magnet = self.magnet.is_some() && inputs.magnet_strength != 0.0;
-        magnet || self.settings.interaction != Interaction::None
+        let is_on = |(number, _)| inputs.source(number).is_some_and(|source| source.strength != 0.0);
+        self.sources.numbered().any(is_on) || self.settings.interaction != Interaction::None
     }
 }
 
@@ -86,10 +88,10 @@ impl Refinement {
     pub fn new(
         coarse: &Equilibrium,
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: &Arc<Sources>,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let made = Equilibrium::of_checked(design, magnet, coarse.settings.refined(), shape_points)?;
+        let made = Equilibrium::of_checked(design, sources, coarse.settings.refined(), shape_points)?;
         let model = match &coarse.around {
             Some(around) => made.in_vessel(&around.vessel),
             None => made,

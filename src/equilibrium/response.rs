@@ -10,8 +10,8 @@ use crate::error::Error;
 #[derive(Debug)]
 pub(super) struct Response {
     pub(super) counts: Counts,
-    /// Whether the external magnet, which may be switched off, could be switched on.
-    pub(super) with_magnet: bool,
+    /// Whether magnets and coils that are switched off could be switched on.
+    pub(super) with_idle: bool,
     /// Rates of the inputs when the world moves about the base: see [`super::input_derivatives::base_transport`].
     pub(super) by_base: DMatrix<f64>,
     /// Mixed derivatives.
@@ -34,7 +34,7 @@ pub(super) struct Motion {
 
 /// The error for a point where the field is not defined.
 pub(super) fn inside() -> Error {
-    Error::NoDerivatives("a part lies inside or on an edge of the external magnet".into())
+    Error::NoDerivatives("a part lies inside or on an edge of a magnet or coil".into())
 }
 
 /// Fills the base's columns, relative to the base: what surrounds the chain moves the opposite way.

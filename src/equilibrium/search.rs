@@ -10,7 +10,7 @@ use super::settings::Settings;
 use super::surface::InVessel;
 use super::terms::Terms;
 use super::workspace::Workspace;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::numerics::eigenvalue::Lanczos;
 
 /// Distance to the root (radian norm) within which the Hessian of the next shape suffices for all further steps.
@@ -33,7 +33,7 @@ pub(super) struct Model<'a> {
     /// Diagonal elastic stiffness of all unknowns.
     pub(super) metric: &'a [f64],
     pub(super) settings: &'a Settings,
-    pub(super) magnet: Option<&'a Assembly>,
+    pub(super) sources: &'a Sources,
     pub(super) around: Option<&'a InVessel>,
 }
 
@@ -51,10 +51,10 @@ impl<'a> Model<'a> {
         rules: &'a PairQuadrature,
         work: &'a mut Workspace,
     ) -> Potential<'a> {
-        let Self { chain, metric, settings, magnet, around } = *self;
+        let Self { chain, metric, settings, sources, around } = *self;
         let vessel = around.map(|around| &around.vessel);
-        let mut terms = Terms::new(chain, settings, magnet, vessel, inputs, rules);
-        terms.magnet = terms.magnet.seen_by(chain, settings.pair_accuracy);
+        let mut terms = Terms::new(chain, settings, sources, vessel, inputs, rules);
+        terms.magnets = terms.magnets.seen_by(chain, settings.pair_accuracy);
         let surface = around.map(|around| &around.surface);
         Potential { chain, metric, settings, inputs, terms, rules, surface, work }
     }

@@ -60,16 +60,17 @@ impl Equilibrium {
             rings: self.chain.rings.len(),
             shape_points: self.shape.len(),
             cores: self.chain.cores.len(),
+            further: inputs.further.len(),
         };
         let shape = self.branch.unknowns.clone();
         let by_insertion = self.by_insertion(inputs, &shape);
         let mut potential = self.potential(inputs, &shape);
         potential.factorise_regular(&shape)?;
         let mut columns = potential.columns(&counts);
-        let with_magnet = columns.is_some();
-        if columns.is_none() && inputs.magnet_strength == 0.0 {
+        let with_idle = columns.is_some();
+        if columns.is_none() {
             // A magnet that is switched off inside the manipulator can only stay off.
-            potential.terms.magnet = potential.terms.magnet.removed();
+            potential.terms.magnets = potential.terms.magnets.without_idle();
             columns = potential.columns(&counts);
         }
         let mut columns = columns.ok_or_else(inside)?;
@@ -91,7 +92,7 @@ impl Equilibrium {
         let motion = potential.motion(&unknowns);
         let none = || DMatrix::zeros(0, 0);
         let mut response =
-            Response { counts, with_magnet, by_base, columns, unknowns, motion, push: none(), clamp: none() };
+            Response { counts, with_idle, by_base, columns, unknowns, motion, push: none(), clamp: none() };
         response.clamp = potential.clamp_rates(&response);
         if let Some(by_insertion) = &by_insertion {
             response.push = self.push_rates(&response, inputs, by_insertion);

@@ -72,9 +72,12 @@ impl Equilibrium {
 
     /// A number that equilibria of one design, discretisation, magnet and vessel have in common: a checksum of all their numbers.
     fn mark(&self) -> u32 {
-        let magnets = self.magnet.as_ref().map(Assembly::magnets);
+        let bodies = |(number, source): (usize, &Assembly)| {
+            (number, source.magnets().to_vec(), source.coil().copied())
+        };
+        let sources: Vec<_> = self.sources.numbered().map(bodies).collect();
         let vessel = self.vessel().map(|vessel| (vessel.lumen.checksum(), vessel.wall.modulus()));
-        crc32fast::hash(format!("{:?} {magnets:?} {vessel:?}", self.chain.made_from()).as_bytes())
+        crc32fast::hash(format!("{:?} {sources:?} {vessel:?}", self.chain.made_from()).as_bytes())
     }
 
     /// Computes and factorises the Hessian of `origin` again.

@@ -37,9 +37,9 @@ pub trait Solution {
         None
     }
 
-    /// Wrench on the external magnet about its centre; `inputs` must be those of the last solve.
-    fn magnet_reaction(&self, inputs: &Inputs) -> Wrench;
+    /// Wrench on the source of this number (0: the external magnet) about its centre; `inputs` must be those of the last solve.
+    fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench;
 
-    /// External field (T) at a point, m; `None` inside a magnet.
+    /// External field (T) at a point, m; `None` inside a magnet or coil.
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>>;
 }

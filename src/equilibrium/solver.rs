@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use nalgebra::Vector3;
-
 use super::chain::{Chain, arc_lengths};
 use super::deadline::Deadline;
 use super::history::History;
@@ -14,16 +12,15 @@ use super::potential::Potential;
 use super::report::Report;
 use super::search::{Model, Scratch, Search};
 use super::settings::{Interaction, Settings};
-use super::shape_points::{ShapePoint, Site, point_at};
+use super::shape_points::{ShapePoint, point_at};
 use super::solution::Solution;
 use super::surface::{InVessel, Surface};
 use super::terms::Terms;
-use super::wall_forces::WallForces;
 use super::workspace::Workspace;
 use crate::design::Design;
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, Wrench};
+use crate::magnetics::Sources;
 use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
 use crate::vessel::Vessel;
@@ -40,7 +37,7 @@ pub struct Equilibrium {
     /// Diagonal elastic stiffness of all unknowns at the inputs of the last evaluation.
     pub(super) metric: Vec<f64>,
     pub(super) settings: Settings,
-    pub(super) magnet: Option<Assembly>,
+    pub(super) sources: Arc<Sources>,
     pub(super) around: Option<Arc<InVessel>>,
     pub(super) shape: Arc<Vec<ShapePoint>>,
     pub(super) branch: History,
@@ -59,17 +56,27 @@ impl Equilibrium {
     /// [`Interaction::Auto`], which needs several models.
     pub fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: impl Into<Sources>,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        Self::of_checked(design, magnet, settings.checked()?, shape_points)
+        Self::shared(design, &Arc::new(sources.into()), settings, shape_points)
+    }
+
+    /// As [`Self::new`], for sources that several models share.
+    pub(crate) fn shared(
+        design: &Design,
+        sources: &Arc<Sources>,
+        settings: Settings,
+        shape_points: usize,
+    ) -> Result<Self, Error> {
+        Self::of_checked(design, sources, settings.checked()?, shape_points)
     }
 
     /// As [`Self::new`], for settings that are already checked; their degree may exceed the range that users may set.
     pub(super) fn of_checked(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: &Arc<Sources>,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
@@ -85,7 +92,7 @@ impl Equilibrium {
         let mut out = Self {
             metric: chain.metric.clone(),
             settings,
-            magnet: magnet.cloned(),
+            sources: Arc::clone(sources),
             around: None,
             shape: Arc::new(shape.collect()),
             branch: History::new(&chain),
@@ -184,9 +191,9 @@ impl Equilibrium {
         if pulled_out {
             self.chain.stiffness_at(longest, &mut self.metric);
         }
-        let Self { chain, metric, settings, magnet, around, branch, work, rules, scratch, .. } = self;
+        let Self { chain, metric, settings, sources, around, branch, work, rules, scratch, .. } = self;
         let mut search = Search {
-            model: Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() },
+            model: Model { chain, metric, settings, sources, around: around.as_deref() },
             work,
             rules,
             scratch,
@@ -217,7 +224,8 @@ impl Equilibrium {
     /// # Errors
     /// As [`Self::solve`].
     pub(crate) fn check(&self, inputs: &Inputs) -> Result<(), Error> {
-        inputs.check(self.chain.rings.len())
+        inputs.check(self.chain.rings.len())?;
+        inputs.check_sources(&self.sources, self.branch.inputs.as_ref())
     }
 
     /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape. It
@@ -291,9 +299,8 @@ impl Equilibrium {
 
     /// The potential with the quadrature rules chosen last.
     pub(super) fn potential_as_ruled<'a>(&'a mut self, inputs: &'a Inputs) -> Potential<'a> {
-        let Self { chain, metric, settings, magnet, around, work, rules, .. } = self;
-        Model { chain, metric, settings, magnet: magnet.as_ref(), around: around.as_deref() }
-            .potential(inputs, rules, work)
+        let Self { chain, metric, settings, sources, around, work, rules, .. } = self;
+        Model { chain, metric, settings, sources, around: around.as_deref() }.potential(inputs, rules, work)
     }
 
     /// Copy of the branch with its own workspace, whose evaluations do not change the original.
@@ -304,7 +311,7 @@ impl Equilibrium {
             chain: Arc::clone(&self.chain),
             metric: self.metric.clone(),
             settings: self.settings,
-            magnet: self.magnet.clone(),
+            sources: Arc::clone(&self.sources),
             around: self.around.clone(),
             shape: Arc::clone(&self.shape),
             branch: self.branch.clone(),
@@ -321,7 +328,7 @@ impl Equilibrium {
 
     /// All energy terms at `inputs`, with the quadrature rules chosen last.
     pub(super) fn terms<'a>(&'a self, inputs: &'a Inputs) -> Terms<'a> {
-        Terms::new(&self.chain, &self.settings, self.magnet.as_ref(), self.vessel(), inputs, &self.rules)
+        Terms::new(&self.chain, &self.settings, &self.sources, self.vessel(), inputs, &self.rules)
     }
 
     /// Adapts stiffness and shape points to the inserted length of a shaft.
@@ -338,62 +345,9 @@ impl Equilibrium {
         self.shape = Arc::new(places.collect());
     }
 
-    fn on_element(&self, element: usize, row: &Row) -> Pose {
+    pub(super) fn on_element(&self, element: usize, row: &Row) -> Pose {
         let unknowns = self.chain.part(element, &self.branch.unknowns);
         let local = self.work.configurations[element].pose_at(&self.chain.elements[element], row, unknowns);
         self.work.nodes[element].compose(&local)
-    }
-}
-
-impl Solution for Equilibrium {
-    fn tip(&self) -> Pose {
-        self.work.nodes[self.work.nodes.len() - 1].advanced(self.chain.tip_offset)
-    }
-
-    fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
-        self.chain.rings.iter().map(|body| body.centre(&self.work.nodes[body.node]))
-    }
-
-    fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
-        self.chain.cores.iter().map(|(first, last)| {
-            let tangent = |element: usize, end: usize| {
-                self.on_element(element, &self.chain.elements[element].core_ends[end]).axis()
-            };
-            tangent(*first, 0).angle(&tangent(*last, 1))
-        })
-    }
-
-    fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
-        self.shape.iter().map(|point| {
-            let position = match &point.place {
-                Site::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
-                Site::Elastic(element, row) => self.on_element(*element, row).position,
-            };
-            (point.arc_length, position)
-        })
-    }
-
-    fn base_reaction(&self) -> Wrench {
-        Wrench { force: self.work.base.0, torque: self.work.base.1 }
-    }
-
-    fn magnetic_wrench(&self) -> Wrench {
-        self.work.wrenches.magnetic()
-    }
-
-    fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        self.work.wrenches.on_magnet(inputs)
-    }
-
-    fn feed_reaction(&self, inputs: &Inputs) -> Option<f64> {
-        self.feed_push(inputs)
-    }
-
-    fn wall(&self) -> Option<WallForces> {
-        self.around.as_ref().map(|_| WallForces::of(&self.work.walls, self.chain.rings.len()))
-    }
-
-    fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        self.terms(inputs).field_at(point)
     }
 }

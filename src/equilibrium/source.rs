@@ -48,17 +48,33 @@ impl Near {
     }
 }
 
-/// Field of the external magnet at the material points of many stations, evaluated side by side; storage that is used again.
+/// Field of a magnet or coil at the material points of many stations, evaluated side by side; storage that is used again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct StationFields {
     /// The points in the frame of the source, m.
     points: Vec<Vector3<f64>>,
     /// The normal of the section of each.
     axes: Vec<Vector3<f64>>,
+    /// Where the points of each station end.
+    ends: Vec<usize>,
     gradients: Vec<(Vector3<f64>, Matrix3<f64>)>,
     jets: Vec<Jet>,
     /// The fields, in the axes of the source.
-    pub(super) near: Vec<Near>,
+    near: Vec<Near>,
+}
+
+impl StationFields {
+    /// The fields at the points of a station, counted along the chain; none where none were evaluated.
+    pub(super) fn at(&self, station: usize) -> &[Near] {
+        let first = station.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or(0);
+        self.ends.get(station).and_then(|end| self.near.get(first..*end)).unwrap_or(&[])
+    }
+
+    /// Forgets all fields.
+    pub(super) fn clear(&mut self) {
+        self.ends.clear();
+        self.near.clear();
+    }
 }
 
 /// A field source at a pose.
@@ -158,16 +174,17 @@ impl<'a> Source<'a> {
         out: &mut StationFields,
     ) -> Option<()> {
         let Magnet::Assembly(assembly, strength) = self.magnet else { return None };
-        let StationFields { points, axes, gradients, jets, near } = out;
+        out.clear();
+        let StationFields { points, axes, ends, gradients, jets, near } = out;
         points.clear();
         axes.clear();
-        near.clear();
         for (station, pose) in stations {
             let section = self.locate(&pose);
             for position in self.points(station) {
                 points.push(section.transform(&Vector3::new(position.x, position.y, 0.0)));
                 axes.push(section.axis());
             }
+            ends.push(points.len());
         }
         if points.iter().any(|point| assembly.contains(point)) {
             return None;

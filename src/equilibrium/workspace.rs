@@ -14,6 +14,7 @@ use super::source::{SectionBatch, StationFields};
 use super::terms::{Mixed, TermWrenches};
 use super::wall_contacts::WallLoads;
 use crate::geometry::Pose;
+use crate::magnetics::Sources;
 use crate::rod::{
     Configuration, ElementDerivatives, FrameState, Load, PlacedCoupling, PlacedLoad, Row, START,
 };
@@ -38,8 +39,8 @@ pub(super) struct Workspace {
     pub(super) pair_loads: PairLoads,
     /// Sections in the field of one ring.
     pub(super) batch: SectionBatch,
-    /// Field of the external magnet at the stations.
-    pub(super) fields: StationFields,
+    /// Fields of the sources at the stations.
+    pub(super) fields: Vec<StationFields>,
     pub(super) walls: WallLoads,
     pub(super) friction: Friction,
     pub(super) wrenches: TermWrenches,
@@ -95,7 +96,7 @@ impl Workspace {
             placed_loads: vec![PlacedLoads::default(); count],
             pair_loads: PairLoads::new(chain),
             batch: SectionBatch::default(),
-            fields: StationFields::default(),
+            fields: vec![StationFields::default(); Sources::MOST],
             walls: WallLoads::default(),
             friction: Friction::default(),
             wrenches: TermWrenches::none(),

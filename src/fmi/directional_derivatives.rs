@@ -24,8 +24,11 @@ pub(super) fn direction<'a>(
         match variable.derivative_role {
             DerivativeRole::Input(input) => add(input, component, derivative)?,
             DerivativeRole::InputQuaternion(input) => {
-                let of_magnet = input == Input::MagnetRotation;
-                let pose = if of_magnet { &values.magnet } else { &values.base };
+                let pose = match input {
+                    Input::MagnetRotation => &values.magnet,
+                    Input::SourceRotation(number) => &values.further.get(number)?.pose,
+                    _ => &values.base,
+                };
                 let mut quaternion_rate = [0.0; 4];
                 quaternion_rate[component] = derivative;
                 let spin = Pose::rotation_rate(pose.orientation, quaternion_rate);

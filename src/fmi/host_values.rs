@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use crate::design::{Backbone, Design, Guidewire, Specification};
-use crate::equilibrium::Settings;
+use crate::equilibrium::{PlacedSource, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialMagnet};
+use crate::magnetics::{Assembly, AxialMagnet, Sources};
 use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile, Variant};
 use crate::methods::Method;
 use crate::vessel::{Vessel, Wall};
@@ -20,6 +20,17 @@ pub struct UncheckedPose {
     pub orientation: [f64; 4],
 }
 
+/// A magnet after the first one, or a coil.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FurtherSource {
+    /// What makes the field.
+    pub assembly: Arc<Assembly>,
+    /// Its pose.
+    pub pose: UncheckedPose,
+    /// Factor on a magnet's field, or current through a coil, A.
+    pub strength: f64,
+}
+
 /// The value of every input and parameter, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HostValues {
@@ -27,6 +38,8 @@ pub struct HostValues {
     pub magnet: UncheckedPose,
     /// Factor on the external magnet's field; 0 switches it off.
     pub magnet_strength: f64,
+    /// The further magnets, then the coils.
+    pub further: Vec<FurtherSource>,
     /// Uniform background field, T, world frame.
     pub uniform_field: [f64; 3],
     /// Gradient of the linear background field, T/m: dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz.
@@ -104,6 +117,13 @@ impl HostValues {
             (usual.magnets.unwrap_or_default(), usual.inputs.magnet)
         };
         let inputs = &scene.inputs;
+        let sources = scene.sources()?;
+        let further = sources.further().iter().zip(&inputs.further).map(|(assembly, placed)| FurtherSource {
+            assembly: Arc::new(assembly.clone()),
+            pose: placed.pose.into(),
+            strength: placed.strength,
+        });
+        let further = further.collect();
         let backbone = match &scene.specification {
             Specification::Segmented(segmented) => segmented.backbone,
             Specification::Cylinder(_) => None,
@@ -111,6 +131,7 @@ impl HostValues {
         Ok(Self {
             magnet: magnet.into(),
             magnet_strength: inputs.magnet_strength,
+            further,
             uniform_field: inputs.uniform_field.into(),
             field_gradient: inputs.field_gradient,
             base: inputs.base.into(),
@@ -145,9 +166,16 @@ impl HostValues {
     /// # Errors
     /// [`Error::Range`] naming the quaternion that does not have unit norm.
     pub fn inputs(&self) -> Result<Inputs, Error> {
+        let further = self.further.iter().map(|source| {
+            let kind = if source.assembly.coil().is_some() { "coil" } else { "magnet" };
+            let pose = source.pose.pose(&format!("the orientation of a further {kind}"))?;
+            Ok(PlacedSource { pose, strength: source.strength })
+        });
+        let further = further.collect::<Result<_, Error>>()?;
         Ok(Inputs {
             magnet: self.magnet.pose("magnet.orientation")?,
             magnet_strength: self.magnet_strength,
+            further,
             uniform_field: self.uniform_field.into(),
             field_gradient: self.field_gradient,
             base: self.base.pose("base.orientation")?,
@@ -183,13 +211,15 @@ impl HostValues {
     /// # Errors
     /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`HostValues::inputs`].
     pub fn variant(&self) -> Result<Variant, Error> {
-        let (design, magnet) = (self.design()?, Some(Assembly::new(self.magnets.clone())?));
+        let magnet = Some(Assembly::new(self.magnets.clone())?);
+        let further = self.further.iter().map(|source| (*source.assembly).clone()).collect();
+        let (design, sources) = (self.design()?, Sources::new(magnet, further)?);
         let in_lumen = |vessel: &Arc<Vessel>| {
             let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
             Ok::<_, Error>(Vessel { wall, lumen: vessel.lumen.clone() })
         };
         let vessel = self.vessel.as_ref().map(in_lumen).transpose()?;
-        Ok(Variant { design, magnet, vessel, inputs: self.inputs()? })
+        Ok(Variant { design, sources, vessel, inputs: self.inputs()? })
     }
 
     /// The manipulator that the parameters describe, not yet solved.
@@ -197,8 +227,8 @@ impl HostValues {
     /// # Errors
     /// Those of [`HostValues::variant`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
-        let Variant { design, magnet, vessel, .. } = self.variant()?;
-        let made = Manipulator::new(&design, magnet.as_ref(), self.settings, shape_points)?;
+        let Variant { design, sources, vessel, .. } = self.variant()?;
+        let made = Manipulator::new(&design, sources, self.settings, shape_points)?;
         Ok(match &vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,

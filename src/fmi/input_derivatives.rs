@@ -72,7 +72,9 @@ impl InputDerivatives {
                 variable.set(&mut moved, Value::Real(value))?;
             }
         }
-        for (moved, from) in [(&mut moved.magnet, &from.magnet), (&mut moved.base, &from.base)] {
+        let further = moved.further.iter_mut().zip(&from.further).map(|(a, b)| (&mut a.pose, &b.pose));
+        let first = [(&mut moved.magnet, &from.magnet), (&mut moved.base, &from.base)];
+        for (moved, from) in first.into_iter().chain(further) {
             // An orientation that nothing turns stays as the host has set it, to the last bit.
             if moved.orientation.map(f64::to_bits) != from.orientation.map(f64::to_bits) {
                 moved.normalise();
@@ -93,7 +95,9 @@ impl InputDerivatives {
         duration: f64,
     ) -> Result<(Vec<Inputs>, HostValues), Error> {
         let end = self.moved(table, from, duration)?;
+        let further = from.further.iter().zip(&end.further).map(|(a, b)| turn(&a.pose, &b.pose));
         let turn = f64::max(turn(&from.magnet, &end.magnet), turn(&from.base, &end.base));
+        let turn = further.fold(turn, f64::max);
         let mut waypoints = Vec::new();
         let mut reached = 0.0;
         while reached + LARGEST_TURN < turn {

@@ -38,6 +38,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "m/s2", base: &[("m", 1), ("s", -2)], display: None },
     Unit { name: "Pa", base: &[("kg", 1), ("m", -1), ("s", -2)], display: Some(("MPa", 1e-6)) },
     Unit { name: "s", base: &[("s", 1)], display: Some(("ms", 1e3)) },
+    Unit { name: "A", base: &[("A", 1)], display: None },
     Unit { name: "kg/m3", base: &[("kg", 1), ("m", -3)], display: None },
 ];
 
@@ -82,6 +83,8 @@ pub const ACCELERATION: Quantity = quantity("Acceleration", "m/s2", Some(10.0), 
 pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", Some(1e6), "Young's modulus");
 /// Density, kg/m3.
 pub const DENSITY: Quantity = quantity("Density", "kg/m3", Some(1000.0), "Mass per volume");
+/// Electric current, A.
+pub const CURRENT: Quantity = quantity("Current", "A", Some(1.0), "Electric current");
 /// Processor time, s.
 pub const TIME: Quantity = quantity("ProcessorTime", "s", Some(1.0), "Processor time");
 
@@ -102,5 +105,6 @@ pub const QUANTITIES: &[Quantity] = &[
     ACCELERATION,
     MODULUS,
     DENSITY,
+    CURRENT,
     TIME,
 ];

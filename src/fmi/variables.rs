@@ -11,6 +11,8 @@ mod parameters;
 
 mod rows;
 
+mod sources;
+
 mod vessel;
 
 use super::host_values::HostValues;
@@ -83,6 +85,7 @@ impl Table {
         };
         let mut rows = Rows::default();
         rows.inputs(&counts);
+        rows.source_inputs(start);
         rows.feed_inputs(start);
         rows.guidewire_input(start);
         rows.design_parameters(start);
@@ -90,6 +93,7 @@ impl Table {
         rows.vessel_parameters(start);
         rows.design_constants(start, &counts);
         rows.outputs(&counts);
+        rows.source_outputs(start);
         rows.vessel_outputs(start, &counts);
         Ok(Self { variables: rows.variables, counts })
     }

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use super::assembly::Assembly;
 use super::axial_source::AxialSource;
@@ -24,7 +25,7 @@ const LADDER: [(usize, usize); 9] =
 const FINEST: f64 = 1e-12;
 
 /// Force and torque on a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Wrench {
     /// Force, N.
     pub force: Vector3<f64>,
@@ -89,9 +90,9 @@ impl Assembly {
     /// As [`AxialSource::wrench_on`].
     pub fn wrench_on(&self, body: &AxialSource, pose: &Pose, accuracy: f64) -> Result<Wrench, Error> {
         check_accuracy(accuracy)?;
-        for (source, centre) in self.placed() {
+        for (outline, centre) in self.outlines() {
             let seen = Pose { position: pose.position - centre, ..*pose };
-            overlap::check(&source.outline(), &body.outline(), &seen)?;
+            overlap::check(&outline, &body.outline(), &seen)?;
         }
         adaptive(body, pose, accuracy, self.distance(&pose.position), |point| self.field(point))
     }

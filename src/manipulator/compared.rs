@@ -6,7 +6,7 @@ use super::{Inputs, Jacobian};
 use crate::design::Design;
 use crate::equilibrium::Settings;
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::methods::{self, Comparison, Method};
 
 /// A manipulator solved by a comparison method; it keeps its shape from one solve to the next.
@@ -19,18 +19,18 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// Creates an unsolved manipulator of `design` near `magnet` (`None`: no external magnet).
+    /// Creates an unsolved manipulator of `design` near these field sources (`None`: no external magnet).
     ///
     /// # Errors
     /// As [`Comparison::new`].
     pub fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: impl Into<Sources>,
         model: Settings,
         settings: methods::Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let comparison = Comparison::new(design, magnet, model, settings, shape_points)?;
+        let comparison = Comparison::new(design, sources, model, settings, shape_points)?;
         let outputs = Outputs::straight(&comparison, Self::resolution(&comparison));
         Ok(Self { comparison, outputs })
     }

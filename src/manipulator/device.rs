@@ -8,7 +8,7 @@ use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Report, Settings, TipDeviation};
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::methods::Method;
 use crate::vessel::Vessel;
 
@@ -48,7 +48,7 @@ pub struct Snapshot {
 }
 
 impl Manipulator {
-    /// Creates an unsolved manipulator of `design` near `magnet` (`None`: no external magnet).
+    /// Creates an unsolved manipulator of `design` near these field sources (`None`: no external magnet).
     ///
     /// `shape_points` is the number of centreline points in the outputs, at least 2.
     ///
@@ -56,11 +56,11 @@ impl Manipulator {
     /// [`Error`] for settings out of range.
     pub fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: impl Into<Sources>,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let hierarchy = Hierarchy::new(design, magnet, settings, shape_points)?;
+        let hierarchy = Hierarchy::new(design, sources.into(), settings, shape_points)?;
         let outputs = Outputs::straight(hierarchy.present(), resolution(&hierarchy));
         Ok(Self { hierarchy, outputs, has_shape: false })
     }

@@ -64,6 +64,7 @@ impl ErrorEstimate {
             // These act through the field at the tip and the tip pose, which are compared below.
             magnet: _,
             magnet_strength: _,
+            further: _,
             uniform_field: _,
             base: _,
             insertion: _,

@@ -19,7 +19,7 @@ use super::models::Models;
 use crate::design::Design;
 use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, TipDeviation};
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::vessel::Vessel;
 
 /// Fraction of the tolerance above which a discretisation of the richest model is left; its estimate includes a safety factor.
@@ -96,12 +96,12 @@ impl Hierarchy {
     /// As [`Equilibrium::new`].
     pub(super) fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: Sources,
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
         let mut out = Self {
-            models: Models::new(design, magnet, &settings, shape_points)?,
+            models: Models::new(design, sources, &settings, shape_points)?,
             present: 0,
             estimate: None,
             age: 0.0,

@@ -15,7 +15,7 @@ mod sensitivities;
 mod solve;
 mod variation;
 
-pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output};
+pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
 pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};

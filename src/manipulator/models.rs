@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Inputs, Interaction, Refinement, Settings, TipDeviation};
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::vessel::Vessel;
 
 /// Largest number of iterations of a cheaper model per solve; with more it would not be cheap.
@@ -27,7 +27,7 @@ const DOUBT: f64 = 2.0;
 /// Models of one design, cheapest first.
 #[derive(Debug, Clone)]
 pub(super) struct Models {
-    design: Arc<(Design, Option<Assembly>)>,
+    design: Arc<(Design, Arc<Sources>)>,
     shape_points: usize,
     /// Interaction models, the richest last.
     whole: Vec<Equilibrium>,
@@ -42,7 +42,7 @@ impl Models {
     /// As [`Equilibrium::new`].
     pub(super) fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: Sources,
         settings: &Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
@@ -51,9 +51,10 @@ impl Models {
         } else {
             vec![*settings]
         };
-        let model = |settings| Equilibrium::new(design, magnet, settings, shape_points);
+        let sources = Arc::new(sources);
+        let model = |settings| Equilibrium::shared(design, &sources, settings, shape_points);
         Ok(Self {
-            design: Arc::new((design.clone(), magnet.cloned())),
+            design: Arc::new((design.clone(), Arc::clone(&sources))),
             shape_points,
             whole: whole.into_iter().map(model).collect::<Result<_, _>>()?,
             finer: Vec::new(),
@@ -97,9 +98,9 @@ impl Models {
     /// As [`Equilibrium::new`].
     pub(super) fn make(&mut self, number: usize) -> Result<(), Error> {
         while self.whole.len() + self.finer.len() <= number {
-            let (design, magnet) = &*self.design;
+            let (design, sources) = &*self.design;
             let last = self.at(self.whole.len() + self.finer.len() - 1);
-            let next = Refinement::new(last, design, magnet.as_ref(), self.shape_points)?;
+            let next = Refinement::new(last, design, sources, self.shape_points)?;
             self.finer.push(next);
         }
         Ok(())
@@ -187,8 +188,8 @@ impl Models {
         let judge = match &mut self.judge {
             Some(judge) => judge,
             none => {
-                let (design, magnet) = &*self.design;
-                none.insert(Refinement::new(coarse, design, magnet.as_ref(), self.shape_points)?)
+                let (design, sources) = &*self.design;
+                none.insert(Refinement::new(coarse, design, sources, self.shape_points)?)
             }
         };
         Ok(judge.error_of(coarse).map(|error| error.times(DOUBT)))

@@ -29,8 +29,8 @@ impl Scene {
     /// # Errors
     /// As [`Scene::design`] and [`Scene::assembly`].
     pub fn variant(&self) -> Result<Variant, Error> {
-        let (design, magnet) = (self.design()?, self.assembly()?);
-        Ok(Variant { design, magnet, vessel: self.vessel.clone(), inputs: self.inputs.clone() })
+        let (design, sources) = (self.design()?, self.sources()?);
+        Ok(Variant { design, sources, vessel: self.vessel.clone(), inputs: self.inputs.clone() })
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Inputs;
 use crate::equilibrium::{Interaction, Outcome, Report, Solution, WallForces};
 use crate::geometry::Pose;
+use crate::magnetics::Wrench;
 use crate::methods::Method;
 
 /// How the last solve ended.
@@ -40,6 +41,8 @@ pub struct Outputs {
     pub magnet_reaction_force: Vector3<f64>,
     /// Torque on the external magnet about its centre, N m.
     pub magnet_reaction_torque: Vector3<f64>,
+    /// Wrench on each further magnet and coil about its centre, N and N m, in the order of [`crate::magnetics::Sources::further`].
+    pub further_reactions: Vec<Wrench>,
     /// External field at the tip, T.
     pub tip_field: Vector3<f64>,
     /// Unstrained arc length of the shape points, m; first at the base, last at the tip.
@@ -118,6 +121,7 @@ impl Outputs {
             base_reaction_moment: zero,
             magnet_reaction_force: zero,
             magnet_reaction_torque: zero,
+            further_reactions: Vec::new(),
             tip_field: zero,
             shape_arc_length,
             shape,
@@ -150,7 +154,10 @@ impl Outputs {
         (self.magnetic_force, self.magnetic_torque) = (magnetic.force, magnetic.torque);
         let base = solution.base_reaction();
         (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
-        let magnet = solution.magnet_reaction(inputs);
+        let magnet = solution.source_reaction(0, inputs);
+        self.further_reactions.clear();
+        let further = (1..=inputs.further.len()).map(|number| solution.source_reaction(number, inputs));
+        self.further_reactions.extend(further);
         (self.magnet_reaction_force, self.magnet_reaction_torque) = (magnet.force, magnet.torque);
         self.tip_field = solution.field_at(inputs, &self.tip.position).unwrap_or_default();
         self.wall = solution.wall();

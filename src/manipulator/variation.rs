@@ -4,7 +4,7 @@ use super::{Inputs, Manipulator, Outputs, Status};
 use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Linearised, Neighbourhood, Report, Settings, Solution};
 use crate::error::Error;
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::vessel::Vessel;
 
 /// Step of the differences relative to the number: their error is its square, 1e-8, relative to the number's nonlinearity.
@@ -25,8 +25,8 @@ const SHRUNK: [f64; 3] = [1.0, 0.1, 0.01];
 pub struct Variant {
     /// The device.
     pub design: Design,
-    /// The external magnet; `None` for none.
-    pub magnet: Option<Assembly>,
+    /// The external magnet, and further magnets and coils.
+    pub sources: Sources,
     /// The vessel around it; `None` for none.
     pub vessel: Option<Vessel>,
     /// Fields, loads and poses.
@@ -118,7 +118,7 @@ impl Variation {
         let ([before, after], _) = if let Some(known) = known {
             self.models.insert(known)
         } else {
-            let made = |side: &Variant| model.alike(&side.design, side.magnet.as_ref(), side.vessel.as_ref());
+            let made = |side: &Variant| model.alike(&side.design, &side.sources, side.vessel.as_ref());
             let models = [made(&self.sides[0])?, made(&self.sides[1])?];
             self.models.insert((models, *model.settings()))
         };
@@ -194,8 +194,8 @@ impl Manipulator {
         if inputs.feed_force.is_some() {
             return Err(Error::Unsupported("a device whose push is given has no variants".into()));
         }
-        let Variant { design, magnet, vessel, inputs } = variant;
-        let mut varied = model.alike(design, magnet.as_ref(), vessel.as_ref())?;
+        let Variant { design, sources, vessel, inputs } = variant;
+        let mut varied = model.alike(design, sources, vessel.as_ref())?;
         if varied.freedoms() != model.freedoms() {
             return Err(Error::Unsupported("the variant has another number of bodies".into()));
         }

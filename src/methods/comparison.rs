@@ -19,7 +19,7 @@ use crate::equilibrium::{
 };
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, Wrench};
+use crate::magnetics::{Sources, Wrench};
 use crate::rod::Order;
 
 /// Largest number of changes of the pair quadrature at a solved shape.
@@ -50,7 +50,7 @@ pub struct Comparison {
     line: Arc<Line>,
     model: equilibrium::Settings,
     settings: Settings,
-    magnet: Option<Assembly>,
+    sources: Sources,
     arc_lengths: Arc<Vec<f64>>,
     rules: PairQuadrature,
     state: State,
@@ -77,7 +77,7 @@ impl Comparison {
     /// solve the model asked for.
     pub fn new(
         design: &Design,
-        magnet: Option<&Assembly>,
+        sources: impl Into<Sources>,
         model: equilibrium::Settings,
         settings: Settings,
         shape_points: usize,
@@ -100,7 +100,7 @@ impl Comparison {
         let state = State::straight(&line, &settings)?;
         Ok(Self {
             rules: PairQuadrature::new(&line.chain, &model),
-            magnet: magnet.cloned(),
+            sources: sources.into(),
             arc_lengths: Arc::new(arc_lengths.collect()),
             line: Arc::new(line),
             model,
@@ -136,8 +136,9 @@ impl Comparison {
     /// solve fails, which is not an error: see [`Report::solved`].
     pub fn solve(&mut self, inputs: &Inputs) -> Result<Report, Error> {
         inputs.check(self.line.chain.rings.len())?;
+        inputs.check_sources(&self.sources, self.state.inputs.as_ref())?;
         if self.settings.method == Method::Planar {
-            Plane::of(inputs, self.magnet.is_some() && inputs.magnet_strength != 0.0)?;
+            Plane::of(inputs, &self.sources)?;
         }
         let before = self.state.clone();
         let start = self.state.inputs.clone().unwrap_or_else(|| inputs.without_loads());
@@ -176,7 +177,7 @@ impl Comparison {
             starts.push(start + element.offset);
             start += element.offset + element.length;
         }
-        placed.contact(&self.model, self.magnet.as_ref(), inputs, |k, s| shape.trace.pose(starts[k] + s))
+        placed.contact(&self.model, &self.sources, inputs, |k, s| shape.trace.pose(starts[k] + s))
     }
 
     /// One solve without subdivision of the input change; whether it succeeded.
@@ -207,7 +208,8 @@ impl Comparison {
         Surroundings {
             line: &self.line,
             inputs,
-            terms: Terms::new(&self.line.chain, &self.model, self.magnet.as_ref(), None, inputs, &self.rules),
+            sources: &self.sources,
+            terms: Terms::new(&self.line.chain, &self.model, &self.sources, None, inputs, &self.rules),
         }
     }
 
@@ -250,8 +252,8 @@ impl Solution for Comparison {
         self.state.wrenches.magnetic()
     }
 
-    fn magnet_reaction(&self, inputs: &Inputs) -> Wrench {
-        self.state.wrenches.on_magnet(inputs)
+    fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench {
+        self.state.wrenches.on_source(number, inputs)
     }
 
     fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {

@@ -50,7 +50,7 @@ impl Engine {
                 multiple_shooting::solve(around, &space, shape, tolerance, iterations)
             }
             Self::Planar(shape) => {
-                let Ok(plane) = Plane::of(around.inputs, around.terms.magnet.is_on()) else {
+                let Ok(plane) = Plane::of(around.inputs, around.sources) else {
                     return Ending { converged: false, iterations: 0, residual: f64::INFINITY };
                 };
                 *shape = plane.carried(shape);
@@ -73,7 +73,7 @@ impl Engine {
                 Some(of_nodes(shape, trace))
             }
             Self::Planar(shape) => {
-                let plane = Plane::of(around.inputs, around.terms.magnet.is_on()).ok()?;
+                let plane = Plane::of(around.inputs, around.sources).ok()?;
                 let plane = InPlane::new(around, plane, settings.steps);
                 Some(of_nodes(shape, multiple_shooting::trace(around, &plane, shape)?))
             }

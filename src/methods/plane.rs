@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::equilibrium::Inputs;
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::LinearField;
+use crate::magnetics::{LinearField, Sources};
 
 /// Tolerance of a vector's out-of-plane component relative to its norm: rounding of orientations.
 const SLACK: f64 = 1e-9;
@@ -20,11 +20,11 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// The plane of these inputs, with or without an external magnet.
+    /// The plane of these inputs and of the sources that are switched on.
     ///
     /// # Errors
     /// [`Error::Unsupported`] naming the quantity that lies outside any such plane.
-    pub(super) fn of(inputs: &Inputs, magnet: bool) -> Result<Self, Error> {
+    pub(super) fn of(inputs: &Inputs, sources: &Sources) -> Result<Self, Error> {
         let base = inputs.base;
         let axis = base.axis();
         let field = LinearField::new(inputs.uniform_field, inputs.field_gradient);
@@ -36,9 +36,11 @@ impl Plane {
             ("tip force", inputs.tip_force),
         ];
         inside.extend(inputs.ring_forces.iter().map(|force| ("ring force", *force)));
-        if magnet {
-            inside.push(("magnet's axis", inputs.magnet.axis()));
-            inside.push(("magnet's position", inputs.magnet.position - base.position));
+        for (number, _) in sources.numbered() {
+            if let Some(source) = inputs.source(number).filter(|source| source.strength != 0.0) {
+                inside.push(("magnet's axis", source.pose.axis()));
+                inside.push(("magnet's position", source.pose.position - base.position));
+            }
         }
         // Direction in which the tip moment rotates the tangent.
         let turned = ("tip moment", inputs.tip_moment.cross(&axis));

@@ -8,6 +8,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use super::line::{Line, Place};
 use crate::equilibrium::{Frame, Inputs, TermWrenches, Terms, blocks};
 use crate::geometry::{Pose, hat};
+use crate::magnetics::Sources;
 use crate::rod::{Load, Order, SectionMaterial};
 
 /// All quantities that determine the loads on a shape.
@@ -15,6 +16,7 @@ use crate::rod::{Load, Order, SectionMaterial};
 pub(super) struct Surroundings<'a> {
     pub(super) line: &'a Line,
     pub(super) inputs: &'a Inputs,
+    pub(super) sources: &'a Sources,
     pub(super) terms: Terms<'a>,
 }
 

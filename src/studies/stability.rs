@@ -106,6 +106,8 @@ impl Ray {
                 shaft: None,
                 guidewire: None,
                 magnets: None,
+                further_magnets: Vec::new(),
+                coils: Vec::new(),
                 inputs: self.inputs(0.0),
                 settings: Settings { interaction: self.interaction, ..Settings::default() },
                 solver: methods::Settings { method: *method, ..methods::Settings::default() },

@@ -99,7 +99,7 @@ fn a_tip_that_is_pulled_into_the_magnet_is_told_with_its_depth() {
         let (ring, depth) = deepest_ring(&magnets, &scene.inputs.magnet, equilibrium.rings());
         println!("strength {strength}: {:?}, ring {ring} {depth:e} m", report.outcome);
         match report.outcome {
-            Outcome::Contact(Contact { first, second: Body::MagnetCylinder(_), depth: found }) => {
+            Outcome::Contact(Contact { first, second: Body::Source(..), depth: found }) => {
                 assert!((found - depth).abs() <= CONTACT_DEPTH, "{strength}: {found} m, by points {depth} m");
                 assert_eq!(first, Body::Ring(ring));
                 told += 1;

@@ -56,7 +56,7 @@ fn moved(inputs: &Inputs, turn: &Matrix3<f64>, shift: &Vector3<f64>) -> Inputs {
         tip_moment: turn * inputs.tip_moment,
         ring_forces: inputs.ring_forces.iter().map(|force| turn * force).collect(),
         gravity: turn * inputs.gravity,
-        ..*inputs
+        ..inputs.clone()
     }
 }
 
@@ -70,7 +70,7 @@ fn from_the_base(equilibrium: &Equilibrium, inputs: &Inputs) -> [Vec<f64>; 4] {
     }
     let (mut forces, mut torques) = (Vec::new(), Vec::new());
     for wrench in
-        [equilibrium.magnetic_wrench(), equilibrium.base_reaction(), equilibrium.magnet_reaction(inputs)]
+        [equilibrium.magnetic_wrench(), equilibrium.base_reaction(), equilibrium.source_reaction(0, inputs)]
     {
         forces.extend((axes * wrench.force).iter());
         torques.extend((axes * wrench.torque).iter());

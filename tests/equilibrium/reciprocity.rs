@@ -60,7 +60,7 @@ fn the_magnet_feels_minus_what_the_rings_feel() {
         // The background pulls at no ring, but turns it.
         on_rings.torque += (ring.axis() * body.moment()).cross(&inputs.uniform_field);
     }
-    let got = equilibrium.magnet_reaction(&inputs);
+    let got = equilibrium.source_reaction(0, &inputs);
     assert_close("force on the magnet", got.force.as_slice(), on_magnet.force.as_slice(), RECIPROCITY);
     assert_close("torque on the magnet", got.torque.as_slice(), on_magnet.torque.as_slice(), RECIPROCITY);
     let got = equilibrium.magnetic_wrench();

@@ -52,7 +52,7 @@ fn compare(case: &str, first: &Scene, second: &Scene, length: f64, force: f64) {
         assert_close(case, b.rotation.as_slice(), a.rotation.as_slice(), LAW);
     }
     let wrenches = |equilibrium: &Equilibrium, inputs: &Inputs| {
-        [equilibrium.magnetic_wrench(), equilibrium.base_reaction(), equilibrium.magnet_reaction(inputs)]
+        [equilibrium.magnetic_wrench(), equilibrium.base_reaction(), equilibrium.source_reaction(0, inputs)]
     };
     for (a, b) in wrenches(&one, &first.inputs).iter().zip(&wrenches(&two, &second.inputs)) {
         assert_close(case, b.force.as_slice(), (a.force * force).as_slice(), LAW);

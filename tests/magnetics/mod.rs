@@ -2,6 +2,7 @@
 
 mod axial_rule;
 mod batch;
+mod coil;
 mod consistency;
 pub(crate) mod face_integral;
 mod field;

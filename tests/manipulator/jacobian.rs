@@ -5,11 +5,13 @@ use core::cell::Cell;
 use mcm::design::{Backbone, Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector, rotation_log};
-use mcm::manipulator::{Input, Inputs, Jacobian, Manipulator, Output, Outputs, Status};
+use mcm::magnetics::{Assembly, Coil, Sources};
+use mcm::manipulator::{Input, Inputs, Jacobian, Manipulator, Output, Outputs, PlacedSource, Status};
 use nalgebra::{DVector, Vector3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
+use super::changes::{changed, inputs_and_sizes};
 use crate::given::pair;
 use crate::tolerance::{DIFFERENCE, JACOBIAN, PAIRS, assert_close};
 
@@ -37,50 +39,6 @@ fn everything(rings: usize) -> Inputs {
         *force = Vector3::new(1e-3, 0.5e-3 * ring as f64, -1e-3);
     }
     inputs
-}
-
-/// Every input with its usual size in its unit.
-fn inputs_and_sizes(rings: usize) -> Vec<(Input, f64)> {
-    let mut all = vec![
-        (Input::MagnetPosition, 0.05),
-        (Input::MagnetRotation, 1.0),
-        (Input::MagnetStrength, 1.0),
-        (Input::UniformField, 0.01),
-        (Input::FieldGradient, 0.3),
-        (Input::TipForce, 0.005),
-        (Input::TipMoment, 1e-5),
-        (Input::Gravity, 10.0),
-        (Input::BasePosition, 0.05),
-        (Input::BaseRotation, 1.0),
-        (Input::Roll, 1.0),
-    ];
-    all.extend((0..rings).map(|ring| (Input::RingForce(ring), 0.005)));
-    all
-}
-
-/// The inputs with one number changed; rotations turn about axes of the world.
-fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> Inputs {
-    let mut out = inputs.clone();
-    let turn = || RotationVector::new(Vector3::ith(axis, by)).matrix();
-    match input {
-        Input::MagnetPosition => out.magnet.position[axis] += by,
-        Input::MagnetRotation => out.magnet.rotation = turn() * out.magnet.rotation,
-        Input::MagnetStrength => out.magnet_strength += by,
-        Input::UniformField => out.uniform_field[axis] += by,
-        Input::FieldGradient => out.field_gradient[axis] += by,
-        Input::TipForce => out.tip_force[axis] += by,
-        Input::TipMoment => out.tip_moment[axis] += by,
-        Input::Gravity => out.gravity[axis] += by,
-        Input::BasePosition => out.base.position[axis] += by,
-        Input::BaseRotation => out.base.rotation = turn() * out.base.rotation,
-        Input::Roll => out.roll += by,
-        Input::Insertion => out.insertion += by,
-        Input::GuidewireInsertion => out.guidewire_insertion += by,
-        Input::FeedForce => out.feed_force = out.feed_force.map(|force| force + by),
-        Input::VesselPosition | Input::VesselRotation => unreachable!("not among the inputs"),
-        Input::RingForce(ring) => out.ring_forces[ring][axis] += by,
-    }
-    out
 }
 
 /// All outputs of two solves as differences.
@@ -114,6 +72,10 @@ pub(super) fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f
     }
     for (index, (a, b)) in plus.core_angles.iter().zip(&minus.core_angles).enumerate() {
         out.push((Output::CoreAngle(index), vec![a - b]));
+    }
+    for (index, (a, b)) in plus.further_reactions.iter().zip(&minus.further_reactions).enumerate() {
+        out.push((Output::SourceReactionForce(index), vector(&a.force, &b.force)));
+        out.push((Output::SourceReactionTorque(index), vector(&a.torque, &b.torque)));
     }
     out
 }
@@ -149,7 +111,7 @@ fn by_differences(
 /// that output, and where it is.
 fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
     let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
-    let mut all = inputs_and_sizes(inputs.ring_forces.len());
+    let mut all = inputs_and_sizes(inputs.ring_forces.len(), inputs.further.len());
     if manipulator.outputs().feed_length.is_some() {
         all.push(if inputs.feed_force.is_some() {
             (Input::FeedForce, 0.005)
@@ -288,6 +250,22 @@ fn a_magnet_that_is_switched_off_or_absent() {
 }
 
 #[test]
+fn every_output_by_a_second_magnet_and_a_coil() {
+    let coil = Coil { inner_radius: 0.02, outer_radius: 0.04, length: 0.06, turns: 600.0 };
+    let sources = Sources::new(Some(pair()), vec![pair(), Assembly::of_coil(coil).unwrap()]).unwrap();
+    let placed = |position, strength| PlacedSource {
+        pose: Pose::new(position, [0.36, 0.8, 0.0, 0.48]).unwrap(),
+        strength,
+    };
+    let further = vec![placed([-0.09, 0.07, 0.03], 0.5), placed([0.1, 0.02, -0.05], 6.0)];
+    let inputs = Inputs { further, ..everything(2) };
+    let design = Design::new(Specification::paper(1)).unwrap();
+    let mut manipulator = Manipulator::new(&design, sources, settings(Interaction::Rings), POINTS).unwrap();
+    manipulator.solve(&inputs).expect("finite inputs");
+    check("three sources", &manipulator, &inputs);
+}
+
+#[test]
 fn windings_that_touch() {
     let design = Design::new(Specification::paper(2)).unwrap();
     let mut inputs = Inputs { uniform_field: Vector3::new(0.01, 0.04, -0.01), ..everything(3) };
@@ -344,7 +322,7 @@ fn a_direction_of_all_inputs_at_once_in_random_scenes() {
             let mut direction = vec![0.0; jacobian.matrix().ncols()];
             let mut by_output: Vec<(Output, DVector<f64>, f64)> = Vec::new();
             // One number of every input, in turn.
-            for (number, (input, size)) in inputs_and_sizes(segments + 1).into_iter().enumerate() {
+            for (number, (input, size)) in inputs_and_sizes(segments + 1, 0).into_iter().enumerate() {
                 let columns = jacobian.columns(input).unwrap();
                 let axis = number % columns.len();
                 direction[columns.start + axis] = size;

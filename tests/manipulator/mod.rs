@@ -1,6 +1,7 @@
 //! Tests of `manipulator`.
 
 mod auto;
+mod changes;
 
 mod estimate;
 
@@ -12,6 +13,8 @@ mod scene;
 mod sensitivities;
 
 mod snapshot;
+
+mod sources;
 
 mod steps;
 

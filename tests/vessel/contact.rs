@@ -176,7 +176,7 @@ fn jacobian_in_contact_agrees_with_solves_beside() {
 fn read(model: &Equilibrium) -> String {
     let inputs = model.inputs().cloned().unwrap_or(Inputs::unloaded(4));
     let (shape, rings): (Vec<_>, Vec<_>) = (model.shape().collect(), model.rings().collect());
-    let wrenches = [model.base_reaction(), model.magnetic_wrench(), model.magnet_reaction(&inputs)];
+    let wrenches = [model.base_reaction(), model.magnetic_wrench(), model.source_reaction(0, &inputs)];
     let angles: Vec<_> = model.core_angles().collect();
     format!(
         "{:?}",

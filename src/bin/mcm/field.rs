@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::magnetics::{Assembly, AxialSource, LinearField};
-use mcm::manipulator::{Inputs, Scene};
+use mcm::magnetics::{AxialSource, LinearField, Sources};
+use mcm::manipulator::{Inputs, PlacedSource, Scene};
 use nalgebra::{Matrix3, Vector3};
 
 use super::failure::Failure;
@@ -107,7 +107,7 @@ impl Field {
 /// Source of the field.
 enum Source {
     Ring(AxialSource),
-    External { inputs: Box<Inputs>, magnet: Option<Assembly> },
+    External { inputs: Box<Inputs>, sources: Sources },
 }
 
 impl Source {
@@ -119,24 +119,25 @@ impl Source {
     }
 
     fn external(scene: Scene) -> Result<Self, Failure> {
-        let magnet = scene.assembly()?;
-        Ok(Self::External { inputs: Box::new(scene.inputs), magnet })
+        let sources = scene.sources()?;
+        Ok(Self::External { inputs: Box::new(scene.inputs), sources })
     }
 
     /// Field (T) and gradient (T/m) at a point (m) in the world frame.
     fn field_gradient(&self, point: &Vector3<f64>) -> Result<(Vector3<f64>, Matrix3<f64>), Error> {
-        let (inputs, magnet) = match self {
+        let (inputs, sources) = match self {
             Self::Ring(ring) => return ring.field_gradient(point),
-            Self::External { inputs, magnet } => (inputs, magnet),
+            Self::External { inputs, sources } => (inputs, sources),
         };
         let background = LinearField::new(inputs.uniform_field, inputs.field_gradient);
         let (mut field, mut gradient) = (background.at(point), background.gradient());
-        if let Some(magnet) = magnet {
-            let turn = inputs.magnet.rotation;
-            let local = turn.transpose() * (point - inputs.magnet.position);
-            let (own_field, own_gradient) = magnet.field_gradient(&local)?;
-            field += turn * own_field * inputs.magnet_strength;
-            gradient += turn * own_gradient * turn.transpose() * inputs.magnet_strength;
+        for (number, source) in sources.numbered() {
+            let Some(PlacedSource { pose, strength }) = inputs.source(number) else { continue };
+            let turn = pose.rotation;
+            let local = turn.transpose() * (point - pose.position);
+            let (own_field, own_gradient) = source.field_gradient(&local)?;
+            field += turn * own_field * strength;
+            gradient += turn * own_gradient * turn.transpose() * strength;
         }
         Ok((field, gradient))
     }

@@ -2,15 +2,34 @@
 
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::ring_body::RingBody;
-use crate::equilibrium::source::Near;
+use crate::equilibrium::source::{Near, StationFields};
 use crate::rod::{SectionMaterial, Station};
+
+/// Fields of the sources at the points of a station, as far as they were evaluated already.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NearStation<'a> {
+    /// The fields of each source.
+    pub(crate) fields: &'a [StationFields],
+    /// Number of the station, counted along the chain.
+    pub(crate) station: usize,
+}
+
+impl<'a> NearStation<'a> {
+    /// None evaluated.
+    pub(crate) const NONE: Self = Self { fields: &[], station: 0 };
+
+    /// The field of the source of this number at the station's points, in its axes.
+    pub(super) fn of(&self, source: usize) -> &'a [Near] {
+        self.fields.get(source).map_or(&[], |fields| fields.at(self.station))
+    }
+}
 
 /// The body that a frame carries; the pose of the frame is given separately.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Frame<'a> {
-    /// The material represented by a Gauss point of an element; the pose is that of the section. The field of the external
-    /// magnet at its points may have been evaluated already.
-    Station(&'a Station, &'a [Near]),
+    /// The material represented by a Gauss point of an element; the pose is that of the section. The fields of
+    /// the sources at its points may have been evaluated already.
+    Station(&'a Station, NearStation<'a>),
     /// Material of a section, per length or as a whole.
     Section(&'a SectionMaterial),
     /// A ring by its number; the pose is that of its node, on its proximal face.

@@ -2,17 +2,10 @@
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
-use crate::equilibrium::layout::Input;
+use crate::equilibrium::layout::{Counts, Input};
 
 /// Number of inputs of the background field: three of the uniform field, five of its gradient.
 pub(super) const BACKGROUND_INPUTS: usize = Input::UniformField.width() + Input::FieldGradient.width();
-
-/// Number of inputs of the magnet: displacement, rotation and strength.
-pub(super) const MAGNET_INPUTS: usize =
-    Input::MagnetPosition.width() + Input::MagnetRotation.width() + Input::MagnetStrength.width();
-
-/// Number of inputs of the external field, which are the first columns: the magnet, then the background field.
-pub(crate) const FIELD_INPUTS: usize = MAGNET_INPUTS + BACKGROUND_INPUTS;
 
 /// Derivative of the field (T) and of its gradient (T/m) with respect to one input.
 pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);
@@ -20,19 +13,22 @@ pub(crate) type FieldRate = (Vector3<f64>, Matrix3<f64>);
 /// Derivatives of the load's energy with respect to position and rotation of its frame (six rows, world axes), with one
 /// column for each input.
 #[derive(Debug, Clone)]
-pub(crate) struct LoadDerivatives(pub(crate) DMatrix<f64>);
+pub(crate) struct LoadDerivatives {
+    pub(crate) matrix: DMatrix<f64>,
+    pub(super) counts: Counts,
+}
 
 impl LoadDerivatives {
     /// Zero derivatives, for no load.
-    pub(super) fn none(inputs: usize) -> Self {
-        Self(DMatrix::zeros(6, inputs))
+    pub(super) fn none(counts: &Counts) -> Self {
+        Self { matrix: DMatrix::zeros(6, counts.inputs()), counts: *counts }
     }
 
     /// Adds a force and a moment to one column.
     pub(super) fn add(&mut self, column: usize, force: &Vector3<f64>, moment: &Vector3<f64>) {
         for axis in 0..3 {
-            self.0[(axis, column)] += force[axis];
-            self.0[(3 + axis, column)] += moment[axis];
+            self.matrix[(axis, column)] += force[axis];
+            self.matrix[(3 + axis, column)] += moment[axis];
         }
     }
 

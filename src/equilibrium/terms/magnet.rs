@@ -1,66 +1,70 @@
-//! External magnet: the loads of its field on rings and magnetised material.
+//! A magnet or coil: the loads of its field on rings and magnetised material.
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::load_derivatives::{FieldRate, LoadDerivatives, MAGNET_INPUTS};
+use super::load_derivatives::{FieldRate, LoadDerivatives};
 use super::{Frame, Term};
 use crate::equilibrium::chain::Chain;
-use crate::equilibrium::inputs::Inputs;
-use crate::equilibrium::layout::Input;
+use crate::equilibrium::inputs::{Inputs, PlacedSource};
+use crate::equilibrium::layout::OF_SOURCE;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::source::{Source, StationFields};
 use crate::geometry::{Pose, hat};
-use crate::magnetics::{Assembly, Jet};
+use crate::magnetics::Assembly;
 use crate::rod::{Load, Order, Station};
 
-/// The external magnet at its pose.
+/// A magnet or coil at its pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Magnet<'a> {
+    /// Its number: 0 is the external magnet, from 1 on the further sources.
+    number: usize,
     /// The assembly, also where it is switched off.
-    assembly: Option<&'a Assembly>,
+    assembly: &'a Assembly,
+    placed: PlacedSource,
     /// Its field source, where it is switched on.
     source: Option<Source<'a>>,
-    inputs: &'a Inputs,
+    base: &'a Pose,
     rules: &'a PairQuadrature,
 }
 
 impl<'a> Magnet<'a> {
-    pub(super) fn new(assembly: Option<&'a Assembly>, inputs: &'a Inputs, rules: &'a PairQuadrature) -> Self {
-        let on = assembly.filter(|_| inputs.magnet_strength != 0.0);
-        let source = on.map(|assembly| Source::assembly(assembly, inputs.magnet, inputs.magnet_strength));
-        Self { assembly, source, inputs, rules }
+    /// The source of this number; `None` where the inputs do not say where it is.
+    pub(super) fn new(
+        (number, assembly): (usize, &'a Assembly),
+        inputs: &'a Inputs,
+        rules: &'a PairQuadrature,
+    ) -> Option<Self> {
+        let placed = inputs.source(number)?;
+        let source =
+            (placed.strength != 0.0).then(|| Source::assembly(assembly, placed.pose, placed.strength));
+        Some(Self { number, assembly, placed, source, base: &inputs.base, rules })
     }
 
     /// The same magnet for a chain whose sections are sampled as coarsely as this relative accuracy of the energies
     /// allows.
-    pub(crate) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
-        let seen = |source: Source<'a>| source.seen_by(chain, &self.inputs.base, accuracy);
+    pub(super) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
+        let seen = |source: Source<'a>| source.seen_by(chain, self.base, accuracy);
         Self { source: self.source.map(seen), ..self }
     }
 
-    /// Whether it is there and switched on.
+    /// Its number among the sources.
+    pub(crate) fn number(&self) -> usize {
+        self.number
+    }
+
+    /// Whether it is switched on.
     pub(crate) fn is_on(&self) -> bool {
         self.source.is_some()
     }
 
-    /// The same term without the assembly: as if the magnet could not be switched on.
-    pub(crate) fn removed(self) -> Self {
-        Self { assembly: None, source: None, ..self }
-    }
-
     /// Evaluates its field at the material of `stations` at their poses; `None` inside it.
-    pub(crate) fn fields_at<'s>(
+    pub(super) fn fields_at<'s>(
         &self,
         stations: impl Iterator<Item = (&'s Station, Pose)>,
         order: Order,
         out: &mut StationFields,
     ) -> Option<()> {
         self.source.as_ref().map_or(Some(()), |source| source.fields_at(stations, order, out))
-    }
-
-    /// Number of points at which [`Self::fields_at`] evaluates it on a station.
-    pub(crate) fn points_on(&self, station: &Station) -> usize {
-        self.source.as_ref().map_or(0, |source| source.points(station).len())
     }
 
     /// Its field (T) at a point in the world frame; `None` inside it.
@@ -73,20 +77,15 @@ impl<'a> Magnet<'a> {
     ///
     /// The field of a body that moves with velocity `v(x) = t + w x (x - c)` changes at a fixed point by `w x B - G v`,
     /// and its gradient by `hat(w) G - G hat(w) - H v`.
-    pub(super) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; MAGNET_INPUTS]> {
-        let turn = &self.inputs.magnet.rotation;
-        let arm = point - self.inputs.magnet.position;
-        let own = match self.assembly {
-            None => Jet::zero(),
-            Some(assembly) => {
-                let local = turn.tr_mul(&arm);
-                if assembly.contains(&local) {
-                    return None;
-                }
-                assembly.jet(&local).ok()?.rotated(turn)
-            }
-        };
-        let jet = own * self.inputs.magnet_strength;
+    pub(crate) fn rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; OF_SOURCE]> {
+        let turn = &self.placed.pose.rotation;
+        let arm = point - self.placed.pose.position;
+        let local = turn.tr_mul(&arm);
+        if self.assembly.contains(&local) {
+            return None;
+        }
+        let own = self.assembly.jet(&local).ok()?.rotated(turn);
+        let jet = own * self.placed.strength;
         Some(core::array::from_fn(|column| {
             let unit = Vector3::ith(column % 3, 1.0);
             match column {
@@ -101,10 +100,10 @@ impl<'a> Magnet<'a> {
         }))
     }
 
-    /// Distance (m) of a point in the world frame from the assembly, switched on or off; infinite without one.
+    /// Distance (m) of a point in the world frame from the assembly, switched on or off.
     fn distance(&self, point: &Vector3<f64>) -> f64 {
-        let local = || self.inputs.magnet.rotation.tr_mul(&(point - self.inputs.magnet.position));
-        self.assembly.map_or(f64::INFINITY, |assembly| assembly.distance(&local()))
+        let Pose { position, rotation } = &self.placed.pose;
+        self.assembly.distance(&rotation.tr_mul(&(point - position)))
     }
 }
 
@@ -117,7 +116,8 @@ impl Term for Magnet<'_> {
         let Some(source) = &self.source else { return Some(Load::zero()) };
         let load = match frame {
             Frame::Station(station, fields) => {
-                source.on_material(&station.material, (source.points(station), fields), pose, order)
+                let known = fields.of(self.number);
+                source.on_material(&station.material, (source.points(station), known), pose, order)
             }
             Frame::Section(material) => {
                 source.on_material(material, (&material.moments.points(), &[]), pose, order)
@@ -133,10 +133,7 @@ impl Term for Magnet<'_> {
     }
 
     fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
-        if self.assembly.is_none() {
-            return Some(());
-        }
-        let first = Input::MagnetPosition.columns().start;
+        let first = out.counts.of_source(self.number).start;
         match frame {
             Frame::Station(station, _) if station.material.magnetisation != 0.0 => {
                 let points =

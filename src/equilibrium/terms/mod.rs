@@ -10,6 +10,7 @@ mod bending_stops;
 mod frame;
 mod load_derivatives;
 mod magnet;
+mod magnets;
 mod pair;
 mod ring_pairs;
 mod rings_on_spans;
@@ -20,19 +21,21 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::chain::Chain;
 use super::inputs::Inputs;
+use super::layout::{Counts, Input};
 use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, Wrench};
+use crate::magnetics::{Sources, Wrench};
 use crate::rod::{Load, Order};
 use crate::vessel::Vessel;
+use magnet::Magnet;
 
 pub(crate) use applied::Applied;
 pub(crate) use background::Background;
 pub(crate) use bending_stops::BendingStops;
-pub(crate) use frame::Frame;
-pub(crate) use load_derivatives::{FIELD_INPUTS, FieldRate, LoadDerivatives};
-pub(crate) use magnet::Magnet;
+pub(crate) use frame::{Frame, NearStation};
+pub(crate) use load_derivatives::{FieldRate, LoadDerivatives};
+pub(crate) use magnets::Magnets;
 pub(crate) use pair::blocks;
 pub(crate) use ring_pairs::{RingPairs, overlap};
 pub(crate) use rings_on_spans::{Mixed, RingsOnSpans};
@@ -58,13 +61,16 @@ pub(crate) trait Term {
     fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()>;
 }
 
-/// Number of terms that act on single frames.
-const LOCAL: usize = 4;
+/// Number of terms that act on single frames beside the sources: background field, weight, applied loads.
+const OTHERS: usize = 3;
+
+/// Number of terms that act on single frames, at most.
+const LOCAL: usize = Sources::MOST + OTHERS;
 
 /// All terms that act on the chain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Terms<'a> {
-    pub(crate) magnet: Magnet<'a>,
+    pub(crate) magnets: Magnets<'a>,
     pub(crate) background: Background,
     pub(crate) weight: Weight,
     pub(crate) applied: Applied<'a>,
@@ -79,13 +85,13 @@ impl<'a> Terms<'a> {
     pub(crate) fn new(
         chain: &'a Chain,
         settings: &Settings,
-        magnet: Option<&'a Assembly>,
+        sources: &'a Sources,
         vessel: Option<&'a Vessel>,
         inputs: &'a Inputs,
         rules: &'a PairQuadrature,
     ) -> Self {
         Self {
-            magnet: Magnet::new(magnet, inputs, rules),
+            magnets: Magnets::new(sources, inputs, rules),
             background: Background::new(inputs),
             weight: Weight::new(inputs),
             applied: Applied::new(inputs),
@@ -96,14 +102,16 @@ impl<'a> Terms<'a> {
         }
     }
 
-    /// The terms that act on single frames.
-    fn local(&self) -> [&dyn Term; LOCAL] {
-        [&self.magnet, &self.background, &self.weight, &self.applied]
+    /// The terms that act on single frames, each with its number among the wrenches.
+    fn local(&self) -> impl Iterator<Item = (usize, &dyn Term)> {
+        let others: [&dyn Term; OTHERS] = [&self.background, &self.weight, &self.applied];
+        let sources = self.magnets.each().map(|source| (source.number(), source as &dyn Term));
+        sources.chain((BACKGROUND..).zip(others))
     }
 
     /// Whether all forces are conservative. False for one-sided interaction or a fixed tip moment.
     pub(crate) fn have_potential(&self) -> bool {
-        !self.pairs.one_sided() && self.local().iter().all(|term| term.has_potential())
+        !self.pairs.one_sided() && self.local().all(|(_, term)| term.has_potential())
     }
 
     /// Total load on one frame, in `axes`; adds each term's wrench about `origin` to `wrenches`.
@@ -117,12 +125,13 @@ impl<'a> Terms<'a> {
     ) -> Option<Load> {
         let arm = pose.position - origin;
         let mut sum: Option<Load> = None;
-        for (term, wrench) in self.local().into_iter().zip(&mut wrenches.0) {
+        for (number, term) in self.local() {
             if !term.acts_on(frame) {
                 continue;
             }
             let load = term.load(frame, pose, axes, order)?;
             let (force, moment) = (axes * load.force, axes * load.moment());
+            let wrench = &mut wrenches.0[number];
             wrench.force -= force;
             wrench.torque -= moment + arm.cross(&force);
             match &mut sum {
@@ -134,14 +143,14 @@ impl<'a> Terms<'a> {
     }
 
     /// Derivatives of the total load on one frame with respect to all inputs, world axes.
-    pub(crate) fn input_derivatives(
+    pub(in crate::equilibrium) fn input_derivatives(
         &self,
         frame: &Frame<'_>,
         pose: &Pose,
-        inputs: usize,
+        counts: &Counts,
     ) -> Option<LoadDerivatives> {
-        let mut out = LoadDerivatives::none(inputs);
-        for term in self.local() {
+        let mut out = LoadDerivatives::none(counts);
+        for (_, term) in self.local() {
             term.add_input_derivatives(frame, pose, &mut out)?;
         }
         Some(out)
@@ -149,16 +158,25 @@ impl<'a> Terms<'a> {
 
     /// External field (T) at a point in the world frame; `None` inside a magnet.
     pub(crate) fn field_at(&self, point: &Vector3<f64>) -> Option<Vector3<f64>> {
-        Some(self.background.at(point) + self.magnet.at(point)?)
+        Some(self.background.at(point) + self.magnets.at(point)?)
     }
 
-    /// Derivatives of that field with respect to its inputs, in the order of the Jacobian's columns.
-    pub(crate) fn field_rates(&self, point: &Vector3<f64>) -> Option<[FieldRate; FIELD_INPUTS]> {
-        let (magnet, background) = (self.magnet.rates(point)?, Background::rates(point));
-        let split = magnet.len();
-        Some(core::array::from_fn(|i| if i < split { magnet[i] } else { background[i - split] }))
+    /// Derivatives of that field with respect to its inputs, each group with its first column of the Jacobian.
+    pub(in crate::equilibrium) fn field_rates(
+        &self,
+        point: &Vector3<f64>,
+        counts: &Counts,
+    ) -> Option<Vec<(usize, Vec<FieldRate>)>> {
+        let of_source = |source: &Magnet<'_>| {
+            Some((counts.of_source(source.number()).start, source.rates(point)?.to_vec()))
+        };
+        let background = (Input::UniformField.columns().start, Background::rates(point).to_vec());
+        self.magnets.each().map(of_source).chain([Some(background)]).collect()
     }
 }
+
+/// Number of the background field among the wrenches; weight and applied loads follow, and the sources precede it.
+const BACKGROUND: usize = Sources::MOST;
 
 /// Wrench of each single-frame term on the whole chain, about the base position.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -180,17 +198,20 @@ impl TermWrenches {
 
     /// Total wrench of all external fields.
     pub(crate) fn magnetic(&self) -> Wrench {
-        let [magnet, background, ..] = &self.0;
-        Wrench { force: magnet.force + background.force, torque: magnet.torque + background.torque }
+        let mut sum = self.0[0];
+        for other in &self.0[1..=BACKGROUND] {
+            sum.force += other.force;
+            sum.torque += other.torque;
+        }
+        sum
     }
 
-    /// Wrench on the external magnet about its centre.
-    pub(crate) fn on_magnet(&self, inputs: &Inputs) -> Wrench {
-        let [magnet, ..] = &self.0;
-        if *magnet == Wrench::NONE {
-            return Wrench::NONE; // avoids negative zeros
-        }
-        let arm = inputs.magnet.position - inputs.base.position;
+    /// Wrench on the source of this number about its centre.
+    pub(crate) fn on_source(&self, number: usize, inputs: &Inputs) -> Wrench {
+        let placed = inputs.source(number).filter(|_| self.0[number] != Wrench::NONE);
+        let Some(placed) = placed else { return Wrench::NONE }; // avoids negative zeros
+        let magnet = &self.0[number];
+        let arm = placed.pose.position - inputs.base.position;
         Wrench { force: -magnet.force, torque: arm.cross(&magnet.force) - magnet.torque }
     }
 }

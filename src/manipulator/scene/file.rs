@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::pose::TURN_AXIS;
+use super::sources::{CoilEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
 use super::tube::{BackboneEntries, GuidewireEntries};
 use super::vessel::{FeedEntries, VesselEntries};
@@ -20,8 +22,10 @@ use crate::vessel::Lumen;
 pub struct SceneFile {
     pub(super) design: DesignEntries,
     pub(super) field: FieldEntries,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) magnet: Option<MagnetEntries>,
+    #[serde(skip_serializing_if = "Magnets::are_none")]
+    pub(super) magnet: Magnets,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) coil: Vec<CoilEntries>,
     pub(super) base: BaseEntries,
     pub(super) load: LoadEntries,
     pub(super) gravity: GravityEntries,
@@ -154,9 +158,6 @@ impl Default for RingEntries {
     }
 }
 
-/// Default axis of rotation: a right-handed rotation about it takes +z to +y.
-const TURN_AXIS: [f64; 3] = [-1.0, 0.0, 0.0];
-
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct FieldEntries {
@@ -170,51 +171,6 @@ impl Default for FieldEntries {
     fn default() -> Self {
         Self { uniform_mt: [0.0; 3], turn_deg: 0.0, turn_axis: TURN_AXIS, gradient_t_per_m: [0.0; 5] }
     }
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct MagnetEntries {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) position_mm: Option<[f64; 3]>,
-    pub(super) orientation_wxyz: [f64; 4],
-    pub(super) turn_deg: f64,
-    pub(super) turn_axis: [f64; 3],
-    pub(super) strength: f64,
-    pub(super) cylinders: Vec<MagnetCylinder>,
-}
-
-impl Default for MagnetEntries {
-    /// The paper's pair; below the manipulator's middle its field is parallel to the manipulator's magnetisation.
-    fn default() -> Self {
-        let cylinder = |offset_mm| MagnetCylinder {
-            radius_mm: 22.5,
-            inner_radius_mm: 0.0,
-            length_mm: 30.0,
-            offset_mm,
-            remanence_t: 1.35,
-        };
-        Self {
-            position_mm: None,
-            orientation_wxyz: [0.0, 1.0, 0.0, 0.0],
-            turn_deg: 0.0,
-            turn_axis: TURN_AXIS,
-            strength: 1.0,
-            cylinders: vec![cylinder(-20.0), cylinder(20.0)],
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct MagnetCylinder {
-    pub(super) radius_mm: f64,
-    #[serde(default)]
-    pub(super) inner_radius_mm: f64,
-    pub(super) length_mm: f64,
-    #[serde(default)]
-    pub(super) offset_mm: f64,
-    pub(super) remanence_t: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,9 @@ mod file;
 mod mesh;
 mod names;
 mod path;
+mod pose;
 mod resolve;
+mod sources;
 mod spiral_start;
 mod text;
 mod tube;
@@ -23,7 +25,7 @@ use super::{Compared, Inputs, Manipulator, Solve};
 use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
-use crate::magnetics::{Assembly, AxialMagnet};
+use crate::magnetics::{Assembly, AxialMagnet, Coil, Sources};
 use crate::methods::{self, Method};
 use crate::vessel::Vessel;
 
@@ -48,6 +50,10 @@ pub struct Scene {
     pub specification: Specification,
     /// The cylinders of the external magnet; `None` for no magnet.
     pub magnets: Option<Vec<AxialMagnet>>,
+    /// The cylinders of each further magnet.
+    pub further_magnets: Vec<Vec<AxialMagnet>>,
+    /// The coils.
+    pub coils: Vec<Coil>,
     /// The vessel that the manipulator is in; `None` for none.
     pub vessel: Option<Vessel>,
     /// The shaft behind the base; `None` for a manipulator that is clamped there.
@@ -90,6 +96,16 @@ impl Scene {
         self.magnets.clone().map(Assembly::new).transpose()
     }
 
+    /// The checked field sources: the external magnet, further magnets and coils.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for too many sources or a magnet without cylinders.
+    pub fn sources(&self) -> Result<Sources, Error> {
+        let magnets = self.further_magnets.iter().cloned().map(Assembly::new);
+        let coils = self.coils.iter().copied().map(Assembly::of_coil);
+        Sources::new(self.assembly()?, magnets.chain(coils).collect::<Result<_, _>>()?)
+    }
+
     /// Reads a scene file, and the mesh of a vessel that it names, whose path is relative to the scene's folder.
     ///
     /// # Errors
@@ -105,7 +121,7 @@ impl Scene {
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.
     ///
     /// # Errors
-    /// As [`Scene::design`], [`Scene::assembly`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
+    /// As [`Scene::design`], [`Scene::sources`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
     /// method other than the potential method, see [`Scene::device`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let (given, own) = (self.solver.method, Method::Potential);
@@ -115,8 +131,7 @@ impl Scene {
                 "a manipulator solves by method \"{own}\", not \"{given}\""
             )));
         }
-        let magnet = self.assembly()?;
-        let made = Manipulator::new(&self.design()?, magnet.as_ref(), self.settings, shape_points)?;
+        let made = Manipulator::new(&self.design()?, &self.sources()?, self.settings, shape_points)?;
         Ok(match &self.vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,
@@ -148,7 +163,7 @@ impl Scene {
                 "a vessel and a shaft need method \"potential\", not \"{given}\""
             )));
         }
-        let (design, magnet) = (self.design()?, self.assembly()?);
-        Ok(Compared::new(&design, magnet.as_ref(), self.settings, self.solver, shape_points)?.into())
+        let (design, sources) = (self.design()?, self.sources()?);
+        Ok(Compared::new(&design, &sources, self.settings, self.solver, shape_points)?.into())
     }
 }

@@ -62,7 +62,7 @@ impl Unit {
 
 /// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
 /// cylinder.
-const KEYS: [(&str, &str); 47] = [
+const KEYS: [(&str, &str); 51] = [
     ("number of segments", "design.segments"),
     ("helix length L (m)", "design.helix.length_mm"),
     ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
@@ -110,6 +110,10 @@ const KEYS: [(&str, &str); 47] = [
     ("magnet length (m)", "magnet.cylinders[*].length_mm"),
     ("magnet offset (m)", "magnet.cylinders[*].offset_mm"),
     ("magnet remanence (T)", "magnet.cylinders[*].remanence_t"),
+    ("coil inner radius (m)", "coil[*].inner_radius_mm"),
+    ("coil outer radius (m)", "coil[*].outer_radius_mm"),
+    ("coil length (m)", "coil[*].length_mm"),
+    ("coil turns", "coil[*].turns"),
 ];
 
 /// What follows from several keys of the helix.
@@ -122,6 +126,11 @@ pub(super) fn as_written(error: Error, file: &Value) -> Error {
     let candidates = KEYS.iter().filter(|(name, _)| name == quantity).flat_map(|(_, key)| {
         let cylinders = if key.contains('*') { 1..=Assembly::MOST_MAGNETS } else { 1..=1 };
         cylinders.map(|cylinder| key.replace('*', &cylinder.to_string()))
+    });
+    let magnets = file.get("magnet").and_then(Value::as_array).map_or(0, Vec::len);
+    let candidates = candidates.flat_map(|key| match key.strip_prefix("magnet.") {
+        Some(rest) if magnets > 0 => (1..=magnets).map(|magnet| format!("magnet[{magnet}].{rest}")).collect(),
+        _ => vec![key],
     });
     for key in candidates {
         let unit = Unit::of(&key);

@@ -8,7 +8,7 @@ use crate::error::Error;
 const PLAUSIBLE: f64 = 0.5;
 
 /// Tables that are missing where there is no such part.
-const OPTIONAL: [&str; 2] = ["magnet", "design.backbone"];
+const OPTIONAL: [&str; 3] = ["magnet", "coil", "design.backbone"];
 
 /// Suggests the nearest of the known keys, or lists all of them when none is near.
 pub(super) fn suggestion(key: &str, known: &[&str]) -> String {
@@ -21,8 +21,11 @@ pub(super) fn suggestion(key: &str, known: &[&str]) -> String {
     }
 }
 
-/// The entry at `path`, such as `magnet.cylinders[1].radius_mm`.
+/// The entry at `path`, such as `magnet.cylinders[1].radius_mm`; of several magnets, `magnet` alone names the first one.
 pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value, Error> {
+    let first = path.strip_prefix("magnet.").filter(|_| root.get("magnet").is_some_and(Value::is_array));
+    let of_first = first.map(|rest| format!("magnet[1].{rest}"));
+    let path = of_first.as_deref().unwrap_or(path);
     let mut here = root;
     for part in path.split('.') {
         let (key, indices) = part.split_once('[').map_or((part, None), |(key, rest)| (key, Some(rest)));

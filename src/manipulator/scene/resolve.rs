@@ -1,12 +1,13 @@
 //! Conversion of a scene file to SI units and to the quantities that its names stand for.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use toml::Value;
 
 use super::file::{
-    DesignEntries, DesignKind, FieldEntries, HelixEntries, MagnetCylinder, ModelEntries, RingEntries,
-    SceneFile, SpiralName,
+    DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
 };
+use super::pose::{LARGEST_TURN, in_metres, pose, turn, turned};
+use super::sources::CoilEntries;
 use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
@@ -18,14 +19,10 @@ use crate::design::{
 };
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
-use crate::geometry::{Pose, RotationVector};
-use crate::magnetics::{Assembly, AxialMagnet};
+use crate::magnetics::Assembly;
 use crate::manipulator::Inputs;
 use crate::methods;
 use crate::vessel::Vessel;
-
-/// Largest turn, deg: a hundred times round. Of a larger one too few digits would be left.
-const LARGEST_TURN: f64 = 36_000.0;
 
 /// Relative depth in the wall that a device at rest on it may have by rounding of its numbers.
 const ROUNDED: f64 = 1e-6;
@@ -35,35 +32,6 @@ const MAGNET_DISTANCE: f64 = 0.12;
 
 fn beside(design: &Design) -> [f64; 3] {
     [0.0, -MAGNET_DISTANCE, design.length() / 2.0]
-}
-
-/// Right-handed rotation by `degrees` about an axis of any positive length, of the table of this name.
-fn turn(table: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
-    let axis = Vector3::from(axis);
-    let length = axis.norm();
-    check(&format!("length of {table}.turn_axis"), length, |v| v > 0.0, "> 0")?;
-    let key = format!("{table}.turn_deg");
-    check(&key, degrees, |v| v.abs() <= LARGEST_TURN, "from -36000 to 36000")?;
-    Ok(RotationVector::new(axis * (degrees.to_radians() / length)).matrix())
-}
-
-fn in_metres(position_mm: [f64; 3]) -> [f64; 3] {
-    position_mm.map(|x| x / MM_PER_M)
-}
-
-/// A pose of the table of this name; position in m.
-fn pose(table: &str, position: [f64; 3], orientation_wxyz: [f64; 4]) -> Result<Pose, Error> {
-    Pose::new(position, orientation_wxyz).map_err(|error| match error {
-        Error::Range { value, allowed, .. } => {
-            Error::range(format!("norm of {table}.orientation_wxyz"), value, allowed)
-        }
-        other => other,
-    })
-}
-
-/// The pose rotated about its own origin.
-fn turned(turn: &Matrix3<f64>, pose: Pose) -> Pose {
-    Pose { rotation: turn * pose.rotation, ..pose }
 }
 
 impl SceneFile {
@@ -82,12 +50,20 @@ impl SceneFile {
         let specification = self.design.specification()?;
         let design = Design::new(specification.clone())?;
         let inputs = self.inputs(&design)?;
-        let magnets: Option<Vec<_>> =
-            self.magnet.as_ref().map(|m| m.cylinders.iter().map(MagnetCylinder::si).collect());
-        magnets.clone().map(Assembly::new).transpose().map_err(|error| match error {
-            Error::Range { .. } => error,
-            of_the_list => Error::Unsupported(format!("magnet.cylinders: {of_the_list}")),
-        })?;
+        let mut all = Vec::new();
+        for (number, magnet) in self.magnet.0.iter().enumerate() {
+            let cylinders = magnet.cylinders();
+            Assembly::new(cylinders.clone()).map_err(|error| match error {
+                Error::Range { .. } => error,
+                of_the_list => {
+                    Error::Unsupported(format!("{}.cylinders: {of_the_list}", self.magnet.key(number)))
+                }
+            })?;
+            all.push(cylinders);
+        }
+        let mut all = all.into_iter();
+        let (magnets, further_magnets) = (all.next(), all.collect());
+        let coils = self.coil.iter().map(CoilEntries::si).collect();
         let vessel = self.vessel.as_ref().map(|entries| entries.si(self.mesh.as_ref())).transpose()?;
         let shaft = self.shaft(&specification)?;
         let guidewire = self.guidewire.map(GuidewireEntries::si);
@@ -98,7 +74,21 @@ impl SceneFile {
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         let settings = self.settings()?;
         self.uncertainty()?;
-        Ok(Scene { specification, magnets, vessel, shaft, guidewire, inputs, settings, solver })
+        let scene = Scene {
+            specification,
+            magnets,
+            further_magnets,
+            coils,
+            vessel,
+            shaft,
+            guidewire,
+            inputs,
+            settings,
+            solver,
+        };
+        let placed = |number| Some((scene.inputs.source(number)?.pose, true));
+        scene.sources()?.check_apart(placed)?;
+        Ok(scene)
     }
 
     /// Fills in the entry that `key` names if it was omitted because it follows from the design.
@@ -106,8 +96,8 @@ impl SceneFile {
         let design = || Design::new(self.design.specification()?);
         if key.starts_with("load.ring_force_n") && self.load.ring_force_n.is_none() {
             self.load.ring_force_n = Some(vec![[0.0; 3]; design()?.rings().count()]);
-        } else if let Some(magnet) = self.magnet.as_mut().filter(|m| m.position_mm.is_none())
-            && key.starts_with("magnet.position_mm")
+        } else if let Some(magnet) = self.magnet.0.first_mut().filter(|m| m.position_mm.is_none())
+            && ["magnet.position_mm", "magnet[1].position_mm"].iter().any(|start| key.starts_with(start))
         {
             magnet.position_mm = Some(beside(&design()?).map(|x| x * MM_PER_M));
         } else if let Some(SpiralStartEntry::Same(degrees)) = self.design.spiral_start_deg
@@ -122,12 +112,11 @@ impl SceneFile {
     fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
         let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
-        if let Some(magnet) = &self.magnet {
-            let position = magnet.position_mm.map_or(beside(design), in_metres);
-            let turn = turn("magnet", magnet.turn_axis, magnet.turn_deg)?;
-            inputs.magnet = turned(&turn, pose("magnet", position, magnet.orientation_wxyz)?);
-            inputs.magnet_strength = magnet.strength;
+        if let Some(magnet) = self.magnet.0.first() {
+            let placed = magnet.placed(&self.magnet.key(0), Some(beside(design)))?;
+            (inputs.magnet, inputs.magnet_strength) = (placed.pose, placed.strength);
         }
+        inputs.further = self.further()?;
         let FieldEntries { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
         inputs.uniform_field =
             turn("field", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));
@@ -371,18 +360,6 @@ impl RingEntries {
             remanence: self.remanence_t,
             recoil_permeability: self.recoil_permeability,
             density: self.density_kg_m3,
-        }
-    }
-}
-
-impl MagnetCylinder {
-    fn si(&self) -> AxialMagnet {
-        AxialMagnet {
-            radius: self.radius_mm / MM_PER_M,
-            inner_radius: self.inner_radius_mm / MM_PER_M,
-            length: self.length_mm / MM_PER_M,
-            offset: self.offset_mm / MM_PER_M,
-            remanence: self.remanence_t,
         }
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn as_json(
 }
 
 /// The shape found and its forces.
-pub(super) fn shape(outputs: &Outputs) -> [(&'static str, Value); 21] {
+pub(super) fn shape(outputs: &Outputs) -> [(&'static str, Value); 23] {
     let vector = |v: &Vector3<f64>| json!([v.x, v.y, v.z]);
     // Places of the contacts (0) or forces there (1).
     let contacts = |which: usize| {
@@ -67,6 +67,14 @@ pub(super) fn shape(outputs: &Outputs) -> [(&'static str, Value); 21] {
         ("base_reaction_moment_nm", vector(&outputs.base_reaction_moment)),
         ("magnet_reaction_force_n", vector(&outputs.magnet_reaction_force)),
         ("magnet_reaction_torque_nm", vector(&outputs.magnet_reaction_torque)),
+        (
+            "further_reaction_forces_n",
+            outputs.further_reactions.iter().map(|own| vector(&own.force)).collect(),
+        ),
+        (
+            "further_reaction_torques_nm",
+            outputs.further_reactions.iter().map(|own| vector(&own.torque)).collect(),
+        ),
         ("ring_positions_m", outputs.rings.iter().map(|ring| vector(&ring.position)).collect()),
         ("core_angles_rad", json!(outputs.core_angles)),
         ("shape_m", outputs.shape.iter().map(vector).collect()),

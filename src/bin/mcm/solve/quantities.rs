@@ -1,20 +1,26 @@
 //! What a solve has found, in the units of the table.
 
+use std::borrow::Cow;
+
 use mcm::manipulator::Outputs;
 use nalgebra::Vector3;
 
 /// A quantity with its components in a unit.
 pub(super) struct Quantity {
-    pub(super) name: &'static str,
+    pub(super) name: Cow<'static, str>,
     pub(super) components: Vec<f64>,
     pub(super) unit: &'static str,
 }
 
 /// What the shape and its forces are, in the units of the table.
 pub(super) fn quantities(outputs: &Outputs) -> Vec<Quantity> {
-    let number = |name, number: f64, unit| Quantity { name, components: vec![number], unit };
-    let vector = |name, v: &Vector3<f64>, factor: f64, unit| Quantity {
-        name,
+    let number = |name: &'static str, number: f64, unit| Quantity {
+        name: name.into(),
+        components: vec![number],
+        unit,
+    };
+    let vector = |name: &'static str, v: &Vector3<f64>, factor: f64, unit| Quantity {
+        name: name.into(),
         components: (v * factor).as_slice().to_vec(),
         unit,
     };
@@ -32,6 +38,14 @@ pub(super) fn quantities(outputs: &Outputs) -> Vec<Quantity> {
         vector("magnet reaction torque", &outputs.magnet_reaction_torque, 1e6, "mN.mm, about its centre"),
         vector("external field at tip", &outputs.tip_field, 1e3, "mT"),
     ];
+    for (number, wrench) in (2..).zip(&outputs.further_reactions) {
+        let named = |what: &str, v: &Vector3<f64>, factor: f64, unit| Quantity {
+            name: format!("{what} on source {number}").into(),
+            ..vector("", v, factor, unit)
+        };
+        out.push(named("force", &wrench.force, 1e3, "mN, magnets first, then coils"));
+        out.push(named("torque", &wrench.torque, 1e6, "mN.mm, about its centre"));
+    }
     if let Some(wall) = &outputs.wall {
         out.push(vector("force of the wall", &wall.force, 1e3, "mN"));
         out.push(number("largest contact force", 1e3 * wall.largest_force, "mN"));

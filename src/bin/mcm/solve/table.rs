@@ -47,7 +47,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
         };
         let numbers: Vec<String> =
             quantity.components.iter().map(|number| format!("{number:>12.4}")).collect();
-        out += &row(quantity.name, &numbers.concat(), &unit);
+        out += &row(&quantity.name, &numbers.concat(), &unit);
     }
     if let Some(wall) = &outputs.wall {
         out += &row("contacts with the wall", &wall.count.to_string(), "");

@@ -23,6 +23,7 @@ const DEVICE: usize = 0;
 const FORCE: usize = 1;
 const FIELD: usize = 2;
 const VESSEL: usize = 3;
+const COIL: usize = 4;
 
 type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
@@ -109,6 +110,9 @@ impl Picture {
             chart.draw_series([PathElement::new(closed, pen(edge, 1.2))])?;
             Ok(())
         };
+        for coil in &self.coils {
+            fill(coil, colour(COIL).mix(0.35), colour(COIL))?;
+        }
         for (whole, north, _) in &self.magnet {
             fill(whole, GRID.mix(0.8), PAPER)?;
             fill(north, PAPER.mix(0.55), PAPER)?;
@@ -184,6 +188,7 @@ impl Picture {
             ("shaft", GRID.mix(1.0), !self.shaft.is_empty()),
             ("vessel", colour(VESSEL).mix(0.3), !self.vessel.parts.is_empty()),
             ("magnet", PAPER.mix(0.55), !self.magnet.is_empty()),
+            ("coils", colour(COIL).mix(0.35), !self.coils.is_empty()),
         ];
         let style = text(LEGEND);
         let (mut x, y) = (0, scaled(48.0));

@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 use mcm::design::Specification;
 use mcm::error::Error;
 use mcm::geometry::Pose;
-use mcm::manipulator::{Outputs, Scene};
+use mcm::magnetics::Assembly;
+use mcm::manipulator::{Outputs, PlacedSource, Scene};
 use mcm::nalgebra::Vector3;
 use plotters::prelude::{BitMapBackend, IntoDrawingArea, SVGBackend};
 
@@ -92,8 +93,10 @@ struct Picture {
     /// Corners of the plot.
     corners: [(f64, f64); 2],
     vessel: LumenOutline,
-    /// Each cylinder of the magnet, its northern half, and where that ends.
+    /// Each cylinder of the magnets, its northern half, and where that ends.
     magnet: Vec<(Outline, Outline, (f64, f64))>,
+    /// The coils that carry a current.
+    coils: Vec<Outline>,
     shaft: Vec<Outline>,
     /// Spirals or body, and core.
     device: [Outline; 2],
@@ -108,11 +111,14 @@ impl Picture {
     fn new(name: &str, scene: &Scene, outputs: &Outputs) -> Result<Self, Error> {
         let design = scene.design()?;
         let inputs = &scene.inputs;
-        let magnets = scene.magnets.as_ref().filter(|_| inputs.magnet_strength != 0.0);
+        let sources = scene.sources()?;
+        let placed = |(number, source)| Some((source, inputs.source(number)?));
+        let on: Vec<(&Assembly, PlacedSource)> =
+            sources.numbered().filter_map(placed).filter(|(_, placed)| placed.strength != 0.0).collect();
         let lumen = scene.vessel.as_ref().map(|vessel| &vessel.lumen);
         let field = inputs.uniform_field;
         let beside =
-            magnets.map(|_| inputs.magnet.position).or((field != Vector3::zeros())
+            on.first().map(|(_, placed)| placed.pose.position).or((field != Vector3::zeros())
                 .then(|| outputs.tip.position + field.normalize() * design.length()));
         let view = View::of(&outputs.shape, lumen, beside, &inputs.base.axis());
         let inserted = outputs.feed_length.unwrap_or(0.0);
@@ -126,12 +132,19 @@ impl Picture {
             Specification::Segmented(own) => (own.helix.radius, own.helix.core_outer_radius, own.ring.length),
             Specification::Cylinder(own) => (own.radius, 0.0, 0.0),
         };
-        let magnet = magnets.into_iter().flatten().map(|cylinder| {
+        let cylinders =
+            on.iter().flat_map(|(source, placed)| source.magnets().iter().map(move |own| (own, placed)));
+        let magnet = cylinders.map(|(cylinder, PlacedSource { pose, strength })| {
             let ends = [-0.5, 0.5].map(|share| cylinder.offset + share * cylinder.length);
-            let north = if cylinder.remanence * inputs.magnet_strength > 0.0 { ends[1] } else { ends[0] };
-            let outline = |ends| outline::of_cylinder(&view, &inputs.magnet, ends, cylinder.radius);
-            let letter = inputs.magnet.advanced(0.5 * (north + cylinder.offset)).position;
+            let north = if cylinder.remanence * strength > 0.0 { ends[1] } else { ends[0] };
+            let outline = |ends| outline::of_cylinder(&view, pose, ends, cylinder.radius);
+            let letter = pose.advanced(0.5 * (north + cylinder.offset)).position;
             (outline(ends), outline([cylinder.offset, north]), view.at(&letter))
+        });
+        let coils = on.iter().filter_map(|(source, placed)| {
+            let coil = source.coil()?;
+            let ends = [-0.5, 0.5].map(|share| share * coil.length);
+            Some(outline::of_cylinder(&view, &placed.pose, ends, coil.outer_radius))
         });
         let body = |pose: &Pose| outline::of_cylinder(&view, pose, [-0.5 * ring, 0.5 * ring], radius);
         let walls = outputs.wall.iter().flat_map(|wall| &wall.places);
@@ -144,6 +157,7 @@ impl Picture {
             corners: [(0.0, 0.0); 2],
             vessel: LumenOutline::default(),
             magnet: magnet.collect(),
+            coils: coils.collect(),
             shaft,
             device: [radius, core].map(|radius| outline::of_rod(&view, device, radius)),
             rings: outputs.rings.iter().map(body).collect(),
@@ -162,7 +176,14 @@ impl Picture {
     /// Corners of a plot around all but the vessel, with the same scale along both axes.
     fn corners_around(&self, in_vessel: bool) -> [(f64, f64); 2] {
         let magnet = self.magnet.iter().flat_map(|(whole, ..)| whole);
-        let all = self.shaft.iter().chain(&self.device).chain(&self.rings).flatten().chain(magnet);
+        let all = self
+            .shaft
+            .iter()
+            .chain(&self.device)
+            .chain(&self.rings)
+            .chain(&self.coils)
+            .flatten()
+            .chain(magnet);
         let start = [(f64::INFINITY, f64::INFINITY), (f64::NEG_INFINITY, f64::NEG_INFINITY)];
         let [low, high] = all.fold(start, |[low, high], point| {
             [(low.0.min(point.0), low.1.min(point.1)), (high.0.max(point.0), high.1.max(point.1))]

@@ -1,0 +1,64 @@
+//! What an equilibrium answers at its last solved shape.
+
+use nalgebra::Vector3;
+
+use super::inputs::Inputs;
+use super::shape_points::Site;
+use super::solution::Solution;
+use super::solver::Equilibrium;
+use super::wall_forces::WallForces;
+use crate::geometry::Pose;
+use crate::magnetics::Wrench;
+
+impl Solution for Equilibrium {
+    fn tip(&self) -> Pose {
+        self.work.nodes[self.work.nodes.len() - 1].advanced(self.chain.tip_offset)
+    }
+
+    fn rings(&self) -> impl Iterator<Item = Pose> + '_ {
+        self.chain.rings.iter().map(|body| body.centre(&self.work.nodes[body.node]))
+    }
+
+    fn core_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        self.chain.cores.iter().map(|(first, last)| {
+            let tangent = |element: usize, end: usize| {
+                self.on_element(element, &self.chain.elements[element].core_ends[end]).axis()
+            };
+            tangent(*first, 0).angle(&tangent(*last, 1))
+        })
+    }
+
+    fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
+        self.shape.iter().map(|point| {
+            let position = match &point.place {
+                Site::Rigid(node, distance) => self.work.nodes[*node].advanced(*distance).position,
+                Site::Elastic(element, row) => self.on_element(*element, row).position,
+            };
+            (point.arc_length, position)
+        })
+    }
+
+    fn base_reaction(&self) -> Wrench {
+        Wrench { force: self.work.base.0, torque: self.work.base.1 }
+    }
+
+    fn magnetic_wrench(&self) -> Wrench {
+        self.work.wrenches.magnetic()
+    }
+
+    fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench {
+        self.work.wrenches.on_source(number, inputs)
+    }
+
+    fn feed_reaction(&self, inputs: &Inputs) -> Option<f64> {
+        self.feed_push(inputs)
+    }
+
+    fn wall(&self) -> Option<WallForces> {
+        self.around.as_ref().map(|_| WallForces::of(&self.work.walls, self.chain.rings.len()))
+    }
+
+    fn field_at(&self, inputs: &Inputs, point: &Vector3<f64>) -> Option<Vector3<f64>> {
+        self.terms(inputs).field_at(point)
+    }
+}

@@ -1,0 +1,78 @@
+//! Further magnets and coils: their poses and strengths, and the wrenches on them.
+
+use super::super::derivative_role::DerivativeRole;
+use super::super::host_values::HostValues;
+use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, QUATERNION, RATIO};
+use super::access;
+use super::outputs::real;
+use super::rows::{Draft, Rows};
+use crate::manipulator::{Input, Output};
+
+/// The structured name of each further source, and whether it is a coil: `magnet[2]`, ..., `coil[1]`, ....
+fn names(start: &HostValues) -> impl Iterator<Item = (String, bool)> {
+    let (mut magnets, mut coils) = (1, 0);
+    start.further.iter().map(move |source| {
+        let is_coil = source.assembly.coil().is_some();
+        let (kind, count) = if is_coil { ("coil", &mut coils) } else { ("magnet", &mut magnets) };
+        *count += 1;
+        (format!("{kind}[{count}]"), is_coil)
+    })
+}
+
+impl Rows {
+    pub(super) fn source_inputs(&mut self, start: &HostValues) {
+        for (number, (name, is_coil)) in names(start).enumerate() {
+            let what = if is_coil { "coil" } else { "magnet" };
+            let position = access!(|values, index| values.further[index.item].pose.position[index.component]);
+            let draft = Draft::input(
+                format!("{name}.position"),
+                POSITION,
+                &format!("Centre of the {what}"),
+                position,
+            );
+            let role = DerivativeRole::Input(Input::SourcePosition(number));
+            self.array_of(number, 3, &draft.derivative_role(role));
+
+            let orientation =
+                access!(|values, index| values.further[index.item].pose.orientation[index.component]);
+            let description =
+                format!("Orientation of the {what}, whose axis is its z: unit quaternion w, x, y, z");
+            let draft = Draft::input(format!("{name}.orientation"), QUATERNION, &description, orientation);
+            let role = DerivativeRole::InputQuaternion(Input::SourceRotation(number));
+            self.array_of(number, 4, &draft.derivative_role(role));
+
+            let strength = access!(|values, index| values.further[index.item].strength);
+            let (last, quantity, description) = if is_coil {
+                (
+                    "current",
+                    CURRENT,
+                    "Current through the coil; a positive one makes a field along its z in its bore",
+                )
+            } else {
+                ("strength", RATIO, "Factor on the magnet's field; 0 switches it off")
+            };
+            let draft = Draft::input(format!("{name}.{last}"), quantity, description, strength);
+            let role = DerivativeRole::Input(Input::SourceStrength(number));
+            self.scalar_of(number, draft.derivative_role(role));
+        }
+    }
+
+    pub(super) fn source_outputs(&mut self, start: &HostValues) {
+        for (number, (name, is_coil)) in names(start).enumerate() {
+            let what = if is_coil { "coil" } else { "magnet" };
+            let draft =
+                real(format!("{name}.reaction_force"), FORCE, &format!("Force on the {what}"), |o, index| {
+                    o.further_reactions.get(index.item).map_or(0.0, |wrench| wrench.force[index.component])
+                });
+            let role = DerivativeRole::Output(Output::SourceReactionForce(number));
+            self.array_of(number, 3, &draft.continuous(role));
+
+            let description = format!("Torque on the {what} about its centre");
+            let draft = real(format!("{name}.reaction_torque"), MOMENT, &description, |o, index| {
+                o.further_reactions.get(index.item).map_or(0.0, |wrench| wrench.torque[index.component])
+            });
+            let role = DerivativeRole::Output(Output::SourceReactionTorque(number));
+            self.array_of(number, 3, &draft.continuous(role));
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! A coil without iron: the dimensions of its winding.
+
+use crate::error::{Error, check};
+
+/// A thick solenoid without iron: a winding of rectangular section whose turns fill it evenly, about its frame's `z`, centred at
+/// the origin. A positive current makes a field along `+z` in its bore.
+///
+/// [`super::Assembly::of_coil`] makes the field source of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coil {
+    /// Inner radius of the winding, m.
+    pub inner_radius: f64,
+    /// Outer radius of the winding, m.
+    pub outer_radius: f64,
+    /// Length along the axis, m.
+    pub length: f64,
+    /// Number of turns.
+    pub turns: f64,
+}
+
+impl Coil {
+    /// Checks the dimensions.
+    ///
+    /// # Errors
+    /// [`Error::Range`] naming the first quantity out of range.
+    pub fn checked(self) -> Result<Self, Error> {
+        let Self { inner_radius, outer_radius, length, turns } = self;
+        check("coil outer radius (m)", outer_radius, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
+        check(
+            "coil inner radius (m)",
+            inner_radius,
+            |v| v > 0.0 && v < outer_radius,
+            "> 0 and < the outer radius",
+        )?;
+        check("coil length (m)", length, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
+        check("coil turns", turns, |v| v > 0.0 && v <= 1e6, "> 0 and <= 1e6")?;
+        Ok(self)
+    }
+}

@@ -1,0 +1,189 @@
+//! Tables `[magnet]` or `[[magnet]]`, and `[[coil]]`.
+
+use core::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::SceneFile;
+use super::pose::{TURN_AXIS, in_metres, pose, turn, turned};
+use super::units::MM_PER_M;
+use crate::equilibrium::PlacedSource;
+use crate::error::Error;
+use crate::magnetics::{AxialMagnet, Coil};
+
+/// The magnets of a scene: none, one table `[magnet]`, or several `[[magnet]]`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Magnets(pub(super) Vec<MagnetEntries>);
+
+impl Magnets {
+    pub(super) fn are_none(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The key of a magnet's table, counted from 0.
+    pub(super) fn key(&self, number: usize) -> String {
+        if self.0.len() > 1 { format!("magnet[{}]", number + 1) } else { "magnet".into() }
+    }
+}
+
+impl Serialize for Magnets {
+    fn serialize<S: Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [only] => only.serialize(out),
+            several => several.serialize(out),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Magnets {
+    fn deserialize<D: Deserializer<'de>>(input: D) -> Result<Self, D::Error> {
+        input.deserialize_any(TableOrTables)
+    }
+}
+
+/// Reads either form; a derived untagged enum would not say what is expected, nor where.
+struct TableOrTables;
+
+impl<'de> Visitor<'de> for TableOrTables {
+    type Value = Magnets;
+
+    fn expecting(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.write_str("a table [magnet], or several [[magnet]]")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Magnets, A::Error> {
+        Ok(Magnets(vec![MagnetEntries::deserialize(MapAccessDeserializer::new(table))?]))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut tables: A) -> Result<Magnets, A::Error> {
+        let mut magnets = Vec::new();
+        while let Some(magnet) = tables.next_element()? {
+            magnets.push(magnet);
+        }
+        Ok(Magnets(magnets))
+    }
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct MagnetEntries {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) position_mm: Option<[f64; 3]>,
+    pub(super) orientation_wxyz: [f64; 4],
+    pub(super) turn_deg: f64,
+    pub(super) turn_axis: [f64; 3],
+    pub(super) strength: f64,
+    pub(super) cylinders: Vec<MagnetCylinder>,
+}
+
+impl Default for MagnetEntries {
+    /// The paper's pair; below the manipulator's middle its field is parallel to the manipulator's magnetisation.
+    fn default() -> Self {
+        let cylinder = |offset_mm| MagnetCylinder {
+            radius_mm: 22.5,
+            inner_radius_mm: 0.0,
+            length_mm: 30.0,
+            offset_mm,
+            remanence_t: 1.35,
+        };
+        Self {
+            position_mm: None,
+            orientation_wxyz: [0.0, 1.0, 0.0, 0.0],
+            turn_deg: 0.0,
+            turn_axis: TURN_AXIS,
+            strength: 1.0,
+            cylinders: vec![cylinder(-20.0), cylinder(20.0)],
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MagnetCylinder {
+    pub(super) radius_mm: f64,
+    #[serde(default)]
+    pub(super) inner_radius_mm: f64,
+    pub(super) length_mm: f64,
+    #[serde(default)]
+    pub(super) offset_mm: f64,
+    pub(super) remanence_t: f64,
+}
+
+impl MagnetCylinder {
+    pub(super) fn si(&self) -> AxialMagnet {
+        AxialMagnet {
+            radius: self.radius_mm / MM_PER_M,
+            inner_radius: self.inner_radius_mm / MM_PER_M,
+            length: self.length_mm / MM_PER_M,
+            offset: self.offset_mm / MM_PER_M,
+            remanence: self.remanence_t,
+        }
+    }
+}
+
+/// Table `[[coil]]`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CoilEntries {
+    #[serde(default)]
+    pub(super) position_mm: [f64; 3],
+    #[serde(default = "upright")]
+    pub(super) orientation_wxyz: [f64; 4],
+    pub(super) inner_radius_mm: f64,
+    pub(super) outer_radius_mm: f64,
+    pub(super) length_mm: f64,
+    pub(super) turns: f64,
+    #[serde(default)]
+    pub(super) current_a: f64,
+}
+
+fn upright() -> [f64; 4] {
+    [1.0, 0.0, 0.0, 0.0]
+}
+
+impl CoilEntries {
+    pub(super) fn si(&self) -> Coil {
+        Coil {
+            inner_radius: self.inner_radius_mm / MM_PER_M,
+            outer_radius: self.outer_radius_mm / MM_PER_M,
+            length: self.length_mm / MM_PER_M,
+            turns: self.turns,
+        }
+    }
+}
+
+impl MagnetEntries {
+    /// The cylinders in SI units.
+    pub(super) fn cylinders(&self) -> Vec<AxialMagnet> {
+        self.cylinders.iter().map(MagnetCylinder::si).collect()
+    }
+
+    /// Pose and strength; `key` is that of the table, and `place` where the magnet is unless it says so.
+    pub(super) fn placed(&self, key: &str, place: Option<[f64; 3]>) -> Result<PlacedSource, Error> {
+        let missing = || {
+            Error::Unsupported(format!(
+                "{key}.position_mm is missing: only the first magnet has a usual place"
+            ))
+        };
+        let position = self.position_mm.map(in_metres).or(place).ok_or_else(missing)?;
+        let turn = turn(key, self.turn_axis, self.turn_deg)?;
+        let pose = turned(&turn, pose(key, position, self.orientation_wxyz)?);
+        Ok(PlacedSource { pose, strength: self.strength })
+    }
+}
+
+impl SceneFile {
+    /// Poses and strengths of the magnets after the first one, then of the coils.
+    pub(super) fn further(&self) -> Result<Vec<PlacedSource>, Error> {
+        let magnets = self.magnet.0.iter().enumerate().skip(1);
+        let magnets = magnets.map(|(number, magnet)| magnet.placed(&self.magnet.key(number), None));
+        let coils = (1..).zip(&self.coil).map(|(number, coil)| {
+            let table = format!("coil[{number}]");
+            let pose = pose(&table, in_metres(coil.position_mm), coil.orientation_wxyz)?;
+            Ok(PlacedSource { pose, strength: coil.current_a })
+        });
+        magnets.chain(coils).collect()
+    }
+}
