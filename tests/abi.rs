@@ -127,7 +127,7 @@ fn refusals_are_told_with_category_and_format() {
     // SAFETY: no pointers but the handle.
     assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, ERROR);
     let said = heard(103).pop().unwrap();
-    assert_eq!(said, "one logStatusError %s: fmi2DoStep is not allowed in state Instantiated");
+    assert_eq!(said, "one logStatusError %s: fmi2DoStep is not allowed before initialisation");
     initialise(component);
     assert_eq!(set(component, "magnet.strength", f64::NAN), ERROR);
     assert!(heard(103).pop().unwrap().contains("magnet.strength = NaN"));

@@ -31,7 +31,7 @@ pub(super) fn direction<'a>(
                 };
                 let mut quaternion_rate = [0.0; 4];
                 quaternion_rate[component] = derivative;
-                let spin = Pose::rotation_rate(pose.orientation, quaternion_rate);
+                let spin = Pose::rotation_rate(pose.acting(), quaternion_rate);
                 (0..3).try_for_each(|axis| add(input, axis, spin[axis]))?;
             }
             _ => return None,

@@ -31,8 +31,6 @@ pub(super) struct FmuState {
     pub(super) snaps: u32,
     /// Time of the last communication point, s.
     pub(super) time: f64,
-    /// Stop time, s, if the host has defined one.
-    pub(super) stop_time: Option<f64>,
 }
 
 impl FmuState {
@@ -49,7 +47,6 @@ impl FmuState {
             near_fold: false,
             snaps: 0,
             time: 0.0,
-            stop_time: None,
         }
     }
 }

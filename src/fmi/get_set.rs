@@ -76,7 +76,7 @@ impl Instance {
             if !self.state().may_set(variable.causality, variable.variability) {
                 let (name, causality) = (&variable.name, variable.causality_in_words());
                 return self
-                    .refuse(&format!("{name} ({causality}) cannot be set in state {:?}", self.state()));
+                    .refuse(&format!("{name} ({causality}) cannot be set {}", self.state().in_words()));
             }
             if let Err(error) = variable.check(value) {
                 return self.refuse(&error.to_string());

@@ -18,6 +18,8 @@ pub struct UncheckedPose {
     pub position: [f64; 3],
     /// Quaternion w, x, y, z, body to world.
     pub orientation: [f64; 4],
+    /// The start value of the quaternion, which holds while the host leaves it unconnected: four zeros.
+    pub start: [f64; 4],
 }
 
 /// A magnet after the first one, or a coil.
@@ -161,6 +163,17 @@ impl HostValues {
         })
     }
 
+    /// All poses that a host sets.
+    fn poses(&self) -> impl Iterator<Item = &UncheckedPose> {
+        [&self.magnet, &self.base].into_iter().chain(self.further.iter().map(|source| &source.pose))
+    }
+
+    /// Whether an orientation is four zeros: some hosts set inputs that nothing is connected to so.
+    #[must_use]
+    pub fn has_unconnected(&self) -> bool {
+        self.poses().any(UncheckedPose::is_unconnected)
+    }
+
     /// The inputs, and gravity, as the manipulator takes them.
     ///
     /// # Errors
@@ -238,7 +251,8 @@ impl HostValues {
 
 impl From<Pose> for UncheckedPose {
     fn from(pose: Pose) -> Self {
-        Self { position: pose.position.into(), orientation: pose.quaternion() }
+        let orientation = pose.quaternion();
+        Self { position: pose.position.into(), orientation, start: orientation }
     }
 }
 
@@ -251,8 +265,18 @@ impl UncheckedPose {
         }
     }
 
+    /// Whether its quaternion is four exact zeros, as an input that the host leaves unconnected.
+    fn is_unconnected(&self) -> bool {
+        self.orientation == [0.0; 4]
+    }
+
+    /// The quaternion that holds.
+    pub(super) fn acting(&self) -> [f64; 4] {
+        if self.is_unconnected() { self.start } else { self.orientation }
+    }
+
     fn pose(&self, orientation: &str) -> Result<Pose, Error> {
-        Pose::new(self.position, self.orientation).map_err(|error| match error {
+        Pose::new(self.position, self.acting()).map_err(|error| match error {
             Error::Range { value, allowed, .. } => {
                 Error::range(format!("norm of {orientation}"), value, allowed)
             }

@@ -23,8 +23,13 @@ pub struct Instance {
     pub(super) fmu_state: FmuState,
     /// FMU states that the host has saved, by handle.
     pub(super) saved_states: BTreeMap<usize, FmuState>,
+    /// Stop time of this run, s, if the host has defined one. A saved state does not carry it: the run that it is restored in may be
+    /// longer.
+    stop_time: Option<f64>,
     /// Whether the log has told of an unexpected communication point, which it does once.
     told_of_unexpected_time: bool,
+    /// Whether the log has told of an orientation that nothing is connected to, which it does once.
+    told_of_unconnected: bool,
 }
 
 /// The package that a host wants to instantiate.
@@ -67,7 +72,15 @@ impl Instance {
             counts.cores
         ));
         let fmu_state = FmuState::new(package.start());
-        Self { package, log, fmu_state, saved_states: BTreeMap::new(), told_of_unexpected_time: false }
+        Self {
+            package,
+            log,
+            fmu_state,
+            saved_states: BTreeMap::new(),
+            stop_time: None,
+            told_of_unexpected_time: false,
+            told_of_unconnected: false,
+        }
     }
 
     /// State of the calling sequence.
@@ -97,7 +110,7 @@ impl Instance {
             self.log
                 .error(&format!("{name}: no step is under way, as every step is finished when it returns"));
         } else if !allowed {
-            self.log.error(&format!("{name} is not allowed in state {:?}", self.state()));
+            self.log.error(&format!("{name} is not allowed {}", self.state().in_words()));
         }
         allowed
     }
@@ -126,7 +139,7 @@ impl Instance {
             return self.refuse(&Error::range("stop time (s)", stop, "the start time or later").to_string());
         }
         self.fmu_state.time = start;
-        self.fmu_state.stop_time = stop;
+        self.stop_time = stop;
         Ending::Ok
     }
 
@@ -164,7 +177,9 @@ impl Instance {
     /// Returns to the state after instantiation. States that the host has saved are kept.
     pub fn reset(&mut self) -> Ending {
         self.fmu_state = FmuState::new(self.package.start());
+        self.stop_time = None;
         self.told_of_unexpected_time = false;
+        self.told_of_unconnected = false;
         self.log.forget_repetitions();
         Ending::Ok
     }
@@ -181,7 +196,7 @@ impl Instance {
             ));
         }
         let tolerance = TIME_TOLERANCE * time.abs().max(self.fmu_state.time.abs()).max(step_size);
-        if let Some(stop) = self.fmu_state.stop_time.filter(|stop| end > stop + tolerance) {
+        if let Some(stop) = self.stop_time.filter(|stop| end > stop + tolerance) {
             return self.refuse(&format!("a step to t = {end} goes beyond the stop time {stop}"));
         }
         let unexpected = (time - self.fmu_state.time).abs() > tolerance;
@@ -266,7 +281,12 @@ impl Instance {
     }
 
     fn solve_at_host_values(&mut self) -> Result<Ending, Error> {
-        let inputs = self.fmu_state.host_values.inputs()?;
+        let values = &self.fmu_state.host_values;
+        let inputs = values.inputs()?;
+        if values.has_unconnected() && !self.told_of_unconnected {
+            self.log.notice("an orientation of four zeros counts as not connected: its start value holds");
+            self.told_of_unconnected = true;
+        }
         self.solve(&[inputs])
     }
 
@@ -294,7 +314,10 @@ impl Instance {
         let outputs = manipulator.follow(waypoints, now.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];
         if lengths != [counts.rings, counts.cores, counts.shape_points] {
-            return Err(Error::Unsupported(format!("the model answers with other lengths: {lengths:?}")));
+            return Err(Error::Unsupported(format!(
+                "the model answers with {} rings, {} cores and {} points: not those of the table",
+                lengths[0], lengths[1], lengths[2]
+            )));
         }
         let (was_near_fold, time, margin) = (now.near_fold, now.time, outputs.stability_margin);
         let (status, outcome, snapped) = (outputs.status, outputs.outcome, outputs.snaps > snaps);

@@ -18,7 +18,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// Number of the format; must be raised with every change of [`Record`] or of the types in it.
-const FORMAT: u32 = 11;
+const FORMAT: u32 = 12;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -37,7 +37,6 @@ struct Record {
     near_fold: bool,
     snaps: u32,
     time: f64,
-    stop_time: Option<f64>,
 }
 
 fn refused(reason: impl Into<String>) -> Error {
@@ -67,7 +66,6 @@ pub(super) fn to_bytes(fmu_state: &FmuState, package: &Package) -> Result<Vec<u8
         near_fold: fmu_state.near_fold,
         snaps: fmu_state.snaps,
         time: fmu_state.time,
-        stop_time: fmu_state.stop_time,
     };
     let body = postcard::to_stdvec(&(VERSION, package.guid(), record)).map_err(|e| refused(e.to_string()))?;
     let mut bytes = Vec::with_capacity(HEADER + body.len());
@@ -147,17 +145,6 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         manipulator.restore(snapshot)?;
         fmu_state.manipulator = Some(manipulator);
     }
-    let Record { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, stop_time, .. } =
-        record;
-    Ok(FmuState {
-        state,
-        input_derivatives,
-        solved,
-        solved_ahead,
-        near_fold,
-        snaps,
-        time,
-        stop_time,
-        ..fmu_state
-    })
+    let Record { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, .. } = record;
+    Ok(FmuState { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, ..fmu_state })
 }

@@ -85,6 +85,19 @@ pub const ALLOWED: &[(Call, &[State])] = &[
 ];
 
 impl State {
+    /// When it is, for messages.
+    #[must_use]
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Instantiated => "before initialisation",
+            Initialization => "in initialisation mode",
+            Stepping => "between communication steps",
+            Failed => "after a failed solve",
+            Terminated => "after termination",
+            Broken => "after an internal failure",
+        }
+    }
+
     /// Whether `call` is allowed in this state.
     #[must_use]
     pub fn allows(self, call: Call) -> bool {

@@ -16,6 +16,16 @@ pub enum Value {
 }
 
 impl Value {
+    /// The name of its type.
+    #[must_use]
+    pub fn type_name(self) -> &'static str {
+        match self {
+            Self::Real(_) => "Real",
+            Self::Integer(_) => "Integer",
+            Self::Boolean(_) => "Boolean",
+        }
+    }
+
     /// The number of a Real; `None` for another type.
     #[must_use]
     pub fn real(self) -> Option<f64> {

@@ -178,7 +178,7 @@ impl Variable {
             (DataType::Real(_), Value::Real(_))
             | (DataType::Integer | DataType::Enumeration(_), Value::Integer(_))
             | (DataType::Boolean, Value::Boolean(_)) => Ok(()),
-            _ => Err(Error::Unsupported(format!("{name} is of another type than the value {value:?}"))),
+            _ => Err(Error::Unsupported(format!("{name} is not of type {}", value.type_name()))),
         }
     }
 

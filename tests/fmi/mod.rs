@@ -16,6 +16,8 @@ mod package;
 
 mod serialise;
 
+mod sources;
+
 mod state;
 
 mod table;

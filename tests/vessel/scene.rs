@@ -127,10 +127,10 @@ fn a_mesh_that_cannot_be_used_is_refused_by_name_and_line() {
         ),
         (
             "mesh_stl = \"aside.stl\"",
-            "it does not fit in where it starts; the mesh lies within [16.0, -4.0, -20.0] to [24.0, 4.0, 60.0] mm",
+            "it does not fit in where it starts; the mesh lies within (16, -4, -20) to (24, 4, 60) mm",
         ),
         ("mesh_stl = \"narrow.stl\"", "distance of base.position_mm from the wall of the vessel (mm)"),
-        ("mesh_stl = \"metres.stl\"", "the mesh lies within [-0.0, -0.0, -0.0] to [0.0, 0.0, 0.0] mm"),
+        ("mesh_stl = \"metres.stl\"", "the mesh lies within (-0, -0, -0) to (0, 0, 0) mm"),
         (
             &format!("{MESH}{BRANCH}"),
             "line 9: vessel.mesh_stl has no meaning beside [[vessel.branch]]: give one or the other",

@@ -305,9 +305,8 @@ fn fits(design: &Design, vessel: &Vessel, inputs: &Inputs) -> Result<(), Error> 
     let place = vessel.lumen.grid().map_or_else(String::new, |grid| {
         let [low, high] = grid.bounds().map(|at| at.map(|v| (v * MM_PER_M).round()));
         format!(
-            "; the mesh lies within {:?} to {:?} mm, its ends are walls",
-            <[f64; 3]>::from(low),
-            <[f64; 3]>::from(high)
+            "; the mesh lies within ({}, {}, {}) to ({}, {}, {}) mm, its ends are walls",
+            low.x, low.y, low.z, high.x, high.y, high.z
         )
     });
     let allowed = format!(
