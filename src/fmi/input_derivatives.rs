@@ -72,11 +72,19 @@ impl InputDerivatives {
                 variable.set(&mut moved, Value::Real(value))?;
             }
         }
-        let further = moved.further.iter_mut().zip(&from.further).map(|(a, b)| (&mut a.pose, &b.pose));
-        let first = [(&mut moved.magnet, &from.magnet), (&mut moved.base, &from.base)];
-        for (moved, from) in first.into_iter().chain(further) {
+        let further = moved.further.iter_mut().zip(&from.further);
+        let further = further.map(|(a, b)| ("further source's orientation", &mut a.pose, &b.pose));
+        let first = [
+            ("magnet.orientation", &mut moved.magnet, &from.magnet),
+            ("base.orientation", &mut moved.base, &from.base),
+        ];
+        for (name, moved, from) in first.into_iter().chain(further) {
             // An orientation that nothing turns stays as the host has set it, to the last bit.
             if moved.orientation.map(f64::to_bits) != from.orientation.map(f64::to_bits) {
+                if moved.orientation == [0.0; 4] {
+                    // Set so by the host, it would count as not connected.
+                    return Err(Error::range(format!("norm of {name} during the step"), 0.0, "not 0"));
+                }
                 moved.normalise();
             }
         }

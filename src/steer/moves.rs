@@ -44,7 +44,7 @@ impl Move {
     /// The move with this name: `magnet.position`, `magnet.orientation`, `magnet.strength`, `field.uniform`, `feed.insertion`.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for another name, and for `coil.current`: there are no coils.
+    /// [`Error::Unsupported`] for another name; currents of coils are not among them.
     pub fn named(name: &str) -> Result<Self, Error> {
         let found = NAMES.iter().find(|(known, _)| *known == name).map(|(_, each)| *each);
         found.ok_or_else(|| {

@@ -2,12 +2,14 @@
 
     .venv/bin/python tests/bench/coil_field.py --out tests/magnetics/coil.csv
 
-Each point's field is the integral of the fields of current loops (Smythe, Static and Dynamic Electricity, 7.10) over the
-winding's section, by mpmath with 30 digits. A thin sheet has the field of a magnetised cylinder of its radius.
+Each point's field is the integral of the fields of current loops (Smythe, Static and Dynamic Electricity,
+7.10) over the winding's section, by mpmath with 30 digits. A thin sheet has the field of a magnetised cylinder
+of its radius.
 """
 
 import argparse
 import csv
+from pathlib import Path
 
 import magpylib
 import mpmath
@@ -64,9 +66,7 @@ def coil(rho, z):
     radii = sorted({inner, outer, *([rho] if inner < rho < outer else []), (inner + outer) / 2})
     places = sorted({-half, half, *([z] if -half < z < half else []), mpmath.mpf(0)})
     parts = [
-        mpmath.quad(
-            lambda r, h, part=part: loop(r, rho, z - h)[part], radii, places, method="gauss-legendre"
-        )
+        mpmath.quad(lambda r, h, part=part: loop(r, rho, z - h)[part], radii, places, method="gauss-legendre")
         for part in (0, 1)
     ]
     return [density * part for part in parts]
@@ -78,9 +78,7 @@ def sheets(rho, z, count):
     field = numpy.zeros(3)
     for radius in 0.5 * (edges[1:] + edges[:-1]):
         magnetisation = TURNS / LENGTH / count  # A/m for one ampere
-        sheet = magpylib.magnet.Cylinder(
-            magnetization=(0, 0, magnetisation), dimension=(2 * radius, LENGTH)
-        )
+        sheet = magpylib.magnet.Cylinder(magnetization=(0, 0, magnetisation), dimension=(2 * radius, LENGTH))
         field += sheet.getB((rho, 0, z))
     return field[0], field[2]
 
@@ -88,10 +86,10 @@ def sheets(rho, z, count):
 def main():
     """Writes the table and prints the errors of the sheets."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--out", required=True, help="the table to write (CSV)")
+    parser.add_argument("--out", required=True, type=Path, help="the table to write (CSV)")
     out = parser.parse_args().out
     rows = [(rho, z, *coil(rho, z)) for rho, z in POINTS]
-    with open(out, "w", newline="", encoding="utf-8") as file:
+    with out.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(["rho_m", "z_m", "b_rho_t_per_a", "b_z_t_per_a"])
         for rho, z, across, along in rows:

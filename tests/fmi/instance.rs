@@ -120,7 +120,7 @@ fn a_bad_value_in_the_middle_of_a_call_changes_nothing() {
     let good = [Value::Real(0.5), Value::Real(0.0045), Value::Boolean(true)];
     let bad = [
         (strength, Value::Real(f64::NAN), "magnet.strength = NaN"),
-        (strength, Value::Boolean(true), "another type"),
+        (strength, Value::Boolean(true), "magnet.strength is not of type Boolean"),
         (level, Value::Integer(99), "model.interaction has no item 99"),
         (angle, Value::Real(0.1), "tip.angle (output) cannot be set"),
         (u32::MAX, Value::Real(0.1), "no variable"),

@@ -15,6 +15,9 @@ SCENES = {
     "default": None,
     "one segment": "[design]\nsegments = 1\nbase_magnet = false",
     "cylinder": '[design]\nkind = "cylinder"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0',
+    "sources": "[design]\nsegments = 1\n[[magnet]]\n[[magnet]]\nposition_mm = [150.0, 0.0, 0.0]\n"
+    "[[coil]]\nposition_mm = [0.0, 90.0, 0.0]\ninner_radius_mm = 20.0\nouter_radius_mm = 40.0\nlength_mm = 60.0\n"
+    "turns = 600\ncurrent_a = 1.0",
     "backbone": "[design]\nsegments = 2\n[design.backbone]\nouter_radius_mm = 0.7\ninner_radius_mm = 0.25\n"
     "shore_a = 50.0\npoisson = 0.4",
 }
@@ -71,6 +74,19 @@ def test_library_is_named_after_the_model_identifier(default: Archive) -> None:
     with zipfile.ZipFile(default.path) as archive:
         libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
     assert libraries == [f"binaries/linux64/{identifier}.so"]
+
+
+def test_licences_of_all_linked_crates_are_inside(default: Archive) -> None:
+    command = ["cargo", "tree", "--locked", "--edges", "normal", "--prefix", "none"]
+    done = subprocess.run(command, cwd=PACKAGE, capture_output=True, text=True, check=True)
+    crates = {" ".join(line.split()[:2]).replace(" v", " ") for line in done.stdout.splitlines() if line}
+    crates = {crate for crate in crates if not crate.startswith("mcm ")}
+    assert len(crates) > 50
+    text = (default.folder / "documentation" / "licenses" / "crates.txt").read_text(encoding="utf-8")
+    listed, *blocks = text.split("=" * 100)
+    holders = {line for block in blocks for line in block.partition("-" * 100)[0].split("\n") if line}
+    missing = {crate for crate in crates if crate not in holders or f"\n{crate}: " not in listed}
+    assert not missing, "python3 fmu/licenses/collect.py writes them anew"
 
 
 def test_serialisation_is_only_promised_with_saved_states(default: Archive) -> None:

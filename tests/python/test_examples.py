@@ -267,3 +267,18 @@ def test_feedback_makes_up_for_a_wrong_model(tmp_path: Path) -> None:
     late = rows[rows[:, 0] >= 0.5]
     off = np.sqrt(np.mean(np.sum((late[:, 1:3] - late[:, 3:5]) ** 2, axis=1)))
     np.testing.assert_allclose(1e3 * off, closed, atol=1e-4)
+
+
+def test_eight_coils_make_the_wanted_field_at_the_tip(tmp_path: Path) -> None:
+    fmu = tmp_path / "coils.fmu"
+    done = run(program(), "pack", "--scene", EXAMPLES / "eight_coils.toml", "--out", fmu)
+    assert done.returncode == 0, done.stderr
+    said = example("coil_currents.py", fmu)
+    field = next(line for line in said.splitlines() if line.startswith("field at the tip"))
+    got = [float(part) for part in field.split(":")[1].split()[:3]]
+    np.testing.assert_allclose(got, [0.0, 15.0, 0.0], atol=1e-4)
+    currents = next(line for line in said.splitlines() if line.startswith("currents"))
+    # The coils beyond the middle plane mirror those before it.
+    amperes = [float(part) for part in currents.split(":")[1].split()[:8]]
+    assert max(map(abs, amperes)) > 1.0
+    np.testing.assert_allclose(amperes[0], amperes[2], atol=0.05 * max(map(abs, amperes)))

@@ -19,6 +19,7 @@ use binary::Binary;
 
 const LICENSE: &str = include_str!("../../../LICENSE");
 const HEADERS_LICENSE: &str = include_str!("../../../fmu/headers/LICENSE");
+const CRATES_LICENSES: &str = include_str!("../../../fmu/licenses/crates.txt");
 const ICON: &[u8] = include_bytes!("../../../modelDescription/model.png");
 
 /// Packs a design as an FMU.
@@ -60,6 +61,7 @@ impl Pack {
             ("documentation/index.html".into(), package.documentation().into()),
             ("documentation/licenses/license.txt".into(), LICENSE.into()),
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
+            ("documentation/licenses/crates.txt".into(), CRATES_LICENSES.into()),
         ];
         files.extend(binary::entries(self.library.as_deref(), &self.binary)?);
         for (name, content) in package.resources()? {
