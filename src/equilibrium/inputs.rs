@@ -133,7 +133,7 @@ impl Inputs {
             (std::mem::take(&mut self.ring_forces), std::mem::take(&mut self.further));
         ring_forces.clone_from(&other.ring_forces);
         further.clone_from(&other.further);
-        *self = Self { ring_forces, further, ..*other };
+        *self = Self { further, ring_forces, ..*other };
     }
 
     /// Interpolates by the fraction `t` towards `other`; orientations turn along the shortest arc.

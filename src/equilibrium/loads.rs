@@ -57,7 +57,7 @@ impl Potential<'_> {
             let work = &*self.work;
             element.stations.iter().enumerate().map(move |(index, station)| (station, work.station(k, index)))
         });
-        self.terms.magnets.fields_at(stations, order, fields)?;
+        self.terms.magnets.fields_at(&stations, order, fields)?;
         let mut number = 0;
         for (k, element) in self.chain.elements.iter().enumerate() {
             let axes = self.work.nodes[k].rotation;

@@ -266,8 +266,8 @@ impl UncheckedPose {
     }
 
     /// Whether its quaternion is four exact zeros, as an input that the host leaves unconnected.
-    fn is_unconnected(&self) -> bool {
-        self.orientation == [0.0; 4]
+    pub(super) fn is_unconnected(&self) -> bool {
+        self.orientation.iter().all(|component| *component == 0.0)
     }
 
     /// The quaternion that holds.

@@ -50,7 +50,7 @@ enum Bodies {
     /// Cylinders, each with the source of the same number.
     Magnets(Vec<AxialMagnet>),
     /// A winding. Its sources are thin solenoids of its length for each of [`LAYERS`], one after the other.
-    Winding(Coil, AxialSource),
+    Winding(Coil, Box<AxialSource>),
 }
 
 impl Assembly {
@@ -134,7 +134,7 @@ impl Assembly {
             }
         }
         let winding = AxialSource::new(inner_radius, outer_radius, length, 0.0)?;
-        Ok(Self { bodies: Bodies::Winding(coil, winding), sources })
+        Ok(Self { bodies: Bodies::Winding(coil, Box::new(winding)), sources })
     }
 
     /// The magnetised cylinders; none for a coil.
@@ -263,7 +263,7 @@ impl Assembly {
     fn solid(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         let solid = match &self.bodies {
             Bodies::Magnets(_) => &self.sources[..],
-            Bodies::Winding(_, winding) => core::slice::from_ref(winding),
+            Bodies::Winding(_, winding) => core::slice::from_ref(&**winding),
         };
         solid.iter().enumerate().map(|(number, source)| (source, self.centre(number)))
     }

@@ -5,7 +5,7 @@ use nalgebra::{DVector, Vector3};
 use super::limits::Limits;
 use crate::error::Error;
 use crate::geometry::{Pose, RotationVector};
-use crate::manipulator::{Input, Inputs, Jacobian, Output};
+use crate::manipulator::{Input, Inputs, Jacobian, Output, Scene};
 
 /// An input that may be moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,9 +20,19 @@ pub enum Move {
     UniformField,
     /// Length of shaft inside the port.
     Insertion,
+    /// Current through a coil, both counted from 0: its number among the coils, and among the further sources.
+    CoilCurrent {
+        /// Number of the coil.
+        coil: usize,
+        /// Its place in [`Inputs::further`].
+        source: usize,
+    },
 }
 
-/// Names of all moves.
+/// The name that stands for the currents of all coils.
+const CURRENTS: &str = "coil.current";
+
+/// Names of all other moves.
 const NAMES: [(&str, Move); 5] = [
     ("magnet.position", Move::MagnetPosition),
     ("magnet.orientation", Move::MagnetOrientation),
@@ -34,6 +44,9 @@ const NAMES: [(&str, Move); 5] = [
 /// Longest step of the magnet's strength, 1.
 const STRENGTH_STEP: f64 = 0.05;
 
+/// Longest step of a current, A.
+const CURRENT_STEP: f64 = 0.2;
+
 /// Longest step of the uniform field, T.
 const FIELD_STEP: f64 = 1e-3;
 
@@ -41,14 +54,22 @@ const FIELD_STEP: f64 = 1e-3;
 const INSERTION_STEP: f64 = 2e-3;
 
 impl Move {
-    /// The move with this name: `magnet.position`, `magnet.orientation`, `magnet.strength`, `field.uniform`, `feed.insertion`.
+    /// The moves with this name in a scene: `magnet.position`, `magnet.orientation`, `magnet.strength`, `field.uniform`,
+    /// `feed.insertion`; `coil.current` are the currents of all its coils.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] for another name; currents of coils are not among them.
-    pub fn named(name: &str) -> Result<Self, Error> {
-        let found = NAMES.iter().find(|(known, _)| *known == name).map(|(_, each)| *each);
+    /// [`Error::Unsupported`] for another name, and for currents where there is no coil.
+    pub fn named(name: &str, scene: &Scene) -> Result<Vec<Self>, Error> {
+        if name == CURRENTS {
+            let before = scene.further_magnets.len();
+            let each = |coil| Self::CoilCurrent { coil, source: before + coil };
+            let all: Vec<Self> = (0..scene.coils.len()).map(each).collect();
+            let none = || Error::Unsupported(format!("`{name}` cannot be moved: the scene has no coil"));
+            return if all.is_empty() { Err(none()) } else { Ok(all) };
+        }
+        let found = NAMES.iter().find(|(known, _)| *known == name).map(|(_, each)| vec![*each]);
         found.ok_or_else(|| {
-            let known: Vec<&str> = NAMES.iter().map(|(known, _)| *known).collect();
+            let known: Vec<&str> = NAMES.iter().map(|(known, _)| *known).chain([CURRENTS]).collect();
             Error::Unsupported(format!("`{name}` cannot be moved; what can: {}", known.join(", ")))
         })
     }
@@ -56,7 +77,7 @@ impl Move {
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        NAMES.iter().find(|(_, each)| *each == self).map_or("", |(name, _)| name)
+        NAMES.iter().find(|(_, each)| *each == self).map_or(CURRENTS, |(name, _)| name)
     }
 }
 
@@ -104,6 +125,9 @@ pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<
                 }
             }
             Move::Insertion => add(Input::Insertion, Vector3::x() * INSERTION_STEP),
+            Move::CoilCurrent { source, .. } => {
+                add(Input::SourceStrength(*source), Vector3::x() * CURRENT_STEP);
+            }
         }
     }
     out
@@ -120,6 +144,7 @@ pub(super) fn moved(inputs: &Inputs, freedoms: &[Freedom], step: &DVector<f64>) 
             Input::MagnetRotation => turn += by,
             Input::MagnetStrength => out.magnet_strength += by.x,
             Input::UniformField => out.uniform_field += by,
+            Input::SourceStrength(source) => out.further[source].strength += by.x,
             _ => out.insertion += by.x,
         }
     }
@@ -148,6 +173,9 @@ pub(super) fn between(inputs: &Inputs, freedoms: &[Freedom], goal: &Inputs) -> D
             Input::MagnetRotation => turn,
             Input::MagnetStrength => Vector3::x() * (goal.magnet_strength - inputs.magnet_strength),
             Input::UniformField => goal.uniform_field - inputs.uniform_field,
+            Input::SourceStrength(source) => {
+                Vector3::x() * (goal.further[source].strength - inputs.further[source].strength)
+            }
             _ => Vector3::x() * (goal.insertion - inputs.insertion),
         };
         by.dot(&freedom.along) / freedom.along.norm_squared()

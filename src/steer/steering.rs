@@ -76,6 +76,10 @@ impl Steering {
             let (known, what) = match each {
                 Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
                 Move::UniformField => (true, ""),
+                Move::CoilCurrent { coil, source } => {
+                    let of_scene = *coil < scene.coils.len() && *source == scene.further_magnets.len() + coil;
+                    (of_scene, "the scene has no such coil")
+                }
                 _ => (scene.magnets.is_some(), "the scene has no magnet"),
             };
             if !known {

@@ -16,6 +16,9 @@ const AROUND: f64 = 0.06;
 /// Largest uniform field that is tried where none is given, T.
 const FIELD: f64 = 0.02;
 
+/// Largest change of a coil's current that is tried, A.
+const CURRENT: f64 = 5.0;
+
 /// How far the shaft is moved, m, and the strength is changed.
 const INSERTION: f64 = 0.02;
 const STRENGTH: f64 = 0.5;
@@ -85,6 +88,7 @@ impl Tree {
                     let most = rules.limits.field.unwrap_or(FIELD) / 3.0_f64.sqrt();
                     out.uniform_field = Vector3::from_fn(|_, _| most * number());
                 }
+                Move::CoilCurrent { source, .. } => out.further[*source].strength += CURRENT * number(),
                 Move::Insertion => {
                     out.insertion = (out.insertion + INSERTION * number()).clamp(0.0, 1.0);
                 }

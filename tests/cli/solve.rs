@@ -66,6 +66,8 @@ fn json_has_the_promised_keys() {
         "base_reaction_moment_nm",
         "magnet_reaction_force_n",
         "magnet_reaction_torque_nm",
+        "further_reaction_forces_n",
+        "further_reaction_torques_nm",
         "ring_positions_m",
         "core_angles_rad",
         "shape_m",

@@ -173,7 +173,7 @@ fn bad_questions_are_refused() {
     assert!(steer(&["--tip-angle-deg", "10"]).contains("--move"));
     assert!(
         steer(&["--tip-angle-deg", "10", "--move", "coil.current"])
-            .contains("`coil.current` cannot be moved; what can: magnet.position")
+            .contains("`coil.current` cannot be moved: the scene has no coil")
     );
     assert!(steer(&["--tip-angle-deg", "10", "--move", "feed.insertion"]).contains("the scene has no shaft"));
     assert!(

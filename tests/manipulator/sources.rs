@@ -142,19 +142,23 @@ turns = 600
 current_a = 1.5
 ";
 
+fn same(got: f64, expected: f64) {
+    assert_eq!(got.to_bits(), expected.to_bits(), "{got}");
+}
+
 #[test]
 fn a_scene_names_them() {
     let file = SceneFile::parse(SCENE, "scene").unwrap();
     let scene = file.scene().unwrap();
     assert_eq!(scene.sources().unwrap().numbered().count(), 3);
-    assert_eq!(scene.inputs.further[1].strength, 1.5);
+    same(scene.inputs.further[1].strength, 1.5);
     let again = SceneFile::parse(&file.to_toml().unwrap(), "again").unwrap();
     assert_eq!(again, file);
     let at = |key: &str, value: f64| file.with(key, value).unwrap().scene().unwrap().inputs;
-    assert_eq!(at("coil[1].current_a", 2.0).further[1].strength, 2.0);
-    assert_eq!(at("magnet[2].position_mm[2]", 30.0).further[0].pose.position.y, 0.03);
-    assert_eq!(at("magnet.strength", 0.5).magnet_strength, 0.5);
-    assert_eq!(at("magnet[1].position_mm[1]", 7.0).magnet.position.x, 0.007);
+    same(at("coil[1].current_a", 2.0).further[1].strength, 2.0);
+    same(at("magnet[2].position_mm[2]", 30.0).further[0].pose.position.y, 0.03);
+    same(at("magnet.strength", 0.5).magnet_strength, 0.5);
+    same(at("magnet[1].position_mm[1]", 7.0).magnet.position.x, 0.007);
 }
 
 #[test]

@@ -153,8 +153,9 @@ fn what_nothing_can_keep_to_is_refused_with_a_reason() {
     );
     let elsewhere = Limits { workspace: Some([low, Vector3::zeros()]), ..fine() };
     assert!(new(&magnet, &POSE, elsewhere).contains("edge of its workspace"));
-    assert!(Move::named("coil.current").unwrap_err().to_string().contains("cannot be moved"));
-    assert_eq!(Move::named("magnet.strength").unwrap().name(), "magnet.strength");
+    let refused = Move::named("coil.current", &magnet).unwrap_err().to_string();
+    assert_eq!(refused, "`coil.current` cannot be moved: the scene has no coil");
+    assert_eq!(Move::named("magnet.strength", &magnet).unwrap()[0].name(), "magnet.strength");
     let mut steering = Steering::new(&magnet, &POSE, fine()).unwrap();
     let mut to = |target: Target| steering.to(&target).unwrap_err().to_string();
     assert_eq!(to(Target::default()), "the target asks for nothing");

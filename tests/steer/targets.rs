@@ -62,6 +62,27 @@ fn a_uniform_field_gives_the_angle_of_the_forward_solve() {
 }
 
 #[test]
+fn currents_through_eight_coils_lead_the_tip() {
+    let text = include_str!("../../fmu/examples/eight_coils.toml");
+    let scene = Scene::parse(&format!("{text}\n[model]\ninteraction = \"rings\""), "coils").unwrap();
+    // The tip that known currents give.
+    let mut known = scene.inputs.clone();
+    for (number, coil) in known.further.iter_mut().enumerate() {
+        coil.strength = [3.0, -2.0, 1.0, 4.0, -1.0, 2.0, 0.5, -3.0][number];
+    }
+    let goal = scene.manipulator(2).unwrap().solve(&known).unwrap().tip;
+    let moves = Move::named("coil.current", &scene).unwrap();
+    assert_eq!(moves.len(), 8);
+    let mut steering = Steering::new(&scene, &moves, Limits::default()).unwrap();
+    let start = (steering.outputs().tip.position - goal.position).norm();
+    assert!(start > 1e-4, "{start}");
+    let target = Target { position: Some(goal.position), direction: Some(goal.axis()), ..Target::default() };
+    reached(&steering.to(&target).unwrap());
+    let found = scene.manipulator(2).unwrap().solve(steering.inputs()).unwrap().tip;
+    assert!((found.position - goal.position).norm() < 1.1e-6, "{found:?}");
+}
+
+#[test]
 fn a_straight_device_begins_to_bend() {
     let text = "[design]\nsegments = 3\n[model]\ninteraction = \"rings\"";
     let scene = Scene::parse(text, "straight").unwrap();

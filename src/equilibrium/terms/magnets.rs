@@ -42,7 +42,7 @@ impl<'a> Magnets<'a> {
     /// Evaluates the field of each at the material of `stations` at their poses; `None` inside one.
     pub(crate) fn fields_at<'s>(
         &self,
-        stations: impl Iterator<Item = (&'s Station, Pose)> + Clone,
+        stations: &(impl Iterator<Item = (&'s Station, Pose)> + Clone),
         order: Order,
         out: &mut [StationFields],
     ) -> Option<()> {

@@ -12,6 +12,7 @@ pub(super) fn keys(moves: &[Move]) -> Vec<String> {
         Move::MagnetStrength => vec!["magnet.strength".into()],
         Move::UniformField => numbered("field.uniform_mt", 3),
         Move::Insertion => vec!["feed.insertion_mm".into()],
+        Move::CoilCurrent { coil, .. } => vec![format!("coil[{}].current_a", coil + 1)],
     };
     moves.iter().flat_map(each).collect()
 }
@@ -24,6 +25,7 @@ pub(super) fn values(moves: &[Move], inputs: &Inputs) -> Vec<f64> {
         Move::MagnetStrength => vec![inputs.magnet_strength],
         Move::UniformField => (inputs.uniform_field * 1e3).as_slice().to_vec(),
         Move::Insertion => vec![inputs.insertion * 1e3],
+        Move::CoilCurrent { source, .. } => vec![inputs.further[*source].strength],
     };
     moves.iter().flat_map(each).collect()
 }

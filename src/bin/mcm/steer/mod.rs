@@ -20,7 +20,7 @@ use super::sweep::{Columns, Row, Way};
 
 const MM_PER_M: f64 = 1e3;
 
-/// Brings the tip to a target by moving the magnet, the field or the shaft, along a way without a snap
+/// Brings the tip to a target by moving the magnet, the field, the shaft or currents, along a way without a snap
 #[derive(clap::Args)]
 #[command(
     group(clap::ArgGroup::new("aim").required(true).multiple(true)
@@ -58,7 +58,7 @@ pub(crate) struct Steer {
     /// With --to: number of random inputs tried where the straight way snaps
     #[arg(long, value_name = "N", default_value_t = 200)]
     tries: usize,
-    /// What may move: magnet.position, magnet.orientation, magnet.strength, field.uniform, feed.insertion
+    /// What may move: magnet.position, magnet.orientation, magnet.strength, field.uniform, feed.insertion, coil.current
     #[arg(long = "move", value_name = "INPUT,...", value_delimiter = ',', required = true)]
     moves: Vec<String>,
     /// Least gap between the magnet and the device, mm
@@ -117,8 +117,9 @@ impl Steer {
         let read: Vec<_> = read.into_iter().map(PathBuf::as_path).collect();
         let written: Vec<_> = self.out.iter().map(PathBuf::as_path).collect();
         refuse_same(&read, &written)?;
-        let moves = self.moves.iter().map(|name| Move::named(name)).collect::<Result<Vec<_>, _>>()?;
         let scene = read_scene(&self.scene)?.scene()?;
+        let moves =
+            self.moves.iter().map(|name| Move::named(name, &scene)).collect::<Result<Vec<_>, _>>()?.concat();
         let mut table = self.out.as_deref().map(Table::at).transpose()?;
         let columns = Columns::of(&scene);
         if let Some(table) = &mut table {
@@ -223,6 +224,9 @@ fn goal_of(steering: &Steering, goal: &Scene, moves: &[Move]) -> mcm::manipulato
             Move::MagnetStrength => inputs.magnet_strength = goal.inputs.magnet_strength,
             Move::UniformField => inputs.uniform_field = goal.inputs.uniform_field,
             Move::Insertion => inputs.insertion = goal.inputs.insertion,
+            Move::CoilCurrent { source, .. } => {
+                inputs.further[*source].strength = goal.inputs.further[*source].strength;
+            }
         }
     }
     inputs
