@@ -35,7 +35,7 @@ pub struct Inputs {
     pub magnet: Pose,
     /// Factor on the assembly's field; 0 switches it off.
     pub magnet_strength: f64,
-    /// Further magnets, then coils, in the order of [`super::Sources::further`]; one for each of them.
+    /// Further magnets, then coils, in the order of [`crate::magnetics::Sources::further`]; one for each of them.
     pub further: Vec<PlacedSource>,
     /// Uniform background field, T.
     pub uniform_field: Vector3<f64>,
