@@ -45,7 +45,7 @@ impl Placed<'_> {
     /// The deepest contact; `section` gives the pose of an element's section at an arc length (m) from the element's
     /// start.
     ///
-    /// Contact among rings is tested where rings interact. A magnet or coil of strength 0 counts as absent.
+    /// Contact among rings is tested where rings interact. A magnet of strength 0 counts as absent.
     pub(crate) fn contact(
         &self,
         settings: &Settings,
@@ -58,7 +58,8 @@ impl Placed<'_> {
             self.among_rings(&mut deepest);
         }
         for (number, assembly) in sources.numbered() {
-            if let Some(placed) = inputs.source(number).filter(|placed| placed.strength != 0.0) {
+            let placed = inputs.source(number);
+            if let Some(placed) = placed.filter(|placed| sources.is_there(number, placed.strength)) {
                 self.with_source((sources.name(number), assembly, &placed.pose), &section, &mut deepest);
             }
         }

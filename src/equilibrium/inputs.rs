@@ -248,9 +248,11 @@ impl Inputs {
         let (given, needed) = (self.further.len(), sources.further().len());
         if given == needed {
             return sources.check_apart(|number| {
-                let pose = self.source(number)?.pose;
-                let known = before.and_then(|before| before.source(number));
-                Some((pose, known.is_none_or(|known| known.pose != pose)))
+                let here = |inputs: &Self| {
+                    inputs.source(number).filter(|source| sources.is_there(number, source.strength))
+                };
+                let pose = here(self)?.pose;
+                Some((pose, before.and_then(here).is_none_or(|known| known.pose != pose)))
             });
         }
         let expected = format!("{needed}, one for each further magnet and coil");

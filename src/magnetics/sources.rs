@@ -85,7 +85,14 @@ impl Sources {
         }
     }
 
-    /// Checks that no two sources overlap; `at` gives the pose of each, and whether it may have moved since the last check.
+    /// Whether the source of this number is in the way of others: a coil always, a magnet unless its strength is 0.
+    #[must_use]
+    pub fn is_there(&self, number: usize, strength: f64) -> bool {
+        strength != 0.0 || matches!(self.name(number), SourceName::Coil(_))
+    }
+
+    /// Checks that no two sources overlap; `at` gives the pose of each that is there, and whether it may have
+    /// moved since the last check.
     ///
     /// # Errors
     /// [`Error::Unsupported`] naming two that overlap.

@@ -107,6 +107,10 @@ fn sources_that_overlap_are_refused_wherever_they_move() {
     assert_eq!(device.solve(&at(0.2)).unwrap().status, Status::Solved);
     let message = device.solve(&at(0.02)).unwrap_err().to_string();
     assert!(message.starts_with("the external magnet and magnet 2 overlap by "), "{message}");
+    let mut off = at(0.02);
+    off.further[0].strength = 0.0;
+    assert_eq!(device.solve(&off).unwrap().status, Status::Solved, "as if it were not there");
+    assert!(device.solve(&at(0.02)).is_err(), "switched on");
     assert_eq!(device.solve(&at(0.2)).unwrap().status, Status::Solved);
     let message = device.solve(&beside()).unwrap_err().to_string();
     assert!(message.contains("one for each further magnet and coil"), "{message}");
@@ -122,9 +126,11 @@ fn a_device_passes_through_the_bore_of_a_coil_and_touches_its_winding() {
     };
     assert_eq!(device.solve(&around(0.0, 2.0)).unwrap().status, Status::Solved);
     device.reset();
-    let out = device.solve(&around(0.03, 2.0)).unwrap();
-    let Outcome::Contact(contact) = out.outcome else { panic!("{:?}", out.outcome) };
-    assert!(contact.to_string().ends_with("coil 1"), "{contact}");
+    for current in [2.0, 0.0] {
+        let out = device.solve(&around(0.03, current)).unwrap();
+        let Outcome::Contact(contact) = out.outcome else { panic!("{:?}", out.outcome) };
+        assert!(contact.to_string().ends_with("coil 1"), "{contact}");
+    }
 }
 
 const SCENE: &str = "[design]

@@ -86,8 +86,13 @@ impl SceneFile {
             settings,
             solver,
         };
-        let placed = |number| Some((scene.inputs.source(number)?.pose, true));
-        scene.sources()?.check_apart(placed)?;
+        let sources = scene.sources()?;
+        sources.check_apart(|number| {
+            let placed = scene.inputs.source(number);
+            placed
+                .filter(|placed| sources.is_there(number, placed.strength))
+                .map(|placed| (placed.pose, true))
+        })?;
         Ok(scene)
     }
 
