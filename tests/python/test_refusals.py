@@ -72,15 +72,15 @@ def test_quaternion_that_is_no_rotation(device: Device) -> None:
 
 
 def test_call_in_the_wrong_state(device: Device) -> None:
-    assert "Instantiated" in refused(device, "doStep", 0.0, 0.1)
-    assert "Instantiated" in refused(device, "getReal", [0])
-    assert "Instantiated" in refused(device, "exitInitializationMode")
+    assert "before initialisation" in refused(device, "doStep", 0.0, 0.1)
+    assert "before initialisation" in refused(device, "getReal", [0])
+    assert "before initialisation" in refused(device, "exitInitializationMode")
     device.start()
-    assert "Stepping" in refused(device, "enterInitializationMode")
-    assert "Stepping" in refused(device, "setReal", device.references(["design.helix.length"]), [0.005])
+    assert "between communication steps" in refused(device, "enterInitializationMode")
+    assert "between communication steps" in refused(device, "setReal", device.references(["design.helix.length"]), [0.005])
     device.step(0.1)
     device.slave.terminate()
-    assert "Terminated" in refused(device, "doStep", 0.1, 0.1)
+    assert "after termination" in refused(device, "doStep", 0.1, 0.1)
 
 
 def test_design_that_cannot_be_built(device: Device) -> None:
