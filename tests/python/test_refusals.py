@@ -77,7 +77,9 @@ def test_call_in_the_wrong_state(device: Device) -> None:
     assert "before initialisation" in refused(device, "exitInitializationMode")
     device.start()
     assert "between communication steps" in refused(device, "enterInitializationMode")
-    assert "between communication steps" in refused(device, "setReal", device.references(["design.helix.length"]), [0.005])
+    assert "between communication steps" in refused(
+        device, "setReal", device.references(["design.helix.length"]), [0.005]
+    )
     device.step(0.1)
     device.slave.terminate()
     assert "after termination" in refused(device, "doStep", 0.1, 0.1)
