@@ -1,5 +1,6 @@
 """The field of a thick coil in high precision, and how far thin sheets of magpylib are from it.
 
+    fmu/venv tests/bench/requirements.txt
     .venv/bin/python tests/bench/coil_field.py --out tests/magnetics/coil.csv
 
 Each point's field is the integral of the fields of current loops (Smythe, Static and Dynamic Electricity,
