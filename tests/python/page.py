@@ -17,6 +17,9 @@ SHOTS = PACKAGE / "target" / "live"
 LAPTOP = (1366, 768)
 PHONE = (390, 844)
 
+# `solver.status` where inputs have no answer.
+NOT_SOLVED = 3
+
 # Time that the slowest thing a test waits for may take on a loaded machine without a graphics card, s.
 PATIENCE = 60
 
@@ -63,8 +66,13 @@ class Page:
         return state
 
     def at_rest(self) -> dict:
-        """Waits until the model that is asked for has answered the inputs of now."""
-        return self.until("at rest", lambda s: s["status"] >= 0 and not s["busy"] and s["final"])
+        """Waits until the model that is asked for has answered the inputs of now, with the margin measured."""
+
+        def rests(state: dict) -> bool:
+            last = state["measured"] or state["status"] == NOT_SOLVED
+            return state["status"] >= 0 and not state["busy"] and state["final"] and last
+
+        return self.until("at rest", rests)
 
     def find(self, name: str) -> WebElement:
         """The element with this id."""

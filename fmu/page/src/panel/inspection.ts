@@ -12,6 +12,8 @@ export interface State {
     outputs: Record<string, number>;
     /** Whether the newest answer is by the model that the scene asks for. */
     final: boolean;
+    /** Whether its stability margin is measured; it is an upper bound before. */
+    measured: boolean;
     /** `solver.status`; -1 before the first answer. */
     status: number;
     /** Level that answered. */
@@ -55,6 +57,7 @@ export function inspectionOf(session: Session, view: View): Inspection {
                 inputs: named(description?.inputs, inputs),
                 outputs: named(description?.outputs, answer?.outputs),
                 final: answer?.final ?? false,
+                measured: answer?.measured ?? false,
                 status: answer?.status ?? -1,
                 level: answer?.level ?? "",
                 busy,
