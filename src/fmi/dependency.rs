@@ -25,8 +25,10 @@ pub enum Known {
 pub enum Dependency {
     /// Through the equilibrium: on everything but the force on a clamped ring.
     Equilibrium,
-    /// As a reaction of the clamp: on everything.
-    ClampReaction,
+    /// As the force of the clamp: on everything; the force on a clamped ring is taken from it as it is.
+    ClampForce,
+    /// As the moment of the clamp: on everything.
+    ClampMoment,
     /// As the first point of the centreline, which is the position of the base.
     BasePoint,
     /// As the centre of a clamped ring: on the pose of the base and the length of the ring.
@@ -64,11 +66,12 @@ impl Dependency {
     #[must_use]
     pub fn on(self, known: Known, same_component: bool) -> Option<DependencyKind> {
         let depends = match (self, known) {
-            (Self::BasePoint | Self::ClampedCentre, Known::BasePosition) => {
+            (Self::BasePoint | Self::ClampedCentre, Known::BasePosition)
+            | (Self::ClampForce, Known::ClampedRingForce) => {
                 return same_component.then_some(DependencyKind::Constant);
             }
             (Self::Equilibrium, known) => known != Known::ClampedRingForce,
-            (Self::ClampReaction, _) => true,
+            (Self::ClampForce | Self::ClampMoment, _) => true,
             (Self::BasePoint, _) => false,
             (Self::ClampedCentre, known) => matches!(known, Known::BaseOrientation | Known::RingLength),
             (Self::ClampedAxis, known) => known == Known::BaseOrientation,

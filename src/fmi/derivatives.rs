@@ -172,7 +172,7 @@ fn beside(
             parameter.name
         )));
     }
-    let number = Number { value, usual: quantity.nominal.unwrap_or(1.0) };
+    let number = Number { value, usual: quantity.nominal };
     manipulator.outputs_beside(number, |value| {
         let mut varied = values.clone();
         parameter.set(&mut varied, Value::Real(value))?;

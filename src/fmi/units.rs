@@ -21,8 +21,24 @@ pub struct Quantity {
     /// Description for people.
     pub description: &'static str,
     /// Magnitude of a typical value, in the unit.
-    pub nominal: Option<f64>,
+    pub nominal: f64,
+    /// What the elements of an array of it are, and in which frame; empty where arrays of it are mere lists.
+    pub elements: &'static [&'static str],
 }
+
+/// A vector in the world frame.
+const VECTOR: &[&str] = &["x, world frame", "y, world frame", "z, world frame"];
+/// A quaternion that turns vectors of a body into those of the world.
+const ROTATION: &[&str] =
+    &["w (scalar), body to world", "x, body to world", "y, body to world", "z, body to world"];
+/// The gradient of a field without sources: symmetric and without trace, so five elements tell all nine.
+const SYMMETRIC: &[&str] = &[
+    "dBx/dx, world frame",
+    "dBx/dy = dBy/dx, world frame",
+    "dBx/dz = dBz/dx, world frame",
+    "dBy/dy, world frame",
+    "dBy/dz = dBz/dy, world frame",
+];
 
 const DEGREES_PER_RADIAN: f64 = 180.0 / core::f64::consts::PI;
 
@@ -45,48 +61,60 @@ pub const UNITS: &[Unit] = &[
 const fn quantity(
     name: &'static str,
     unit: &'static str,
-    nominal: Option<f64>,
+    nominal: f64,
     description: &'static str,
 ) -> Quantity {
-    Quantity { name, unit, description, nominal }
+    Quantity { name, unit, description, nominal, elements: &[] }
+}
+
+impl Quantity {
+    /// The same, where arrays of it have these elements.
+    const fn with(self, elements: &'static [&'static str]) -> Self {
+        Self { elements, ..self }
+    }
 }
 
 /// Position in the world frame, m.
-pub const POSITION: Quantity = quantity("Position", "m", Some(0.01), "Position in the world frame");
+pub const POSITION: Quantity = quantity("Position", "m", 0.01, "Position in the world frame").with(VECTOR);
 /// Length, m.
-pub const LENGTH: Quantity = quantity("Length", "m", Some(0.001), "Length");
+pub const LENGTH: Quantity = quantity("Length", "m", 0.001, "Length");
 /// Angle, rad.
-pub const ANGLE: Quantity = quantity("Angle", "rad", Some(1.0), "Angle");
+pub const ANGLE: Quantity = quantity("Angle", "rad", 1.0, "Angle");
 /// Component of a unit quaternion, 1.
 pub const QUATERNION: Quantity =
-    quantity("Quaternion", "1", None, "Component of a unit quaternion w, x, y, z, body to world");
+    quantity("Quaternion", "1", 1.0, "Component of a unit quaternion w, x, y, z, body to world")
+        .with(ROTATION);
 /// Component of a unit vector, 1.
-pub const DIRECTION: Quantity = quantity("Direction", "1", None, "Component of a unit vector, world frame");
+pub const DIRECTION: Quantity =
+    quantity("Direction", "1", 1.0, "Component of a unit vector, world frame").with(VECTOR);
 /// Dimensionless number, 1.
-pub const RATIO: Quantity = quantity("Ratio", "1", None, "Dimensionless number");
+pub const RATIO: Quantity = quantity("Ratio", "1", 1.0, "Dimensionless number");
 /// Shore A hardness, 1.
-pub const HARDNESS: Quantity = quantity("ShoreA", "1", Some(10.0), "Shore A hardness");
+pub const HARDNESS: Quantity = quantity("ShoreA", "1", 10.0, "Shore A hardness");
 /// Magnetic flux density, T.
-pub const FIELD: Quantity = quantity("FluxDensity", "T", Some(0.01), "Magnetic flux density, world frame");
+pub const FIELD: Quantity =
+    quantity("FluxDensity", "T", 0.01, "Magnetic flux density, world frame").with(VECTOR);
 /// Remanence, T.
-pub const REMANENCE: Quantity = quantity("Remanence", "T", Some(1.0), "Remanent flux density along the axis");
+pub const REMANENCE: Quantity = quantity("Remanence", "T", 1.0, "Remanent flux density along the axis");
 /// Gradient of the magnetic flux density, T/m.
 pub const GRADIENT: Quantity =
-    quantity("FieldGradient", "T/m", Some(1.0), "Gradient of the magnetic flux density, world frame");
+    quantity("FieldGradient", "T/m", 1.0, "Gradient of the magnetic flux density, world frame")
+        .with(SYMMETRIC);
 /// Force, N.
-pub const FORCE: Quantity = quantity("Force", "N", Some(0.01), "Force, world frame");
+pub const FORCE: Quantity = quantity("Force", "N", 0.01, "Force, world frame").with(VECTOR);
 /// Moment or torque, N.m.
-pub const MOMENT: Quantity = quantity("Moment", "N.m", Some(0.001), "Moment or torque, world frame");
+pub const MOMENT: Quantity = quantity("Moment", "N.m", 0.001, "Moment or torque, world frame").with(VECTOR);
 /// Acceleration, m/s2.
-pub const ACCELERATION: Quantity = quantity("Acceleration", "m/s2", Some(10.0), "Acceleration, world frame");
+pub const ACCELERATION: Quantity =
+    quantity("Acceleration", "m/s2", 10.0, "Acceleration, world frame").with(VECTOR);
 /// Young's modulus, Pa.
-pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", Some(1e6), "Young's modulus");
+pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", 1e6, "Young's modulus");
 /// Density, kg/m3.
-pub const DENSITY: Quantity = quantity("Density", "kg/m3", Some(1000.0), "Mass per volume");
+pub const DENSITY: Quantity = quantity("Density", "kg/m3", 1000.0, "Mass per volume");
 /// Electric current, A.
-pub const CURRENT: Quantity = quantity("Current", "A", Some(1.0), "Electric current");
+pub const CURRENT: Quantity = quantity("Current", "A", 1.0, "Electric current");
 /// Processor time, s.
-pub const TIME: Quantity = quantity("ProcessorTime", "s", Some(1.0), "Processor time");
+pub const TIME: Quantity = quantity("ProcessorTime", "s", 1.0, "Processor time");
 
 /// All quantities, in the order of the model description.
 pub const QUANTITIES: &[Quantity] = &[

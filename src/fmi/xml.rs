@@ -136,10 +136,10 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
     for quantity in QUANTITIES {
         let attributes = [("name", quantity.name), ("description", quantity.description)];
         within(xml, "SimpleType", &attributes, |xml| {
-            let nominal = quantity.nominal.map(number);
+            let nominal = number(quantity.nominal);
             let mut real = vec![("quantity", quantity.name), ("unit", quantity.unit)];
             real.extend(display_unit(quantity.unit).map(|unit| ("displayUnit", unit)));
-            real.extend(nominal.as_deref().map(|nominal| ("nominal", nominal)));
+            real.push(("nominal", &nominal));
             empty(xml, "Real", &real)
         })?;
     }

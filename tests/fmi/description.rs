@@ -109,6 +109,29 @@ fn a_load_on_a_clamped_ring_reaches_the_clamp_only() {
     assert!(!depends("shape.arc_length[2]", "magnet.strength"));
 }
 
+#[test]
+fn elements_of_vectors_say_what_they_are_and_in_which_frame() {
+    let described = |name: &str| {
+        let package = Package::new("[design]\nsegments = 3", "three", 3).unwrap();
+        let table = package.table();
+        table.find(table.reference(name).unwrap()).unwrap().description.clone()
+    };
+    for (name, element) in [
+        ("magnet.position[2]", "y, world frame"),
+        ("magnet.orientation[1]", "w (scalar), body to world"),
+        ("base.orientation[4]", "z, body to world"),
+        ("field.gradient[5]", "dBy/dz = dBz/dy, world frame"),
+        ("ring[2].load_force[3]", "z, world frame"),
+        ("tip.position[1]", "x, world frame"),
+        ("gravity[2]", "y, world frame"),
+    ] {
+        let description = described(name);
+        assert!(description.ends_with(&format!(": {element}")), "{name}: {description}");
+    }
+    // A list of three angles is no vector.
+    assert!(!described("design.spiral_start[3]").contains("frame"));
+}
+
 /// Names of the inputs and parameters on which a variable depends, with the kind of each dependency.
 fn dependencies(scene: &str, output: &str) -> Vec<(String, &'static str)> {
     let package = Package::new(scene, "test scene", 3).unwrap();
@@ -142,7 +165,12 @@ fn an_output_that_the_equilibrium_does_not_move_depends_on_what_it_is_made_of() 
         let found: Vec<_> = found.iter().map(|(name, kind)| (name.as_str(), *kind)).collect();
         assert_eq!(found, expected, "{output}");
     }
-    let all = dependencies(chain, "base.reaction_force[1]").len();
+    let reaction = dependencies(chain, "base.reaction_force[1]");
+    let constant: Vec<_> = reaction.iter().filter(|(_, kind)| *kind == "constant").collect();
+    assert_eq!(constant, [&("ring[1].load_force[1]".to_owned(), "constant")]);
+    assert!(dependencies(chain, "base.reaction_moment[1]").iter().all(|(_, kind)| *kind == "dependent"));
+    let all = dependencies(chain, "base.reaction_moment[1]").len();
+    assert_eq!(reaction.len(), all - 2, "the force across does not act on this component");
     assert_eq!(dependencies(chain, "tip.angle").len(), all - 3, "all but the force on the clamped ring");
     assert_eq!(dependencies(chain, "ring[2].position[1]").len(), all - 3);
     let all = dependencies(free, "base.reaction_force[1]").len();

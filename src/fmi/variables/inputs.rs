@@ -15,7 +15,8 @@ impl Rows {
         self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::MagnetPosition)));
 
         let orientation = access!(|values, index| values.magnet.orientation[index.component]);
-        let description = "Orientation of the external magnet assembly, whose dipole axis is its z: unit quaternion w, x, y, z";
+        let description =
+            "Orientation of the external magnet assembly, whose dipole axis is its z, as a unit quaternion";
         let draft = Draft::input("magnet.orientation", QUATERNION, description, orientation);
         self.array(4, &draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation)));
 
@@ -29,7 +30,7 @@ impl Rows {
         self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::UniformField)));
 
         let gradient = access!(|values, index| values.field_gradient[index.component]);
-        let description = "dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz of a linear field about the world origin";
+        let description = "Gradient of a linear field about the world origin";
         let draft = Draft::input("field.gradient", GRADIENT, description, gradient);
         self.array(5, &draft.derivative_role(DerivativeRole::Input(Input::FieldGradient)));
 
@@ -44,7 +45,7 @@ impl Rows {
         self.array(3, &draft.known(Known::BasePosition));
 
         let orientation = access!(|values, index| values.base.orientation[index.component]);
-        let description = "Orientation of the clamped base: unit quaternion w, x, y, z";
+        let description = "Orientation of the clamped base as a unit quaternion";
         let draft = Draft::input("base.orientation", QUATERNION, description, orientation);
         let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::BaseRotation));
         self.array(4, &draft.known(Known::BaseOrientation));

@@ -77,7 +77,7 @@ impl Rows {
         let orientation = real(
             "tip.orientation",
             QUATERNION,
-            "Orientation of the tip: unit quaternion w, x, y, z with w >= 0",
+            "Orientation of the tip as a unit quaternion with w >= 0",
             |o, index| o.tip.quaternion()[index.component],
         );
         self.array(4, &orientation.continuous(DerivativeRole::TipQuaternion));
@@ -100,13 +100,13 @@ impl Rows {
         let draft = real("base.reaction_force", FORCE, description, |o, index| {
             o.base_reaction_force[index.component]
         });
-        vector(draft.dependency(Dependency::ClampReaction), Output::BaseReactionForce);
+        vector(draft.dependency(Dependency::ClampForce), Output::BaseReactionForce);
 
         let description = "Moment that the clamp exerts about the base position";
         let draft = real("base.reaction_moment", MOMENT, description, |o, index| {
             o.base_reaction_moment[index.component]
         });
-        vector(draft.dependency(Dependency::ClampReaction), Output::BaseReactionMoment);
+        vector(draft.dependency(Dependency::ClampMoment), Output::BaseReactionMoment);
 
         let description = "Force on the external magnet";
         let draft = real("magnet.reaction_force", FORCE, description, |o, index| {

@@ -145,8 +145,15 @@ impl Rows {
     /// The variables `name[1]` to `name[length]` that belong to body `item`.
     pub(super) fn array_of(&mut self, item: usize, length: usize, draft: &Draft) {
         for component in 0..length {
-            let name = format!("{}[{}]", draft.0.name, component + 1);
-            self.component_of(item, component, draft.clone().with(|row| row.name = name));
+            let named = draft.clone().with(|row| {
+                row.name = format!("{}[{}]", row.name, component + 1);
+                if let DataType::Real(quantity) = row.data_type
+                    && let Some(element) = quantity.elements.get(component)
+                {
+                    row.description = format!("{}: {element}", row.description);
+                }
+            });
+            self.component_of(item, component, named);
         }
     }
 

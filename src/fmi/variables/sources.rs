@@ -35,8 +35,7 @@ impl Rows {
 
             let orientation =
                 access!(|values, index| values.further[index.item].pose.orientation[index.component]);
-            let description =
-                format!("Orientation of the {what}, whose axis is its z: unit quaternion w, x, y, z");
+            let description = format!("Orientation of the {what}, whose axis is its z, as a unit quaternion");
             let draft = Draft::input(format!("{name}.orientation"), QUATERNION, &description, orientation);
             let role = DerivativeRole::InputQuaternion(Input::SourceRotation(number));
             self.array_of(number, 4, &draft.derivative_role(role));
