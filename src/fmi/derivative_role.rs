@@ -9,6 +9,13 @@ pub enum DerivativeRole {
     None,
     /// An output that no input changes, so that its derivatives are 0.
     Unaffected,
+    /// A share `part / of` of the length of shaft that is inside the port.
+    ShareOfFeed {
+        /// Its numerator.
+        part: usize,
+        /// Its denominator.
+        of: usize,
+    },
     /// A component of an input of the manipulator.
     Input(Input),
     /// A component of the quaternion that describes this rotation.
@@ -29,6 +36,6 @@ impl DerivativeRole {
     /// Whether the variable is an output that has derivatives.
     #[must_use]
     pub fn is_unknown(self) -> bool {
-        matches!(self, Self::Unaffected | Self::Output(_) | Self::TipQuaternion)
+        matches!(self, Self::Unaffected | Self::ShareOfFeed { .. } | Self::Output(_) | Self::TipQuaternion)
     }
 }

@@ -52,6 +52,10 @@ pub(super) fn output_derivative(
     let component = variable.index.component;
     match variable.derivative_role {
         DerivativeRole::Unaffected => Some(0.0),
+        #[expect(clippy::cast_precision_loss, reason = "a centreline has far fewer points than 2^53")]
+        DerivativeRole::ShareOfFeed { part, of } => {
+            Some(rows(Output::FeedLength)?.first()? * part as f64 / of as f64)
+        }
         DerivativeRole::Output(output) => rows(output)?.get(component).copied(),
         DerivativeRole::TipQuaternion => {
             let spin = nalgebra::Vector3::from_column_slice(rows(Output::TipRotation)?);

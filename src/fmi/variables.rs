@@ -48,6 +48,8 @@ pub struct Counts {
     pub cores: usize,
     /// Points of the centreline among the outputs.
     pub shape_points: usize,
+    /// Whether the device sits on a shaft.
+    pub shaft: bool,
     /// Whether the first ring is clamped.
     pub clamped_ring: bool,
 }
@@ -81,7 +83,9 @@ impl Table {
             rings: design.rings().count(),
             cores: spans.filter(|span| span.kind != SpanKind::Disc).count(),
             shape_points,
-            clamped_ring: design.base_ring().is_some(),
+            shaft: start.shaft.is_some(),
+            // On a shaft the ring moves.
+            clamped_ring: design.base_ring().is_some() && start.shaft.is_none(),
         };
         let mut rows = Rows::default();
         rows.inputs(&counts);

@@ -190,11 +190,28 @@ def test_description_says_what_hosts_ask_for(default: Archive) -> None:
         assert all(item.get("description") for item in items)
 
 
-def test_dependencies_are_honest(default: Archive) -> None:
+SHAFT = """[design]
+segments = 2
+[model]
+interaction = "rings"
+[feed]
+mode = "insertion"
+insertion_mm = 4.0
+[feed.shaft]
+outer_radius_mm = 0.75
+inner_radius_mm = 0.25
+elastic_modulus_mpa = 1.0
+poisson = 0.45
+"""
+
+
+@pytest.mark.parametrize("scene", [None, SHAFT], ids=["clamped", "on a shaft"])
+def test_dependencies_are_honest(pack: Callable[..., Archive], scene: str | None) -> None:
     """What the description calls independent has no derivative, and a constant factor is one."""
-    device = Device(default).start()
+    archive = pack(scene)
+    device = Device(archive).start()
     device.set({"field.uniform[1]": 0.002, "tip.load_force[3]": 0.001})
-    variables = list(default.variables.values())
+    variables = list(archive.variables.values())
     inputs = [v.name for v in variables if v.causality == "input"]
     outputs = [v.name for v in variables if v.causality == "output" and v.variability == "continuous"]
     columns = {}
@@ -202,7 +219,7 @@ def test_dependencies_are_honest(default: Archive) -> None:
         arguments = device.references(outputs), device.references([name]), [1.0]
         columns[name] = dict(zip(outputs, device.slave.getDirectionalDerivative(*arguments), strict=True))
     checked = constant = 0
-    for unknown in tree(default).find("ModelStructure/Outputs"):
+    for unknown in tree(archive).find("ModelStructure/Outputs"):
         output = variables[int(unknown.get("index")) - 1].name
         known = [variables[int(index) - 1].name for index in unknown.get("dependencies").split()]
         kinds = dict(zip(known, (unknown.get("dependenciesKind") or "").split(), strict=False))
@@ -218,8 +235,26 @@ def test_dependencies_are_honest(default: Archive) -> None:
                 factor = -1.0 if output.startswith("base.reaction_force") else 1.0
                 assert derivative == pytest.approx(factor, abs=1e-12), (output, name)
                 constant += 1
-    assert checked > 1000
-    assert constant >= 9, "three of the first point, of the first ring's centre and of the clamp's force each"
+    # Of the first point, and of the centre and the clamp's force of the first ring, three each. On a shaft nothing is
+    # clamped, and all outputs depend on all inputs.
+    assert constant == (0 if scene else 9)
+    assert (checked > 1000) == (scene is None)
+    device.slave.freeInstance()
+
+
+def test_the_shape_of_a_shaft_moves_with_the_insertion(pack: Callable[..., Archive]) -> None:
+    """Its points stand at equal parts of a length that grows, and derivatives say so."""
+    device = Device(pack(SHAFT)).start()
+    outputs = [f"shape.arc_length[{k}]" for k in (1, 5, 21)] + [f"shape.position[{k},3]" for k in (5, 21)]
+    arguments = device.references(outputs), device.references(["feed.insertion"]), [1.0]
+    derivatives = device.slave.getDirectionalDerivative(*arguments)
+    sides = []
+    for insertion in (0.0039, 0.0041):
+        device.set({"feed.insertion": insertion})
+        sides.append(device.get(outputs))
+    differences = [(after - before) / 0.0002 for before, after in zip(*sides, strict=True)]
+    assert differences[1] == pytest.approx(0.2, abs=1e-9)
+    assert derivatives == pytest.approx(differences, abs=1e-6)
     device.slave.freeInstance()
 
 

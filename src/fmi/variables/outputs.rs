@@ -127,7 +127,9 @@ impl Rows {
 
     fn centreline(&mut self, counts: &Counts) {
         for point in 0..counts.shape_points {
-            let dependency = if point == 0 { Dependency::BasePoint } else { Dependency::Equilibrium };
+            // With a shaft, the port's place in the shape is the sum of many parts.
+            let fixed = point == 0 && !counts.shaft;
+            let dependency = if fixed { Dependency::BasePoint } else { Dependency::Equilibrium };
             for component in 0..3 {
                 // Point and component are two indices of one array.
                 let name = format!("shape.position[{},{}]", point + 1, component + 1);
@@ -142,8 +144,13 @@ impl Rows {
             let name = format!("shape.arc_length[{}]", point + 1);
             let description = "Unstrained arc length of a centreline point from the base";
             let length = real(name, LENGTH, description, |o, index| o.shape_arc_length[index.item]).min(0.0);
-            let length = length.continuous(DerivativeRole::Unaffected);
-            self.scalar_of(point, length.dependency(Dependency::Lengths));
+            let (role, dependency) = if counts.shaft {
+                let of = counts.shape_points - 1;
+                (DerivativeRole::ShareOfFeed { part: point, of }, Dependency::Equilibrium)
+            } else {
+                (DerivativeRole::Unaffected, Dependency::Lengths)
+            };
+            self.scalar_of(point, length.continuous(role).dependency(dependency));
         }
     }
 
