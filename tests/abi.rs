@@ -82,6 +82,52 @@ fn a_run_from_instantiate_to_free() {
 }
 
 #[test]
+fn model_exchange_from_instantiate_to_free() {
+    let (guid, functions) = (CString::new(Package::built_in().unwrap().guid()).unwrap(), callbacks(107));
+    let (name, kind) = (c"exchange".as_ptr(), fmi2Type::fmi2ModelExchange);
+    let mut event = fmi2EventInfo {
+        newDiscreteStatesNeeded: 7,
+        terminateSimulation: 7,
+        nominalsOfContinuousStatesChanged: 7,
+        valuesOfContinuousStatesChanged: 7,
+        nextEventTimeDefined: 7,
+        nextEventTime: 7.0,
+    };
+    let (mut enter, mut end, mut none) = (7, 7, [7.0]);
+    let empty: *mut fmi2Real = ptr::null_mut();
+    // SAFETY: texts are zero-terminated, arrays are as long as said, or null.
+    unsafe {
+        let component = fmi2Instantiate(name, kind, guid.as_ptr(), ptr::null(), &raw const functions, 0, 0);
+        initialise(component);
+        assert_eq!(fmi2DoStep(component, 0.0, 0.1, 1), ERROR, "a function of co-simulation");
+        assert_eq!(fmi2EnterEventMode(component), ERROR, "it is there");
+        assert_eq!(fmi2NewDiscreteStates(component, ptr::null_mut()), ERROR);
+        assert_eq!(fmi2NewDiscreteStates(component, &raw mut event), OK);
+        assert_eq!(fmi2EnterContinuousTimeMode(component), OK);
+        assert_eq!(fmi2SetTime(component, 0.1), OK);
+        let (_, still) = get(component, "tip.angle");
+        assert_eq!(set(component, "magnet.position[2]", -0.115), OK);
+        assert_eq!(fmi2GetDerivatives(component, empty, 0), OK);
+        assert_eq!(fmi2GetContinuousStates(component, empty, 0), OK);
+        assert_eq!(fmi2SetContinuousStates(component, ptr::null(), 0), OK);
+        assert_eq!(fmi2GetNominalsOfContinuousStates(component, empty, 0), OK);
+        assert_eq!(fmi2GetEventIndicators(component, empty, 0), OK);
+        assert_eq!(fmi2GetContinuousStates(component, none.as_mut_ptr(), 1), ERROR);
+        assert!(heard(107).pop().unwrap().contains("there are no continuous states"));
+        assert_eq!(fmi2CompletedIntegratorStep(component, 1, ptr::null_mut(), &raw mut end), ERROR);
+        assert_eq!(fmi2CompletedIntegratorStep(component, 1, &raw mut enter, &raw mut end), OK);
+        assert!((get(component, "tip.angle").1 - still).abs() > EFFECT);
+        assert_eq!(fmi2EnterEventMode(component), OK);
+        assert_eq!(fmi2Terminate(component), OK);
+        fmi2FreeInstance(component);
+        none[0] -= 7.0;
+    }
+    assert_eq!((enter, end, event.newDiscreteStatesNeeded, event.nextEventTimeDefined), (0, 0, 0, 0));
+    assert_eq!((event.terminateSimulation, event.valuesOfContinuousStatesChanged), (0, 0));
+    assert!(none[0].to_bits() == 0, "nothing is written where there is nothing");
+}
+
+#[test]
 fn handles_that_are_none_are_errors() {
     for handle in [0, 1_000_000_007, usize::MAX] {
         let component: *mut c_void = ptr::without_provenance_mut(handle);
@@ -150,7 +196,7 @@ fn instantiation_is_refused_with_a_reason() {
     let refused: [(_, _, _, _, &str); 6] = [
         (ptr::null(), kind, own, ptr::null(), "instance name"),
         (c"".as_ptr(), kind, own, ptr::null(), "instance name"),
-        (one, fmi2Type::fmi2ModelExchange, own, ptr::null(), "co-simulation"),
+        (one, fmi2Type(7), own, ptr::null(), "no FMU type 7"),
         (one, kind, ptr::null(), ptr::null(), "GUID is null"),
         (one, kind, c"{wrong}".as_ptr(), ptr::null(), "{wrong}"),
         (one, kind, own, c"http://example.org/".as_ptr(), "file:"),

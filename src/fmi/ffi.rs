@@ -181,6 +181,59 @@ export! { instance
         |instance| instance.do_step(currentCommunicationPoint, communicationStepSize);
 }
 
+// Without continuous states and event indicators every array of model exchange has the length 0.
+export! { instance
+    fmi2EnterEventMode: fmi2EnterEventModeTYPE, EnterEventMode = () |instance| instance.enter_event_mode();
+
+    fmi2NewDiscreteStates: fmi2NewDiscreteStatesTYPE, NewDiscreteStates = (fmi2eventInfo: *mut fmi2EventInfo)
+        where information = output(fmi2eventInfo, 1);
+        |instance| {
+            let nothing_follows = fmi2EventInfo {
+                newDiscreteStatesNeeded: 0,
+                terminateSimulation: 0,
+                nominalsOfContinuousStatesChanged: 0,
+                valuesOfContinuousStatesChanged: 0,
+                nextEventTimeDefined: 0,
+                nextEventTime: 0.0,
+            };
+            information.write_one(nothing_follows, instance.new_discrete_states())
+        };
+
+    fmi2EnterContinuousTimeMode: fmi2EnterContinuousTimeModeTYPE, EnterContinuousTimeMode = ()
+        |instance| instance.enter_continuous_time_mode();
+
+    fmi2CompletedIntegratorStep: fmi2CompletedIntegratorStepTYPE, CompletedIntegratorStep =
+        (_noSetFMUStatePriorToCurrentPoint: fmi2Boolean, enterEventMode: *mut fmi2Boolean,
+         terminateSimulation: *mut fmi2Boolean)
+        where event = output(enterEventMode, 1), end = output(terminateSimulation, 1);
+        |instance| {
+            let snapped = instance.completed_integrator_step();
+            match end.write(snapped.map(|_| vec![0])) {
+                Ending::Ok => event.write(snapped.map(|snapped| vec![c_int::from(snapped)])),
+                failed => failed,
+            }
+        };
+
+    fmi2SetTime: fmi2SetTimeTYPE, SetTime = (time: fmi2Real) |instance| instance.set_time(time);
+
+    fmi2SetContinuousStates: fmi2SetContinuousStatesTYPE, SetContinuousStates = (_x: *const fmi2Real, nx: usize)
+        |instance| instance.expect_none("continuous states", nx);
+
+    fmi2GetContinuousStates: fmi2GetContinuousStatesTYPE, GetContinuousStates = (_x: *mut fmi2Real, nx: usize)
+        |instance| instance.expect_none("continuous states", nx);
+
+    fmi2GetDerivatives: fmi2GetDerivativesTYPE, GetContinuousStates = (_derivatives: *mut fmi2Real, nx: usize)
+        |instance| instance.expect_none("continuous states", nx);
+
+    fmi2GetNominalsOfContinuousStates: fmi2GetNominalsOfContinuousStatesTYPE, GetContinuousStates =
+        (_x_nominal: *mut fmi2Real, nx: usize)
+        |instance| instance.expect_none("continuous states", nx);
+
+    fmi2GetEventIndicators: fmi2GetEventIndicatorsTYPE, GetContinuousStates =
+        (_eventIndicators: *mut fmi2Real, ni: usize)
+        |instance| instance.expect_none("event indicators", ni);
+}
+
 // Every step is finished when `fmi2DoStep` returns: there is none to cancel, and no status of a pending one.
 export! { instance
     fmi2CancelStep: fmi2CancelStepTYPE, CancelStep = () |_instance| Ending::Error;

@@ -27,9 +27,14 @@ pub(super) struct FmuState {
     pub(super) solved_ahead: bool,
     /// Whether the last equilibrium was near a fold: the log tells of the approach once, not at every step.
     pub(super) near_fold: bool,
-    /// Snaps to another branch from initialisation to the last communication point.
+    /// In model exchange: the equilibrium of the last step that the host has accepted. Whatever inputs the host tries, the search
+    /// starts from there, so that no value depends on what else was tried.
+    pub(super) accepted: Option<Manipulator>,
+    /// In model exchange: whether no equilibrium was found for the inputs now set.
+    pub(super) unsolvable: bool,
+    /// Snaps to another branch from initialisation to the last communication point, or to the last accepted step.
     pub(super) snaps: u32,
-    /// Time of the last communication point, s.
+    /// Time of the last communication point, or as the host has set it, s.
     pub(super) time: f64,
 }
 
@@ -45,6 +50,8 @@ impl FmuState {
             solved: false,
             solved_ahead: false,
             near_fold: false,
+            accepted: None,
+            unsolvable: false,
             snaps: 0,
             time: 0.0,
         }

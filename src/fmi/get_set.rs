@@ -30,7 +30,7 @@ impl Instance {
     ///
     /// # Errors
     /// [`Ending::Error`], explained in the log: an unknown value reference, a variable of another type, an output without
-    /// a value, or no equilibrium for the inputs now set.
+    /// a value, or no equilibrium for the inputs now set; the last is [`Ending::Discard`] in model exchange.
     pub fn get<T>(
         &mut self,
         references: &[u32],
@@ -40,8 +40,15 @@ impl Instance {
         let variables = self.variables(references).ok_or(Ending::Error)?;
         let any_output = variables.iter().any(|variable| variable.causality == Causality::Output);
         let on_request = variables.iter().any(|variable| variable.availability == Availability::OnRequest);
-        if any_output && self.is_live() && self.ensure_solved() != Ending::Ok {
-            return Err(Ending::Error);
+        if any_output && self.is_live() {
+            let always = |variable: &&Variable| {
+                variable.causality != Causality::Output || variable.availability == Availability::Always
+            };
+            let of_the_search = self.fmu_state.unsolvable && variables.iter().all(always);
+            let ending = if of_the_search { Ending::Ok } else { self.ensure_solved() };
+            if ending != Ending::Ok {
+                return Err(ending);
+            }
         }
         if let Some(manipulator) = self.fmu_state.manipulator.as_mut().filter(|_| on_request) {
             manipulator.measure_margin();
@@ -97,6 +104,7 @@ impl Instance {
             return Ending::Ok; // the equilibrium, and what was measured of it, stays valid
         }
         self.fmu_state.solved = false;
+        self.fmu_state.unsolvable = false;
         if rebuild {
             self.fmu_state.manipulator = None;
         }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::fmu_state::FmuState;
 use super::log::Log;
 use super::package::Package;
-use super::state::{Call, Ending, State};
+use super::state::{Call, Ending, Interface, State};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outcome, Outputs, Status};
 
@@ -18,6 +18,7 @@ const TIME_TOLERANCE: f64 = 1e-9;
 /// An instance of the FMU.
 #[derive(Debug)]
 pub struct Instance {
+    interface: Interface,
     pub(super) package: Arc<Package>,
     pub(super) log: Log,
     pub(super) fmu_state: FmuState,
@@ -61,9 +62,9 @@ pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
 }
 
 impl Instance {
-    /// A new instance of a package, which writes to this log.
+    /// A new instance of a package for one of the two interfaces, which writes to this log.
     #[must_use]
-    pub fn new(package: Arc<Package>, log: Log) -> Self {
+    pub fn new(interface: Interface, package: Arc<Package>, log: Log) -> Self {
         let counts = package.table().counts();
         log.event(&format!(
             "design {} with {} rings and {} cores",
@@ -73,6 +74,7 @@ impl Instance {
         ));
         let fmu_state = FmuState::new(package.start());
         Self {
+            interface,
             package,
             log,
             fmu_state,
@@ -81,6 +83,12 @@ impl Instance {
             told_of_unexpected_time: false,
             told_of_unconnected: false,
         }
+    }
+
+    /// What this instance is for.
+    #[must_use]
+    pub fn interface(&self) -> Interface {
+        self.interface
     }
 
     /// State of the calling sequence.
@@ -105,14 +113,18 @@ impl Instance {
     /// Whether `call` is allowed in the present state; if not, the log says so and calls it by `name`.
     #[must_use]
     pub fn allows(&self, call: Call, name: &str) -> bool {
-        let allowed = self.state().allows(call);
-        if call == Call::CancelStep {
-            self.log
-                .error(&format!("{name}: no step is under way, as every step is finished when it returns"));
-        } else if !allowed {
-            self.log.error(&format!("{name} is not allowed {}", self.state().in_words()));
-        }
-        allowed
+        let reason = if let Some(other) = call.interface().filter(|other| *other != self.interface) {
+            let (own, other) = (self.interface.in_words(), other.in_words());
+            format!("{name} is a function of {other}, and this instance is for {own}")
+        } else if call == Call::CancelStep {
+            format!("{name}: no step is under way, as every step is finished when it returns")
+        } else if !self.state().allows(call) {
+            format!("{name} is not allowed {}", self.state().in_words())
+        } else {
+            return true;
+        };
+        self.log.error(&reason);
+        false
     }
 
     /// Discards everything after a panic, which may have left it inconsistent; only a reset makes the instance usable again.
@@ -156,7 +168,10 @@ impl Instance {
         let ending = if self.fmu_state.solved { Ok(Ending::Ok) } else { self.solve_at_host_values() };
         match ending {
             Ok(Ending::Ok) => {
-                self.fmu_state.state = State::Stepping;
+                match self.interface {
+                    Interface::CoSimulation => self.fmu_state.state = State::Stepping,
+                    Interface::ModelExchange => self.start_in_event_mode(),
+                }
                 self.log.event(&format!("initialised at t = {}", self.fmu_state.time));
                 Ending::Ok
             }
@@ -266,13 +281,16 @@ impl Instance {
 
     /// Whether the outputs are those of the inputs now set, and not those of the last communication point.
     pub(super) fn is_live(&self) -> bool {
-        matches!(self.state(), State::Initialization | State::Stepping)
+        matches!(self.state(), State::Initialization | State::Stepping | State::Event | State::ContinuousTime)
     }
 
     /// Solves the equilibrium for the inputs now set, unless that is done already.
     pub(super) fn ensure_solved(&mut self) -> Ending {
         if self.fmu_state.solved {
             return Ending::Ok;
+        }
+        if self.fmu_state.unsolvable {
+            return Ending::Discard; // the log has told why
         }
         match self.solve_at_host_values() {
             Ok(ending) => ending,
@@ -303,6 +321,8 @@ impl Instance {
         };
         if now.state == State::Initialization {
             manipulator.reset(); // the first equilibrium must not depend on what was read before
+        } else if let Some(accepted) = &now.accepted {
+            manipulator.clone_from(accepted);
         }
         now.jacobian = None;
         let manipulator = now.manipulator.insert(manipulator);
@@ -325,8 +345,13 @@ impl Instance {
             if now.state == State::Stepping {
                 now.state = State::Failed;
             }
-            let reason =
-                format!("after t = {time}: {}; {}", why_not_solved(manipulator), advice(manipulator));
+            let reason = format!("after t = {time}: {}", why_not_solved(manipulator));
+            if matches!(now.state, State::Event | State::ContinuousTime) {
+                now.unsolvable = true;
+                self.log.discard(&format!("{reason}; try inputs closer to those of the last accepted step"));
+                return Ok(Ending::Discard);
+            }
+            let reason = format!("{reason}; {}", advice(manipulator));
             return Ok(self.refuse(&reason));
         }
         now.solved = true;

@@ -91,6 +91,11 @@ impl Log {
         self.tell(Ending::Error, Category::Error, message);
     }
 
+    /// Logs why a call was not answered, after which the host can try another one.
+    pub fn discard(&self, message: &str) {
+        self.tell(Ending::Discard, Category::Error, message);
+    }
+
     /// Forgets which message came last, after a step that succeeded: it may be repeated again.
     pub fn forget_repetitions(&self) {
         *self.last.borrow_mut() = Default::default();

@@ -1,4 +1,4 @@
-//! The manipulator as an FMU for co-simulation (FMI 2.0).
+//! The manipulator as an FMU for co-simulation and model exchange (FMI 2.0).
 
 #[cfg(not(target_family = "wasm"))] // whose C types have other sizes, and which loads no FMUs
 #[rustfmt::skip]
@@ -39,6 +39,8 @@ pub mod package; // what an archive carries besides the library
 pub mod location; // the directory of the unpacked resources
 
 pub mod instance; // one instance: its life from instantiation to termination
+
+mod model_exchange; // its modes and accepted steps in model exchange
 
 mod get_set; // its variables, read and set
 

@@ -50,6 +50,12 @@ impl Instance {
     /// Saves the FMU state that `bytes` hold under `handle`.
     pub fn deserialise(&mut self, handle: usize, bytes: &[u8]) -> Ending {
         match from_bytes(bytes, &self.package) {
+            Ok(fmu_state) if fmu_state.state.interface().is_some_and(|of| of != self.interface()) => {
+                let own = self.interface().in_words();
+                self.refuse(&format!(
+                    "the state is one of the other interface, and this instance is for {own}"
+                ))
+            }
             Ok(fmu_state) => {
                 self.saved_states.insert(handle, fmu_state);
                 Ending::Ok

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::fmu_state::FmuState;
 use super::input_derivatives::InputDerivatives;
 use super::package::Package;
-use super::state::State;
+use super::state::{Interface, State};
 use super::value::Value;
 use super::variable::{Causality, Variable};
 use crate::error::Error;
@@ -18,7 +18,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// Number of the format; must be raised with every change of [`Record`] or of the types in it.
-const FORMAT: u32 = 12;
+const FORMAT: u32 = 13;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -32,6 +32,8 @@ struct Record {
     host_values: Vec<Value>,
     input_derivatives: InputDerivatives,
     manipulator: Option<Snapshot>,
+    accepted: Option<Snapshot>,
+    unsolvable: bool,
     solved: bool,
     solved_ahead: bool,
     near_fold: bool,
@@ -61,6 +63,8 @@ pub(super) fn to_bytes(fmu_state: &FmuState, package: &Package) -> Result<Vec<u8
         host_values: settable(package).filter_map(value).collect(),
         input_derivatives: fmu_state.input_derivatives.clone(),
         manipulator: fmu_state.manipulator.as_ref().map(Manipulator::snapshot),
+        accepted: fmu_state.accepted.as_ref().map(Manipulator::snapshot),
+        unsolvable: fmu_state.unsolvable,
         solved: fmu_state.solved,
         solved_ahead: fmu_state.solved_ahead,
         near_fold: fmu_state.near_fold,
@@ -136,15 +140,32 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         && record.input_derivatives.nonzero().all(of_input)
         && record.time.is_finite()
         && record.state != State::Broken
-        && (record.manipulator.is_some() || !record.solved);
+        && (record.manipulator.is_some() || !record.solved)
+        && (record.accepted.is_some() || record.state.interface() != Some(Interface::ModelExchange));
     if !sound {
         return Err(refused("its values do not fit the variables"));
     }
     if let Some(snapshot) = &record.manipulator {
         let mut manipulator = fmu_state.host_values.manipulator(package.table().counts().shape_points)?;
+        if let Some(snapshot) = &record.accepted {
+            let mut accepted = manipulator.clone();
+            accepted.restore(snapshot)?;
+            fmu_state.accepted = Some(accepted);
+        }
         manipulator.restore(snapshot)?;
         fmu_state.manipulator = Some(manipulator);
     }
-    let Record { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, .. } = record;
-    Ok(FmuState { state, input_derivatives, solved, solved_ahead, near_fold, snaps, time, ..fmu_state })
+    let Record { state, input_derivatives, solved, solved_ahead, unsolvable, near_fold, snaps, time, .. } =
+        record;
+    Ok(FmuState {
+        state,
+        input_derivatives,
+        solved,
+        solved_ahead,
+        unsolvable,
+        near_fold,
+        snaps,
+        time,
+        ..fmu_state
+    })
 }

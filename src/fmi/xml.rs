@@ -73,7 +73,8 @@ fn write(
     attributes.extend(generated.map(|generated| ("generationDateAndTime", generated)));
     attributes.push(("variableNamingConvention", "structured"));
     within(xml, "fmiModelDescription", &attributes, |xml| {
-        co_simulation(xml)?;
+        empty(xml, "ModelExchange", &capabilities(&[]))?;
+        empty(xml, "CoSimulation", &capabilities(STEPPING))?;
         within(xml, "UnitDefinitions", &[], units)?;
         within(xml, "TypeDefinitions", &[], |xml| types(xml, table))?;
         within(xml, "LogCategories", &[], |xml| {
@@ -90,24 +91,26 @@ fn write(
     })
 }
 
-fn co_simulation(xml: &mut Xml) -> io::Result<()> {
-    empty(
-        xml,
-        "CoSimulation",
-        &[
-            ("modelIdentifier", MODEL_IDENTIFIER),
-            ("needsExecutionTool", "false"),
-            ("canHandleVariableCommunicationStepSize", "true"),
-            ("canInterpolateInputs", "true"),
-            ("maxOutputDerivativeOrder", "1"),
-            ("canRunAsynchronuously", "false"),
-            ("canBeInstantiatedOnlyOncePerProcess", "false"),
-            ("canNotUseMemoryManagementFunctions", "true"),
-            ("canGetAndSetFMUstate", "true"),
-            ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "true"),
-        ],
-    )
+/// What co-simulation offers beside what both interfaces have.
+const STEPPING: Attributes = &[
+    ("canHandleVariableCommunicationStepSize", "true"),
+    ("canInterpolateInputs", "true"),
+    ("maxOutputDerivativeOrder", "1"),
+    ("canRunAsynchronuously", "false"),
+];
+
+/// The attributes of an interface, those of both first.
+fn capabilities(own: Attributes<'static>) -> Vec<(&'static str, &'static str)> {
+    let both = [
+        ("modelIdentifier", MODEL_IDENTIFIER),
+        ("needsExecutionTool", "false"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "true"),
+    ];
+    both.into_iter().chain(own.iter().copied()).collect()
 }
 
 fn units(xml: &mut Xml) -> io::Result<()> {

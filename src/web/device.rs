@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::fmi::Instance;
 use crate::fmi::Package;
 use crate::fmi::log::Log;
-use crate::fmi::state::{Ending, State};
+use crate::fmi::state::{Ending, Interface, State};
 use crate::fmi::value::Value;
 use crate::fmi::variable::Causality;
 use crate::manipulator::SceneFile;
@@ -93,7 +93,8 @@ impl Device {
         let of =
             |causality| rows.clone().filter(move |(_, row)| row.causality == causality).map(|(at, _)| at);
         let (inputs, outputs) = (of(Causality::Input).collect(), of(Causality::Output).collect());
-        let instance = Instance::new(Arc::clone(&package), Log::new(Box::new(sink), false));
+        let instance =
+            Instance::new(Interface::CoSimulation, Arc::clone(&package), Log::new(Box::new(sink), false));
         Self { package, instance, level, inputs, outputs, said }
     }
 

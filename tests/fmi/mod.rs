@@ -12,6 +12,8 @@ mod instance;
 
 mod log;
 
+mod model_exchange;
+
 mod package;
 
 mod serialise;
@@ -27,6 +29,7 @@ mod vessel;
 use std::sync::{Arc, Mutex};
 
 use mcm::fmi::log::Log;
+use mcm::fmi::state::Interface;
 use mcm::fmi::{Instance, Package};
 
 /// One segment in a uniform field: quick to solve, and bent.
@@ -43,6 +46,11 @@ fn instance(scene: &str) -> (Instance, Package, Told) {
 
 /// An instance of a package, and its log.
 fn instance_of(package: Package) -> (Instance, Package, Told) {
+    instance_for(Interface::CoSimulation, package)
+}
+
+/// An instance of a package for an interface, and its log.
+fn instance_for(interface: Interface, package: Package) -> (Instance, Package, Told) {
     let told = Told::default();
     let sink = Arc::clone(&told);
     let log = Log::new(
@@ -51,7 +59,7 @@ fn instance_of(package: Package) -> (Instance, Package, Told) {
         }),
         false,
     );
-    (Instance::new(Arc::new(package.clone()), log), package, told)
+    (Instance::new(interface, Arc::new(package.clone()), log), package, told)
 }
 
 /// The last message.

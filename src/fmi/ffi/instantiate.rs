@@ -8,7 +8,7 @@ use super::super::instance::{Instance, identify};
 use super::super::location;
 use super::super::log::{Category, Log};
 use super::super::registry;
-use super::super::state::Ending;
+use super::super::state::{Ending, Interface};
 use super::logger::Logger;
 use super::memory::Flaw;
 
@@ -41,9 +41,13 @@ fn make(arguments: Arguments, logger: Logger) -> Result<usize, String> {
     if name.is_empty() {
         return Err("the instance name is empty".to_owned());
     }
-    if arguments.fmu_type != fmi2Type::fmi2CoSimulation {
-        return Err("this FMU is for co-simulation only".to_owned());
-    }
+    let interface = match arguments.fmu_type {
+        fmi2Type::fmi2CoSimulation => Interface::CoSimulation,
+        fmi2Type::fmi2ModelExchange => Interface::ModelExchange,
+        fmi2Type(other) => {
+            return Err(format!("FMI 2.0 has no FMU type {other}: 0 is model exchange, 1 co-simulation"));
+        }
+    };
     let guid = arguments.guid.map_err(|flaw| format!("the GUID {flaw}"))?;
     let location = match arguments.resource_location {
         Err(Flaw::Null) => Ok(""), // some hosts pass null when an archive has no resources
@@ -52,5 +56,6 @@ fn make(arguments: Arguments, logger: Logger) -> Result<usize, String> {
     let paths = location::paths(location).map_err(|error| error.to_string())?;
     let package = identify(guid, &paths).map_err(|error| error.to_string())?;
     let sink = Box::new(move |ending, category, message: &str| logger.tell(ending, category, message));
-    Ok(registry::enter(Instance::new(Arc::new(package), Log::new(sink, arguments.logging_on))))
+    let log = Log::new(sink, arguments.logging_on);
+    Ok(registry::enter(Instance::new(interface, Arc::new(package), log)))
 }

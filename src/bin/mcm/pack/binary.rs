@@ -31,8 +31,8 @@ const PLATFORMS: [Platform; 5] = [
 /// What the names of all functions of FMI 2.0 begin with.
 const PREFIX: &[u8] = b"fmi2";
 
-/// Functions without which no master can run a co-simulation FMU (FMI 2.0, sections 2.1 and 4.2).
-const FUNCTIONS: [&str; 16] = [
+/// Functions without which no master can run an FMU of both interfaces (FMI 2.0, sections 2.1, 3.2 and 4.2).
+const FUNCTIONS: [&str; 26] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2Instantiate",
@@ -49,6 +49,16 @@ const FUNCTIONS: [&str; 16] = [
     "fmi2SetInteger",
     "fmi2SetBoolean",
     "fmi2DoStep",
+    "fmi2EnterEventMode",
+    "fmi2NewDiscreteStates",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2CompletedIntegratorStep",
+    "fmi2SetTime",
+    "fmi2SetContinuousStates",
+    "fmi2GetDerivatives",
+    "fmi2GetEventIndicators",
+    "fmi2GetContinuousStates",
+    "fmi2GetNominalsOfContinuousStates",
 ];
 
 /// Whether the end of a 64-bit ELF library is missing, where its table of sections stands (ELF-64 Object File Format 1.5,
