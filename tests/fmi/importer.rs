@@ -34,9 +34,9 @@ fn library() -> PathBuf {
     ))
 }
 
-/// The default FMU with it.
-fn packed() -> PathBuf {
-    let (fmu, library) = (Path::new(env!("CARGO_TARGET_TMPDIR")).join("importer.fmu"), library());
+/// The default FMU with it, in this file.
+fn packed(name: &str) -> PathBuf {
+    let (fmu, library) = (Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), library());
     let packing = Command::new(env!("CARGO_BIN_EXE_mcm"))
         .args(["pack".as_ref(), "--library".as_ref(), library.as_os_str(), "--out".as_ref(), fmu.as_os_str()])
         .output()
@@ -78,7 +78,7 @@ fn answer(manipulator: &mut Manipulator, scene: &Scene, row: &[f64]) -> [f64; 7]
 
 #[test]
 fn another_importer_gets_what_the_rust_api_answers() {
-    let importer = FMU2Builder::new(&packed()).unwrap();
+    let importer = FMU2Builder::new(&packed("importer.fmu")).unwrap();
     let description = &importer.model_description;
     let flaws = description.validate();
     assert!(flaws.is_empty(), "{flaws:?}");
@@ -107,6 +107,52 @@ fn another_importer_gets_what_the_rust_api_answers() {
         let expected = answer(&mut manipulator, &scene, &pair[0]);
         for (of, part) in [("angle", 0..1), ("tip", 1..4), ("force", 4..7)] {
             assert_close((of, time), &got[part.clone()], &expected[part], IMPORTER);
+        }
+    }
+    assert_eq!(device.terminate(), fmi2Status::Ok);
+}
+
+#[test]
+fn another_importer_gets_the_same_in_model_exchange() {
+    let importer = FMU2Builder::new(&packed("exchange.fmu")).unwrap();
+    let description = &importer.model_description;
+    let (names, rows) = pass();
+    let inputs = references(description, names.iter().map(String::as_str));
+    let outputs = references(description, OUTPUTS.into_iter());
+    let mut scene = Scene::parse(DEFAULT_SCENE, "default scene").unwrap();
+    scene.settings.interaction = Interaction::Rings;
+    let mut manipulator = scene.manipulator(DEFAULT_SHAPE_POINTS).unwrap();
+
+    let device = importer.instantiate_me("device").unwrap();
+    let level = references(description, ["model.interaction"].into_iter());
+    assert_eq!(device.setInteger(&level, &[Interaction::Rings as i32]), fmi2Status::Ok);
+    assert_eq!(device.setupExperiment(None, 0.0, None), fmi2Status::Ok);
+    assert_eq!(device.enterInitializationMode(), fmi2Status::Ok);
+    assert_eq!(device.setReal(&inputs, &rows[0][1..]), fmi2Status::Ok);
+    assert_eq!(device.exitInitializationMode(), fmi2Status::Ok);
+    let (mut flags, mut next) = ([true; 4], Some(f64::NAN));
+    let [needed, end, nominals, values] = &mut flags;
+    assert_eq!(device.newDiscreteStates(needed, end, nominals, values, &mut next), fmi2Status::Ok);
+    assert_eq!((flags, next), ([false; 4], None), "no event follows");
+    assert_eq!(device.enterContinuousTimeMode(), fmi2Status::Ok);
+    answer(&mut manipulator, &scene, &rows[0]);
+    for (row, next) in rows.iter().zip(&rows[1..]) {
+        assert_eq!(device.setTime(row[0]), fmi2Status::Ok);
+        let read = |row: &[f64]| {
+            let mut got = [f64::NAN; OUTPUTS.len()];
+            assert_eq!(device.setReal(&inputs, &row[1..]), fmi2Status::Ok);
+            assert_eq!(device.getReal(&outputs, &mut got), fmi2Status::Ok);
+            got
+        };
+        // As an integrator tries a step and takes it back.
+        read(next);
+        let got = read(row);
+        let (mut event, mut end) = (7, 7);
+        assert_eq!(device.completedIntegratorStep(0, &mut event, &mut end), fmi2Status::Ok);
+        assert_eq!((event, end), (0, 0), "no snap");
+        let expected = answer(&mut manipulator, &scene, row);
+        for (of, part) in [("angle", 0..1), ("tip", 1..4), ("force", 4..7)] {
+            assert_close((of, row[0]), &got[part.clone()], &expected[part], IMPORTER);
         }
     }
     assert_eq!(device.terminate(), fmi2Status::Ok);

@@ -9,7 +9,8 @@ use mcm::fmi::ffi::*;
 use super::design::{QUICK, SHORT};
 use super::*;
 
-const CO_SIMULATION: fmi2Type = fmi2Type::fmi2CoSimulation;
+/// What an FMU can be instantiated for.
+const KINDS: [fmi2Type; 2] = [fmi2Type::fmi2CoSimulation, fmi2Type::fmi2ModelExchange];
 
 /// Handles that were never given.
 const STRANGERS: [usize; 3] = [0, 1 << 40, usize::MAX];
@@ -31,7 +32,7 @@ impl Host<'_> {
         let environment = ENVIRONMENT.fetch_add(1, Ordering::Relaxed);
         let functions = logger::callbacks(environment);
         let (mut name, mut kind, mut guid) =
-            (NAME.as_ptr(), CO_SIMULATION, self.designs[design].guid.as_ptr());
+            (NAME.as_ptr(), KINDS[usize::from(self.draw.once_in(4))], self.designs[design].guid.as_ptr());
         let (mut location, mut callbacks) = (self.designs[design].location.as_ptr(), &raw const functions);
         match self.draw.byte() % 32 {
             0 => name = ptr::null(),
@@ -46,7 +47,8 @@ impl Host<'_> {
             9 => location = self.designs.get(other).map_or(location, |other| other.location.as_ptr()),
             _ => {}
         }
-        let sound = (name, kind, guid) == (NAME.as_ptr(), CO_SIMULATION, self.designs[design].guid.as_ptr())
+        let sound = KINDS.contains(&kind)
+            && (name, guid) == (NAME.as_ptr(), self.designs[design].guid.as_ptr())
             && location == self.designs[design].location.as_ptr();
         let start = ThreadTime::now();
         // SAFETY: texts are null or zero-terminated, `callbacks` is null or points to callbacks.
@@ -63,6 +65,7 @@ impl Host<'_> {
         self.guests.push(Guest {
             handle,
             design,
+            exchange: kind == fmi2Type::fmi2ModelExchange,
             environment,
             alive: sound,
             has_logger: !callbacks.is_null(),
@@ -109,6 +112,7 @@ impl Host<'_> {
             2 => {
                 self.call(guest, "fmi2ExitInitializationMode", |it| unsafe { fmi2ExitInitializationMode(it) })
             }
+            _ if guest.exchange => self.exchange(guest),
             _ => self.step(guest),
         };
         if status == OK {

@@ -7,6 +7,8 @@ mod design;
 
 mod draw;
 
+mod exchange;
+
 mod life;
 
 pub(crate) mod logger;
@@ -56,6 +58,8 @@ pub(crate) struct Tally {
 struct Guest {
     handle: fmi2Component,
     design: usize,
+    /// Whether it is for model exchange.
+    exchange: bool,
     environment: usize,
     alive: bool,
     /// Whether it was given a logger.
@@ -130,6 +134,9 @@ impl<'a> Host<'a> {
             204..=205 => self.serialise(&mut guest),
             206..=211 => self.deserialise(&mut guest),
             212..=213 => self.step_anyhow(&mut guest),
+            214..=217 => {
+                self.exchange(&mut guest);
+            }
             _ => self.ask_status(&mut guest),
         }
         if guest.alive || self.guests.is_empty() || !self.draw.once_in(4) {
