@@ -117,7 +117,7 @@ pub const ALLOWED: &[(Call, &[State])] = &[
     (Call::CompletedIntegratorStep, &[ContinuousTime]),
     (Call::SetTime, &[Event, ContinuousTime]),
     (Call::SetContinuousStates, &[ContinuousTime]),
-    (Call::GetContinuousStates, READABLE),
+    (Call::GetContinuousStates, &[Initialization, Event, ContinuousTime, Failed, Terminated]),
 ];
 
 impl Call {
