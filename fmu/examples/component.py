@@ -8,9 +8,12 @@ from fmpy.fmi2 import FMU2Slave
 
 
 class Component:
-    """An initialised instance; `start` holds inputs and parameters that differ from the FMU's start values."""
+    """An initialised instance; `start` holds inputs and parameters that differ from the FMU's start values.
 
-    def __init__(self, name: str, fmu: Path, start: dict[str, float]) -> None:
+    A whole number is set as an integer or enumeration.
+    """
+
+    def __init__(self, name: str, fmu: Path, start: dict[str, float | int]) -> None:
         self.description = read_model_description(fmu)
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
         self.folder = extract(fmu)
@@ -24,7 +27,10 @@ class Component:
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
         for variable, value in start.items():
-            self.set(variable, value)
+            if isinstance(value, int):
+                self.slave.setInteger([self.references[variable]], [value])
+            else:
+                self.set(variable, value)
         self.slave.exitInitializationMode()
 
     def get(self, variable: str) -> float:

@@ -1,11 +1,12 @@
-"""Times scipy's `least_squares` on targets of the tip, through the FMU by differences, beside `mcm::steer`, in one run.
+"""Times scipy and CasADi on targets of the tip, through the FMU, beside `mcm::steer`, in one run.
 
     fmu/venv tests/bench/requirements.txt
     cargo build --release --examples
     .venv/bin/python tests/bench/steer.py [number of targets]
 
 Targets are tips (position and direction) with the magnet moved at random by up to 20 mm and 0.5 rad along each axis,
-asked for from the scene's pose. scipy moves the magnet's place and direction, five freedoms; it knows nothing of snaps.
+asked for from the scene's pose. scipy and IPOPT move the magnet's place and direction, five freedoms; scipy by
+differences, IPOPT by the FMU's exact derivatives. Both know nothing of snaps.
 """
 
 import subprocess
@@ -22,6 +23,7 @@ PACKAGE = Path(__file__).resolve().parents[2]
 sys.path.append(str(PACKAGE / "fmu" / "examples"))
 
 from component import Component  # noqa: E402 - from the examples' folder
+from magnet_pose_casadi import Problem  # noqa: E402
 
 RELEASE = PACKAGE / "target" / "release"
 POSITION = 1e-6  # m, counts as met
@@ -63,18 +65,18 @@ class Device:
         self.slave.setFMUState(self.start)
 
 
-def measure(segments: int, count: int, folder: Path) -> tuple[int, list[float]]:
-    """Number of targets met, and the times (ms)."""
+def measure(segments: int, count: int, folder: Path) -> dict[str, tuple[int, list[float]]]:
+    """Number of targets met, and the times (ms), of each."""
     scene, fmu = folder / "scene.toml", folder / "scene.fmu"
     scene.write_text(
         f"[design]\nsegments = {segments}\n[magnet]\nposition_mm = [0.0, -120.0, {3 * segments}.0]\n"
         '[model]\ninteraction = "rings"\n'
     )
     subprocess.run([RELEASE / "mcm", "pack", "--scene", scene, "--out", fmu], check=True, capture_output=True)
-    device = Device(fmu)
+    device, problem = Device(fmu), Problem(fmu, towards=True)
     random = np.random.default_rng(1)
-    met, times = 0, []
-    while len(times) < count:
+    met, times = {"least_squares": 0, "IPOPT": 0}, {"least_squares": [], "IPOPT": []}
+    for _ in range(count):
         place = device.place + AROUND[0] * random.uniform(-1, 1, 3)
         rotation = Rotation.from_rotvec(AROUND[1] * random.uniform(-1, 1, 3)) * device.rotation
         device.reset()
@@ -89,22 +91,34 @@ def measure(segments: int, count: int, folder: Path) -> tuple[int, list[float]]:
 
         started = time.perf_counter()
         found = least_squares(residuals, np.zeros(5), diff_step=1e-4, x_scale=1.0, xtol=1e-12, ftol=1e-12)
-        times.append(1e3 * (time.perf_counter() - started))
-        left = residuals(found.x)
-        met += bool(np.linalg.norm(left[:3]) <= 1 and np.linalg.norm(left[3:]) <= 1)
+        times["least_squares"].append(1e3 * (time.perf_counter() - started))
+
+        def is_met(left: np.ndarray) -> bool:
+            return bool(np.linalg.norm(left[:3]) <= 1 and np.linalg.norm(left[3:]) <= 1)
+
+        met["least_squares"] += is_met(residuals(found.x))
+        pose = problem.solve(wanted, direction)
+        times["IPOPT"].append(1e3 * pose.seconds)
+        device.reset()
+        tip, axis = device.tip(pose.pose[:3], Rotation.from_quat(pose.pose[3:], scalar_first=True))
+        left = np.concatenate([(tip - wanted) / POSITION, (axis - direction) / ANGLE])
+        met["IPOPT"] += pose.solved and is_met(left)
     device.component.close()
-    return met, times
+    problem.close()
+    return {name: (met[name], times[name]) for name in met}
 
 
 def main() -> None:
     """Prints a table, and ours below it."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 20
-    print("| segments | targets | met by least_squares | median (ms) | longest (ms) |")
-    print("| --- | --- | --- | --- | --- |")
+    print("| segments | targets | by | met | median (ms) | longest (ms) |")
+    print("| --- | --- | --- | --- | --- | --- |")
     for segments in (1, 3, 9):
         with tempfile.TemporaryDirectory() as folder:
-            met, times = measure(segments, count, Path(folder))
-        print(f"| {segments} | {count} | {met} | {np.median(times):.0f} | {max(times):.0f} |", flush=True)
+            measured = measure(segments, count, Path(folder))
+        for name, (met, times) in measured.items():
+            row = f"{segments} | {count} | {name} | {met} | {np.median(times):.0f} | {max(times):.0f}"
+            print(f"| {row} |", flush=True)
     print(
         subprocess.run(
             [RELEASE / "examples" / "targets", str(count)], check=True, capture_output=True, text=True

@@ -282,3 +282,48 @@ def test_eight_coils_make_the_wanted_field_at_the_tip(tmp_path: Path) -> None:
     amperes = [float(part) for part in currents.split(":")[1].split()[:8]]
     assert max(map(abs, amperes)) > 1.0
     np.testing.assert_allclose(amperes[0], amperes[2], atol=0.05 * max(map(abs, amperes)))
+
+
+def test_a_stiff_arm_on_the_tip_needs_the_jacobian(mcm: Path) -> None:
+    """Below a gain of 1 all schemes agree; beyond, Newton's method alone settles."""
+    said = {
+        stiffness: dict(
+            line.split(": ", 1)
+            for line in example("algebraic_loop.py", mcm, "--stiffness", stiffness).splitlines()
+            if ": " in line
+        )
+        for stiffness in ("0.5", "20")
+    }
+
+    def force(line: str) -> np.ndarray:
+        return np.array([float(part) for part in line.partition("(")[2].partition(")")[0].split(",")])
+
+    def off(line: str) -> float:
+        return float(line.partition("off by ")[2].split()[0])
+
+    soft, stiff = said["0.5"], said["20"]
+    np.testing.assert_allclose(force(soft["repetition"]), force(soft["Newton"]), atol=1e-4)
+    assert off(soft["delay"]) > 1e3 * off(soft["Newton"])
+    assert "diverges" in stiff["delay"] and "diverges" in stiff["repetition"]
+    assert off(stiff["Newton"]) < 1e-5
+    assert force(stiff["Newton"])[0] > 1.0
+
+
+def test_ipopt_finds_a_pose_by_exact_derivatives(tmp_path: Path) -> None:
+    scene, fmu = tmp_path / "three.toml", tmp_path / "three.fmu"
+    scene.write_text(
+        '[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, -120.0, 9.0]\n[model]\ninteraction = "rings"\n'
+    )
+    done = run(program(), "pack", "--scene", scene, "--out", fmu)
+    assert done.returncode == 0, done.stderr
+    asked = ["--tip-position-mm", "0.04,-1.19,15.757", "--keep-away-mm"]
+    found = {}
+    for distance in (60.0, 125.0):
+        said = example("magnet_pose_casadi.py", fmu, *asked, str(distance)).splitlines()
+        place = np.array([float(part) for part in said[0].partition("(")[2].partition(")")[0].split(",")])
+        missed, snaps = float(said[2].split()[5]), int(said[2].split()[9])
+        assert missed < 0.2 and snaps == 0, said
+        # The device is 18 mm long and its rings lie near its axis.
+        assert np.linalg.norm(place - [0.0, 0.0, np.clip(place[2], 0.0, 18.0)]) > distance - 3.0
+        found[distance] = place
+    assert np.linalg.norm(found[125.0] - found[60.0]) > 5.0, "the limit is felt"

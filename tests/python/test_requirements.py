@@ -18,6 +18,7 @@ DEMO = "fmu/requirements.txt"
 FILES = [
     DEMO,
     "fmu/examples/requirements.txt",
+    "fmu/examples/casadi.txt",
     "tests/requirements.txt",
     "tests/bench/requirements.txt",
     "tests/bench/scipy.txt",

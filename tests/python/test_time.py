@@ -220,3 +220,35 @@ def test_orders_of_the_fmu(mcm: Archive, answers: Callable[..., np.ndarray]) -> 
     device.slave.freeInstance()
     assert orders(held) == pytest.approx([1, 1], abs=0.1), held
     assert orders(derived) == pytest.approx([2, 2], abs=0.1), derived
+
+
+def test_model_exchange_answers_at_the_time_of_its_inputs(default: Archive) -> None:
+    """In a solver of fmpy each row is what co-simulation answers to the inputs of its time."""
+    table = np.genfromtxt(
+        PACKAGE / "fmu" / "examples" / "magnet_pass.csv", delimiter=",", names=True, deletechars=""
+    )
+    names = list(table.dtype.names[1:])
+    outputs = ["tip.angle", "tip.position[2]", "magnet.reaction_force[2]"]
+    level = 2  # rings: one model, whatever the way
+    for solver in ("CVode", "Euler"):
+        got = simulate_fmu(
+            str(default.path),
+            fmi_type="ModelExchange",
+            solver=solver,
+            input=table,
+            output=outputs,
+            start_values={"model.interaction": level},
+            stop_time=table["time"][-1],
+            output_interval=0.1,
+            step_size=0.1,
+        )
+        assert len(got) == len(table)
+        device = Device(default)
+        device.slave.setInteger(device.references(["model.interaction"]), [level])
+        device.start({name: table[name][0] for name in names})
+        for row, answer in zip(table, got, strict=True):
+            device.step(0.1, {name: row[name] for name in names})
+            assert answer["time"] == pytest.approx(row["time"], abs=1e-9)
+            for name, value in zip(outputs, device.get(outputs), strict=True):
+                assert answer[name] == pytest.approx(value, rel=1e-8, abs=1e-12), (solver, row["time"], name)
+        device.slave.freeInstance()
