@@ -49,7 +49,7 @@ pub mod fit; // what the device is: parameters from measured rows
 #[cfg(feature = "studies")]
 pub mod studies; // the paper's figures as numbers
 
-pub mod fmi; // the FMI 2.0 co-simulation FMU
+pub mod fmi; // the FMI 2.0 FMU
 
 #[cfg(feature = "web")]
 pub mod web; // the same device in a web page, as WebAssembly

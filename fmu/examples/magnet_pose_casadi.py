@@ -23,8 +23,8 @@ from fmpy import extract
 PLACE = [f"magnet.position[{axis}]" for axis in (1, 2, 3)]
 TURN = [f"magnet.orientation[{part}]" for part in (1, 2, 3, 4)]
 TIP = [f"tip.position[{axis}]" for axis in (1, 2, 3)]
-ORIENTATION = [f"tip.orientation[{part}]" for part in (1, 2, 3, 4)]
 SCALE = np.array([1e-2, 1e-2, 1e-2, 1e-1, 1e-1])  # m, m, m, rad, rad: a step of each freedom
+BOX = np.array([5, 5, 5, 10, 10])  # farthest from the start, in these steps
 TIP_SCALE = 1e-4  # m: unit of what is missing of the tip's position
 STEPS = 20  # of the way that is driven afterwards
 
@@ -33,12 +33,6 @@ def product(a: ca.DM | ca.MX, b: ca.DM | ca.MX) -> ca.MX:
     """The product of two quaternions (w, x, y, z)."""
     real = a[0] * b[0] - ca.dot(a[1:], b[1:])
     return ca.vertcat(real, a[0] * b[1:] + b[0] * a[1:] + ca.cross(a[1:], b[1:]))
-
-
-def direction(q: ca.MX) -> ca.MX:
-    """The third axis of a body with this orientation."""
-    w, x, y, z = ca.vertsplit(q)
-    return ca.vertcat(2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y))
 
 
 @dataclass
@@ -55,59 +49,41 @@ class Found:
 class Problem:
     """The device as a function of the magnet's pose, and the optimiser that asks it."""
 
-    def __init__(self, fmu: Path, keep_away: float | None = None, towards: bool = False) -> None:
+    def __init__(self, fmu: Path, keep_away: float) -> None:
         self.folder = extract(fmu)
         device = ca.DaeBuilder("device", str(self.folder))
         for name in set(device.u()) - {*PLACE, *TURN}:
             device.set_category(name, "c")  # stays as the FMU starts
         rings = [name for name in device.y() if name.startswith("ring[") and ".position[" in name]
-        device.set_y([*TIP, *ORIENTATION, *rings])
+        device.set_y([*TIP, *rings])
         answer = device.create("answer", ["u"], ["y"], {"uses_directional_derivatives": True})
         self.start = np.array(device.start(device.u()))
 
-        x, wanted, wanted_axis = ca.MX.sym("x", 5), ca.MX.sym("wanted", 3), ca.MX.sym("axis", 3)
+        x, wanted = ca.MX.sym("x", 5), ca.MX.sym("wanted", 3)
         place = self.start[:3] + SCALE[:3] * x[:3]
         tilt = ca.vertcat(1, 0.5 * SCALE[3:] * x[3:], 0)  # about the magnet's own x and y
         turn = product(ca.DM(self.start[3:]), tilt / ca.norm_2(tilt))
-        device_answer = answer(ca.vertcat(place, turn))
-        tip, orientation, centres = ca.vertsplit(device_answer, [0, 3, 7, device_answer.size1()])
-        constraints = [(tip - wanted) / TIP_SCALE]
-        if towards:  # A direction has two freedoms, and IPOPT wants no more equations.
-            across = ca.nullspace(wanted_axis.T)
-            constraints.append(across.T @ direction(orientation) / 1e-2)
-        self.equations = 5 if towards else 3
-        if keep_away is not None:
-            nearness = ca.sum1((ca.reshape(centres, 3, -1) - place) ** 2).T / keep_away**2
-            constraints.append(nearness)
-        problem = {
-            "x": x,
-            "p": ca.vertcat(wanted, wanted_axis),
-            "f": ca.sumsqr(x),
-            "g": ca.vertcat(*constraints),
-        }
+        tip, centres = ca.vertsplit(answer(ca.vertcat(place, turn)), [0, 3, 3 + len(rings)])
+        away = ca.sum1((ca.reshape(centres, 3, -1) - place) ** 2).T / keep_away**2
+        # The nearest pose, with the tip where it shall be and no ring too near.
+        problem = {"x": x, "p": wanted, "f": ca.sumsqr(x), "g": ca.vertcat((tip - wanted) / TIP_SCALE, away)}
+        self.lower, self.upper = np.zeros(3 + away.size1()), np.zeros(3 + away.size1())
+        self.lower[3:], self.upper[3:] = 1.0, np.inf
+        # An FMU has no second derivatives: the Hessian is that of the way to go alone.
+        weight, multipliers = ca.MX.sym("weight"), ca.MX.sym("multipliers", len(self.lower))
+        hessian = ca.Function("nlp_hess_l", [x, wanted, weight, multipliers], [2 * weight * ca.MX.eye(5)])
         options = {
             "print_time": False,
-            "ipopt": {
-                "print_level": 0,
-                "sb": "yes",
-                "hessian_approximation": "limited-memory",
-                "tol": 1e-6,
-                "constr_viol_tol": 1e-3,  # of TIP_SCALE
-                "max_iter": 200,
-            },
+            "ipopt": {"print_level": 0, "sb": "yes", "tol": 1e-6, "constr_viol_tol": 1e-3, "max_iter": 200},
+            "hess_lag": hessian,
         }
         self.solver = ca.nlpsol("solver", "ipopt", problem, options)
         self.pose = ca.Function("pose", [x], [ca.vertcat(place, turn)])
-        self.constraints = problem["g"].size1()
 
-    def solve(self, tip: np.ndarray, axis: np.ndarray | None = None) -> Found:
-        """The nearest pose of the magnet that brings the tip to `tip` (m), and its direction to `axis`."""
-        lower = np.zeros(self.constraints)
-        upper = np.zeros(self.constraints)
-        lower[self.equations :], upper[self.equations :] = 1.0, np.inf
-        parameters = np.concatenate([tip, [0.0, 0.0, 1.0] if axis is None else axis])
+    def solve(self, tip: np.ndarray) -> Found:
+        """The nearest pose of the magnet that brings the tip to `tip` (m)."""
         began = time.perf_counter()
-        found = self.solver(x0=np.zeros(5), p=parameters, lbg=lower, ubg=upper)
+        found = self.solver(x0=np.zeros(5), p=tip, lbx=-BOX, ubx=BOX, lbg=self.lower, ubg=self.upper)
         seconds = time.perf_counter() - began
         said = self.solver.stats()
         calls = sum(said[f"n_call_{name}"] for name in ("nlp_g", "nlp_jac_g"))
@@ -149,17 +125,13 @@ def main() -> None:
     )
     parser.add_argument("fmu", type=Path, help="the manipulator's FMU, as `mcm pack` writes it")
     parser.add_argument("--tip-position-mm", type=triple, required=True, help="where the tip shall be, X,Y,Z")
-    parser.add_argument("--tip-direction", type=triple, help="where it shall point, X,Y,Z")
     parser.add_argument(
         "--keep-away-mm", type=float, default=80.0, help="from the magnet's centre to each ring's"
     )
     arguments = parser.parse_args()
 
-    towards = arguments.tip_direction is not None
-    problem = Problem(arguments.fmu, arguments.keep_away_mm / 1e3, towards)
-    axis = arguments.tip_direction / np.linalg.norm(arguments.tip_direction) if towards else None
-    tip = arguments.tip_position_mm / 1e3
-    found = problem.solve(tip, axis)
+    problem, tip = Problem(arguments.fmu, arguments.keep_away_mm / 1e3), arguments.tip_position_mm / 1e3
+    found = problem.solve(tip)
     problem.close()
     if not found.solved:
         raise SystemExit(f"IPOPT found no such pose in {found.iterations} iterations, {found.seconds:.2f} s")

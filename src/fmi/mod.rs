@@ -32,6 +32,8 @@ pub mod guid; // a GUID computed from the content
 
 pub mod xml; // the model description, written from the table
 
+pub mod terminals; // which variables belong together, written from the table
+
 pub mod documentation; // the page for people, written from the table
 
 pub mod package; // what an archive carries besides the library

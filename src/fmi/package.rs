@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::guid::guid;
 use super::host_values::HostValues;
 use super::variables::Table;
-use super::{documentation, xml};
+use super::{documentation, terminals, xml};
 use crate::error::Error;
 use crate::manipulator::SceneFile;
 use crate::vessel::{DistanceGrid, Lumen};
@@ -147,6 +147,14 @@ impl Package {
     /// [`Error::Syntax`] if the text cannot be written.
     pub fn model_description(&self, generated: Option<&str>) -> Result<String, Error> {
         xml::model_description(&self.table, &self.start, &self.guid, generated)
+    }
+
+    /// The text of `terminalsAndIcons/terminalsAndIcons.xml`.
+    ///
+    /// # Errors
+    /// [`Error::Syntax`] if it cannot be written.
+    pub fn terminals(&self) -> Result<String, Error> {
+        terminals::terminals(&self.table)
     }
 
     /// The text of `documentation/index.html`.

@@ -29,7 +29,7 @@ const TOOL: &str = concat!("mcm ", env!("CARGO_PKG_VERSION"));
 const DEFAULT_EXPERIMENT: Attributes =
     &[("startTime", "0"), ("stopTime", "10"), ("tolerance", "1e-5"), ("stepSize", "0.01")];
 
-type Xml = Writer<Vec<u8>>;
+pub(super) type Xml = Writer<Vec<u8>>;
 type Attributes<'a> = &'a [(&'a str, &'a str)];
 
 /// The text of the model description for a table with these start values.
@@ -44,9 +44,20 @@ pub fn model_description(
     guid: &str,
     generated: Option<&str>,
 ) -> Result<String, Error> {
-    let refused = |reason: String| Error::Syntax { what: "modelDescription.xml".into(), reason };
+    text("modelDescription.xml", |xml| write(xml, table, start, guid, generated))
+}
+
+/// The text of an XML file with this content, indented.
+///
+/// # Errors
+/// [`Error::Syntax`] if it cannot be written.
+pub(super) fn text(file: &str, content: impl FnOnce(&mut Xml) -> io::Result<()>) -> Result<String, Error> {
+    let refused = |reason: String| Error::Syntax { what: file.into(), reason };
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    write(&mut xml, table, start, guid, generated).map_err(|error| refused(error.to_string()))?;
+    let declaration = Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None));
+    xml.write_event(declaration)
+        .and_then(|()| content(&mut xml))
+        .map_err(|error| refused(error.to_string()))?;
     let text = String::from_utf8(xml.into_inner()).map_err(|error| refused(error.to_string()))?;
     Ok(text + "\n")
 }
@@ -58,7 +69,6 @@ fn write(
     guid: &str,
     generated: Option<&str>,
 ) -> io::Result<()> {
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let mut attributes = vec![
         ("fmiVersion", "2.0"),
         ("modelName", MODEL_NAME),
@@ -266,11 +276,11 @@ fn element<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
     BytesStart::new(name).with_attributes(attributes.iter().copied())
 }
 
-fn empty(xml: &mut Xml, name: &str, attributes: Attributes) -> io::Result<()> {
+pub(super) fn empty(xml: &mut Xml, name: &str, attributes: Attributes) -> io::Result<()> {
     xml.write_event(Event::Empty(element(name, attributes)))
 }
 
-fn within(
+pub(super) fn within(
     xml: &mut Xml,
     name: &str,
     attributes: Attributes,

@@ -49,6 +49,29 @@ def test_schema_of_the_standard_is_kept(pack: Callable[..., Archive], name: str)
 
 
 @pytest.mark.parametrize("name", SCENES)
+def test_terminals_are_what_has_inputs(pack: Callable[..., Archive], name: str) -> None:
+    """Every input belongs to one terminal, beside the outputs of the same part."""
+    archive = pack(SCENES[name])
+    schema = etree.XMLSchema(etree.parse(PACKAGE / "fmu" / "schema" / "fmi3TerminalsAndIcons.xsd"))
+    terminals = etree.parse(archive.folder / "terminalsAndIcons" / "terminalsAndIcons.xml")
+    schema.assertValid(terminals)
+    members = [member.attrib for member in terminals.iter("TerminalMemberVariable")]
+    found = [member["variableName"] for member in members]
+    assert len(found) == len(set(found))
+    assert set(found) <= set(archive.variables)
+    inputs = {name for name, variable in archive.variables.items() if variable.causality == "input"}
+    assert inputs <= set(found)
+    for terminal in terminals.iter("Terminal"):
+        part = terminal.get("name")
+        outputs = {
+            n for n, v in archive.variables.items() if v.causality == "output" and n.startswith(f"{part}.")
+        }
+        mine = {member.get("variableName") for member in terminal}
+        assert outputs <= mine and mine & inputs, part
+        assert all(m.get("variableName") == f"{part}.{m.get('memberName')}" for m in terminal)
+
+
+@pytest.mark.parametrize("name", SCENES)
 def test_fmutool_finds_nothing(pack: Callable[..., Archive], name: str) -> None:
     done = subprocess.run(
         [sys.executable, "-c", FMUTOOL, "-input", pack(SCENES[name]).path, "-check"],
@@ -63,6 +86,19 @@ def test_fmutool_finds_nothing(pack: Callable[..., Archive], name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SCENES)
+def test_variables_are_grouped_on_the_page(pack: Callable[..., Archive], name: str) -> None:
+    archive = pack(SCENES[name])
+    page = (archive.folder / "documentation" / "index.html").read_text(encoding="utf-8")
+    of_group = {}
+    for block in page.split('<h3 id="')[1:]:
+        group, title = re.match(r'(\w+)">(.*)</h3>', block).groups()
+        assert title != group, "every group has a title"
+        of_group[group] = re.findall(r"<td><code>(\w+)[^<]*</code></td>", block)
+    assert all(set(first_words) == {group} for group, first_words in of_group.items())
+    assert sum(map(len, of_group.values())) == len(archive.variables)
+
+
+@pytest.mark.parametrize("name", SCENES)
 def test_guid_fits_the_library(pack: Callable[..., Archive], name: str) -> None:
     device = Device(pack(SCENES[name])).start()
     assert device.status() == 0
@@ -70,7 +106,9 @@ def test_guid_fits_the_library(pack: Callable[..., Archive], name: str) -> None:
 
 
 def test_library_is_named_after_the_model_identifier(default: Archive) -> None:
-    identifier = tree(default).find("CoSimulation").get("modelIdentifier")
+    (identifier,) = {
+        tree(default).find(of).get("modelIdentifier") for of in ("ModelExchange", "CoSimulation")
+    }
     with zipfile.ZipFile(default.path) as archive:
         libraries = [name for name in archive.namelist() if name.startswith("binaries/")]
     assert libraries == [f"binaries/linux64/{identifier}.so"]

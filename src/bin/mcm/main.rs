@@ -73,7 +73,7 @@ enum Command {
     Steer(Box<steer::Steer>),
     /// Finds numbers of the scene from measured rows, and how sure they are
     Fit(fit::Fit),
-    /// Packs a design as an FMI 2.0 co-simulation FMU
+    /// Packs a design as an FMI 2.0 FMU for co-simulation and model exchange
     Pack(pack::Pack),
     /// Computes the paper's figures: tables, pictures, and a comparison with the paper
     Study(study::Study),

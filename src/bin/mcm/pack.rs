@@ -58,6 +58,8 @@ impl Pack {
         let mut files: Vec<(String, Vec<u8>)> = vec![
             ("modelDescription.xml".into(), package.model_description(Some(&now()?))?.into()),
             ("model.png".into(), ICON.into()),
+            ("terminalsAndIcons/terminalsAndIcons.xml".into(), package.terminals()?.into()),
+            ("terminalsAndIcons/icon.png".into(), ICON.into()),
             ("documentation/index.html".into(), package.documentation().into()),
             ("documentation/licenses/license.txt".into(), LICENSE.into()),
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
