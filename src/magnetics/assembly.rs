@@ -4,6 +4,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axial_source::AxialSource;
 use super::coil::Coil;
+use super::edge::{FIELD, GRADIENT, HESSIAN};
+use super::iron_core::IronCore;
 use super::jet::Jet;
 use super::overlap::{Outline, depth};
 use crate::constants::VACUUM_PERMEABILITY;
@@ -110,7 +112,7 @@ impl Assembly {
     /// ```
     /// use mcm::magnetics::{Assembly, Coil};
     /// use nalgebra::Vector3;
-    /// let coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
+    /// let coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
     /// let field = Assembly::of_coil(coil)?.field(&Vector3::zeros())?; // T/A
     /// // In the middle: mu_0 N / (2 (b - a)) ln((b + sqrt(b^2 + h^2)) / (a + sqrt(a^2 + h^2))), h half the length.
     /// let end = |r: f64| r + r.hypot(30e-3);
@@ -119,10 +121,17 @@ impl Assembly {
     /// # Ok::<(), mcm::error::Error>(())
     /// ```
     ///
+    /// With a core it has the field of that; core and winding are one body, and no part of the device may come into the sphere
+    /// in which the multipoles say nothing.
+    ///
     /// # Errors
     /// [`Error::Range`] naming the first dimension out of range.
     pub fn of_coil(coil: Coil) -> Result<Self, Error> {
-        let Coil { inner_radius, outer_radius, length, turns } = coil.checked()?;
+        let Coil { inner_radius, outer_radius, length, turns, core } = coil.checked()?;
+        if core.is_some() {
+            let winding = AxialSource::new(0.0, outer_radius, length, 0.0)?;
+            return Ok(Self { bodies: Bodies::Winding(coil, Box::new(winding)), sources: Vec::new() });
+        }
         let (middle, half) = (0.5 * (outer_radius + inner_radius), 0.5 * (outer_radius - inner_radius));
         let remanence = VACUUM_PERMEABILITY * turns / length; // of all layers together
         let mut sources = Vec::new();
@@ -149,14 +158,22 @@ impl Assembly {
         if let Bodies::Winding(coil, _) = &self.bodies { Some(coil) } else { None }
     }
 
+    fn core(&self) -> Option<&IronCore> {
+        self.coil().and_then(|coil| coil.core.as_ref())
+    }
+
     /// Flux density `B` (T) at a point (m).
     ///
     /// # Errors
-    /// As [`AxialSource::field`].
+    /// As [`AxialSource::field`]; [`Error::Range`] for a point where the multipoles of a core say nothing.
     pub fn field(&self, point: &Vector3<f64>) -> Result<Vector3<f64>, Error> {
         let mut sum = Vector3::zeros();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
             sum += source.field(&(point - centre))?;
+        }
+        if let Some(core) = self.core() {
+            let (at, components) = core.components::<FIELD>(point)?;
+            sum += components.field(&at);
         }
         Ok(sum)
     }
@@ -172,6 +189,11 @@ impl Assembly {
             sum.0 += field;
             sum.1 += gradient;
         }
+        if let Some(core) = self.core() {
+            let (at, components) = core.components::<GRADIENT>(point)?;
+            sum.0 += components.field(&at);
+            sum.1 += components.gradient(&at);
+        }
         Ok(sum)
     }
 
@@ -183,6 +205,10 @@ impl Assembly {
         let mut sum = Jet::zero();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
             sum += source.jet(&(point - centre))?;
+        }
+        if let Some(core) = self.core() {
+            let (at, components) = core.components::<HESSIAN>(point)?;
+            sum += components.jet(&at);
         }
         Ok(sum)
     }
@@ -199,6 +225,12 @@ impl Assembly {
     ) -> Result<(), Error> {
         out.clear();
         out.resize(points.len(), (Vector3::zeros(), Matrix3::zeros()));
+        if self.core().is_some() {
+            return points.iter().zip(out).try_for_each(|(point, out)| {
+                *out = self.field_gradient(point)?;
+                Ok(())
+            });
+        }
         self.placed(points).try_for_each(|(source, centre)| source.add_field_gradients(centre.z, points, out))
     }
 
@@ -209,25 +241,39 @@ impl Assembly {
     pub fn jets(&self, points: &[Vector3<f64>], out: &mut Vec<Jet>) -> Result<(), Error> {
         out.clear();
         out.resize(points.len(), Jet::zero());
+        if self.core().is_some() {
+            return points.iter().zip(out).try_for_each(|(point, out)| {
+                *out = self.jet(point)?;
+                Ok(())
+            });
+        }
         self.placed(points).try_for_each(|(source, centre)| source.add_jets(centre.z, points, out))
     }
 
-    /// Whether a point lies inside the material of one of the cylinders, or inside the winding.
+    /// Whether a point lies inside the material of one of the cylinders, inside the winding, or inside the sphere in which the
+    /// multipoles of a core say nothing.
     #[must_use]
     pub fn contains(&self, point: &Vector3<f64>) -> bool {
+        if let Some(core) = self.core() {
+            return point.norm_squared() < core.reach * core.reach;
+        }
         self.solid().any(|(source, centre)| source.contains(&(point - centre)))
     }
 
-    /// Distance from a point to the nearest cylinder, or to the winding, m; 0 inside.
+    /// Distance from a point to what [`Assembly::contains`] it, m; 0 inside.
     #[must_use]
     pub fn distance(&self, point: &Vector3<f64>) -> f64 {
+        if let Some(core) = self.core() {
+            return (point.norm() - core.reach).max(0.0);
+        }
         self.solid().map(|(source, centre)| source.distance(&(point - centre))).fold(f64::INFINITY, f64::min)
     }
 
     /// Magnetic moment along the axis, A m2; of a coil that of one ampere.
     #[must_use]
     pub fn moment(&self) -> f64 {
-        self.placed(&[]).map(|(source, _)| source.moment()).sum()
+        let of_sources: f64 = self.placed(&[]).map(|(source, _)| source.moment()).sum();
+        of_sources + self.core().map_or(0.0, IronCore::moment)
     }
 
     /// The outlines of the cylinders, or of the winding, each with its centre, m.
@@ -242,6 +288,7 @@ impl Assembly {
     ) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         let chosen = match &self.bodies {
             Bodies::Magnets(_) => &self.sources[..],
+            Bodies::Winding(Coil { core: Some(_), .. }, _) => &[],
             Bodies::Winding(coil, winding) => {
                 let nearest =
                     points.iter().map(|point| winding.distance(point)).fold(f64::INFINITY, f64::min);

@@ -113,11 +113,7 @@ impl AxialSource {
     /// As [`AxialSource::field`].
     pub fn jet(&self, point: &Vector3<f64>) -> Result<Jet, Error> {
         let (at, components) = self.components::<HESSIAN>(point)?;
-        Ok(Jet {
-            field: components.field(&at),
-            gradient: components.gradient(&at),
-            hessian: components.hessian(&at),
-        })
+        Ok(components.jet(&at))
     }
 
     /// The scalar potential `psi` (T m) and `B` (T) at a point (m); `B = -grad psi` outside the material.

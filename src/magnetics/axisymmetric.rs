@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::jet::FieldHessian;
+use super::jet::{FieldHessian, Jet};
 
 /// A point in cylindrical coordinates: its distance from the axis and its azimuth.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +61,11 @@ impl Components {
         let (xx, xy, yy) = (c2 * d + s2 * b, cs * (d - b), s2 * d + c2 * b);
         let (xz, yz) = (at.x * self.radial_dz, at.y * self.radial_dz);
         Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, self.axial_dz)
+    }
+
+    #[inline]
+    pub(super) fn jet(&self, at: &Meridian) -> Jet {
+        Jet { field: self.field(at), gradient: self.gradient(at), hessian: self.hessian(at) }
     }
 
     #[inline]

@@ -90,11 +90,7 @@ impl AxialSource {
         out: &mut [Jet],
     ) -> Result<(), Error> {
         self.each::<HESSIAN>(height, points, |number, at, components| {
-            out[number] += Jet {
-                field: components.field(at),
-                gradient: components.gradient(at),
-                hessian: components.hessian(at),
-            };
+            out[number] += components.jet(at);
         })
     }
 

@@ -1,8 +1,9 @@
-//! A coil without iron: the dimensions of its winding.
+//! A coil: the dimensions of its winding, and its core.
 
+use super::iron_core::IronCore;
 use crate::error::{Error, check};
 
-/// A thick solenoid without iron: a winding of rectangular section whose turns fill it evenly, about its frame's `z`, centred at
+/// A thick solenoid: a winding of rectangular section whose turns fill it evenly, about its frame's `z`, centred at
 /// the origin. A positive current makes a field along `+z` in its bore.
 ///
 /// [`super::Assembly::of_coil`] makes the field source of it.
@@ -14,8 +15,10 @@ pub struct Coil {
     pub outer_radius: f64,
     /// Length along the axis, m.
     pub length: f64,
-    /// Number of turns.
+    /// Number of turns; with a core, whose multipoles say all of the field, a remark.
     pub turns: f64,
+    /// The iron core; `None` for none.
+    pub core: Option<IronCore>,
 }
 
 impl Coil {
@@ -24,7 +27,7 @@ impl Coil {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn checked(self) -> Result<Self, Error> {
-        let Self { inner_radius, outer_radius, length, turns } = self;
+        let Self { inner_radius, outer_radius, length, turns, core } = self;
         check("coil outer radius (m)", outer_radius, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
         check(
             "coil inner radius (m)",
@@ -34,6 +37,6 @@ impl Coil {
         )?;
         check("coil length (m)", length, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
         check("coil turns", turns, |v| v > 0.0 && v <= 1e6, "> 0 and <= 1e6")?;
-        Ok(self)
+        core.map_or(Ok(self), |core| core.checked().map(|_| self))
     }
 }

@@ -9,6 +9,9 @@ use super::lanes::Lanes;
 /// Number of multipoles kept: the degrees 1, 3, .. 17.
 pub(super) const TERMS: usize = 9;
 
+/// Largest degree of a multipole.
+pub(super) const MOST_DEGREES: usize = 2 * TERMS - 1;
+
 /// Number of solid harmonics, up to the second derivative of the highest multipole.
 const DEGREES: usize = 2 * TERMS + 3;
 
@@ -60,12 +63,7 @@ impl Multipole {
     /// The components by `terms` terms, anywhere beyond the extent.
     #[inline]
     pub(super) fn sum<const ORDER: u8>(&self, z: f64, r2: f64, terms: usize) -> Components {
-        let parts = self.parts::<ORDER, 1>(Lanes([z]), Lanes([r2]), terms);
-        let [radial, axial, radial_dz, axial_dz] =
-            [parts.radial, parts.axial, parts.radial_dz, parts.axial_dz].map(|part| part.0[0]);
-        let [radial_dzz, axial_dzz, twist] =
-            [parts.radial_dzz, parts.axial_dzz, parts.twist].map(|part| part.0[0]);
-        Components { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
+        self.parts::<ORDER, 1>(Lanes([z]), Lanes([r2]), terms).alone()
     }
 
     /// The components by `terms` terms at points side by side.
@@ -81,37 +79,66 @@ impl Multipole {
         r2: Lanes<N>,
         terms: usize,
     ) -> Parts<N> {
-        let zero = Lanes::all(0.0);
-        let inverse2 = 1.0 / r2;
-        let inverse3 = inverse2 * inverse2.sqrt();
-        let (along, last) = (z * inverse2, 2 * terms + usize::from(ORDER));
-        let zonal = solid::<0, N>(inverse3 * r2, along, inverse2, last);
-        let first = solid::<1, N>(inverse3, along, inverse2, last);
-        let (mut radial, mut axial) = (zero, zero);
-        let (mut radial_dz, mut axial_dz, mut radial_dzz, mut axial_dzz) = (zero, zero, zero, zero);
-        for (term, &beta) in self.beta.iter().enumerate().take(terms) {
-            let l = 2 * term + 1;
-            let degree = l as f64;
-            axial = axial + beta * zonal[l + 1];
-            radial = radial + beta / (degree + 1.0) * first[l + 1];
-            if ORDER >= GRADIENT {
-                axial_dz = axial_dz - beta * (degree + 2.0) * zonal[l + 2];
-                radial_dz = radial_dz - beta * first[l + 2];
-            }
-            if ORDER >= HESSIAN {
-                axial_dzz = axial_dzz + beta * (degree + 2.0) * (degree + 3.0) * zonal[l + 3];
-                radial_dzz = radial_dzz + beta * (degree + 2.0) * first[l + 3];
-            }
+        let odd = self.beta.iter().take(terms).enumerate().map(|(term, beta)| (2 * term + 1, *beta));
+        series::<ORDER, N>(odd, 2 * terms - 1, z, r2)
+    }
+}
+
+/// The components at one point of the multipoles of the degrees 1, 2, ..., as many as there are coefficients, at most
+/// [`MOST_DEGREES`].
+pub(super) fn of_coefficients<const ORDER: u8>(beta: &[f64; MOST_DEGREES], z: f64, r2: f64) -> Components {
+    let degrees = (1..).zip(beta.iter().copied());
+    series::<ORDER, 1>(degrees, MOST_DEGREES, Lanes([z]), Lanes([r2])).alone()
+}
+
+/// The sum over multipoles, each with its degree, of which `last` is the largest; see [`Multipole::parts`].
+#[expect(clippy::inline_always, reason = "compiled for several processors")]
+#[inline(always)]
+fn series<const ORDER: u8, const N: usize>(
+    multipoles: impl Iterator<Item = (usize, f64)> + Clone,
+    last: usize,
+    z: Lanes<N>,
+    r2: Lanes<N>,
+) -> Parts<N> {
+    let zero = Lanes::all(0.0);
+    let inverse2 = 1.0 / r2;
+    let inverse3 = inverse2 * inverse2.sqrt();
+    let (along, last) = (z * inverse2, last + 1 + usize::from(ORDER));
+    let zonal = solid::<0, N>(inverse3 * r2, along, inverse2, last);
+    let first = solid::<1, N>(inverse3, along, inverse2, last);
+    let (mut radial, mut axial) = (zero, zero);
+    let (mut radial_dz, mut axial_dz, mut radial_dzz, mut axial_dzz) = (zero, zero, zero, zero);
+    for (l, beta) in multipoles.clone() {
+        let degree = l as f64;
+        axial = axial + beta * zonal[l + 1];
+        radial = radial + beta / (degree + 1.0) * first[l + 1];
+        if ORDER >= GRADIENT {
+            axial_dz = axial_dz - beta * (degree + 2.0) * zonal[l + 2];
+            radial_dz = radial_dz - beta * first[l + 2];
         }
-        let mut twist = zero;
         if ORDER >= HESSIAN {
-            let second = solid::<2, N>(3.0 * inverse3 * inverse2, along, inverse2, last);
-            for (term, &beta) in self.beta.iter().enumerate().take(terms) {
-                let l = 2 * term + 1;
-                twist = twist + beta / (l as f64 + 1.0) * second[l + 2];
-            }
+            axial_dzz = axial_dzz + beta * (degree + 2.0) * (degree + 3.0) * zonal[l + 3];
+            radial_dzz = radial_dzz + beta * (degree + 2.0) * first[l + 3];
         }
-        Parts { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
+    }
+    let mut twist = zero;
+    if ORDER >= HESSIAN {
+        let second = solid::<2, N>(3.0 * inverse3 * inverse2, along, inverse2, last);
+        for (l, beta) in multipoles {
+            twist = twist + beta / (l as f64 + 1.0) * second[l + 2];
+        }
+    }
+    Parts { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
+}
+
+impl Parts<1> {
+    /// Those of the one point.
+    fn alone(&self) -> Components {
+        let [radial, axial, radial_dz, axial_dz] =
+            [self.radial, self.axial, self.radial_dz, self.axial_dz].map(|part| part.0[0]);
+        let [radial_dzz, axial_dzz, twist] =
+            [self.radial_dzz, self.axial_dzz, self.twist].map(|part| part.0[0]);
+        Components { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
     }
 }
 

@@ -7,6 +7,7 @@ mod fit;
 mod follow;
 mod init;
 mod mesh;
+mod multipoles;
 mod pack;
 mod solve;
 mod steer;

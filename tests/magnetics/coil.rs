@@ -1,11 +1,11 @@
 //! Coils without iron.
 
-use mcm::magnetics::{Assembly, Coil, Jet};
+use mcm::magnetics::{Assembly, Coil, IronCore, Jet};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
 /// The coil of `coil.csv`, which `tests/bench/coil_field.py` computed with mpmath.
-const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
+const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
 
 fn reference() -> Vec<[f64; 4]> {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/magnetics/coil.csv");
@@ -62,7 +62,7 @@ proptest! {
         // In halves of the thickness.
         let unit = 5e-3;
         let coil = |from: f64, to: f64, turns| Assembly::of_coil(Coil {
-            inner_radius: unit * from, outer_radius: unit * to, length: unit * length, turns,
+            inner_radius: unit * from, outer_radius: unit * to, length: unit * length, turns, core: None,
         }).unwrap();
         let whole = coil(inner, inner + 2.0, 200.0);
         let halves = [coil(inner, inner + 1.0, 100.0), coil(inner + 1.0, inner + 2.0, 100.0)];
@@ -121,4 +121,71 @@ fn bad_dimensions_are_named() {
     assert!(refused(Coil { inner_radius: 0.0, ..COIL }).contains("coil inner radius (m) = 0"));
     assert!(refused(Coil { turns: 0.0, ..COIL }).contains("coil turns = 0"));
     assert!(refused(Coil { length: f64::NAN, ..COIL }).contains("coil length (m)"));
+}
+
+/// A coil with a core whose field is that of a dipole on its axis, off its centre: multipoles of all degrees.
+fn with_dipole_at(height: f64) -> Assembly {
+    // On the axis 2 c / (r - h)^3 = 2 c sum (l + 1) l / 2 h^(l - 1) / r^(l + 2), with c = 1e-6 T m3 / A.
+    let coefficients = (1..=17).map(|l: i32| 1e-6 * f64::from(l * (l + 1)) * height.powi(l - 1));
+    let core = IronCore::new(0.05, &coefficients.collect::<Vec<_>>()).unwrap();
+    Assembly::of_coil(Coil { core: Some(core), ..COIL }).unwrap()
+}
+
+#[test]
+fn multipoles_of_a_core_are_those_of_a_dipole_off_centre() {
+    let height = 0.01;
+    let coil = with_dipole_at(height);
+    let dipole = |point: &Vector3<f64>| {
+        let r = point - Vector3::z() * height;
+        1e-6 * (3.0 * r * r.z / r.norm().powi(5) - Vector3::z() / r.norm().powi(3))
+    };
+    for point in [[0.0, 0.0, 0.12], [0.0, 0.0, -0.12], [0.09, -0.05, 0.07], [0.13, 0.02, -0.03]] {
+        let point = Vector3::from(point);
+        let expected = dipole(&point);
+        let Jet { field, gradient, .. } = coil.jet(&point).unwrap();
+        assert!((field - expected).norm() < 1e-13 * expected.norm(), "{point} {field} {expected}");
+        let mut several = Vec::new();
+        coil.field_gradients(&[point], &mut several).unwrap();
+        assert_eq!(
+            (several[0], coil.field_gradient(&point).unwrap()),
+            ((field, gradient), (field, gradient))
+        );
+        let step = 1e-5;
+        for axis in 0..3 {
+            let moved = |by: f64| {
+                let mut moved = point;
+                moved[axis] += by;
+                moved
+            };
+            let slope = (dipole(&moved(step)) - dipole(&moved(-step))) / (2.0 * step);
+            let error = (gradient.column(axis) - slope).norm();
+            assert!(error < 1e-6 * gradient.norm(), "{axis}: {error:e}");
+            let sides = [step, -step].map(|by| coil.field_gradient(&moved(by)).unwrap().1);
+            let second = (sides[0] - sides[1]) / (2.0 * step);
+            let of = coil.jet(&point).unwrap();
+            let along = |i: usize| of.hessian_along(&Vector3::ith(i, 1.0)).column(axis).into_owned();
+            for i in 0..3 {
+                let error = (along(i) - second.row(i).transpose()).norm();
+                assert!(error < 1e-6 * second.norm(), "{axis} {i}: {error:e}");
+            }
+        }
+    }
+    // The dipole's moment is 4 pi c / mu_0 = 1e7 c.
+    assert!((coil.moment() / 10.0 - 1.0).abs() < 1e-9, "{}", coil.moment());
+}
+
+#[test]
+fn where_multipoles_say_nothing_there_is_no_field() {
+    let coil = with_dipole_at(0.0);
+    let inside = Vector3::new(0.0, 0.03, 0.03);
+    assert!(coil.contains(&inside) && coil.distance(&inside) == 0.0);
+    let said = coil.field(&inside).unwrap_err().to_string();
+    assert!(
+        said.contains("distance from the centre of a coil with iron") && said.contains(">= 0.05"),
+        "{said}"
+    );
+    assert!((coil.distance(&Vector3::new(0.0, 0.08, 0.0)) - 0.03).abs() < 1e-15);
+    assert!(IronCore::new(0.05, &[1e-7; 18]).unwrap_err().to_string().contains("at most 17"));
+    assert!(IronCore::new(0.0, &[1e-7]).unwrap_err().to_string().contains("coil reach (m) = 0"));
+    assert!(IronCore::new(0.05, &[f64::NAN]).is_err() && IronCore::new(0.05, &[0.0; 3]).is_err());
 }

@@ -251,7 +251,7 @@ fn a_magnet_that_is_switched_off_or_absent() {
 
 #[test]
 fn every_output_by_a_second_magnet_and_a_coil() {
-    let coil = Coil { inner_radius: 0.02, outer_radius: 0.04, length: 0.06, turns: 600.0 };
+    let coil = Coil { inner_radius: 0.02, outer_radius: 0.04, length: 0.06, turns: 600.0, core: None };
     let sources = Sources::new(Some(pair()), vec![pair(), Assembly::of_coil(coil).unwrap()]).unwrap();
     let placed = |position, strength| PlacedSource {
         pose: Pose::new(position, [0.36, 0.8, 0.0, 0.48]).unwrap(),

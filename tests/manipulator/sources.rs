@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::given::{cylinder, pair};
 use crate::tolerance::PAIRS;
 
-const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
+const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
 
 fn beside() -> Inputs {
     let magnet = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).unwrap();

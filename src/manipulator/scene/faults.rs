@@ -16,11 +16,13 @@ const MOST: usize = 20;
 
 /// Reads the scene of a text called `what`.
 ///
-/// An entry at fault is left out, and the rest read again, until no more faults are found. `lumen_of` gives the lumen of a mesh.
+/// An entry at fault is left out, and the rest read again, until no more faults are found. `lumen_of` gives the lumen of a mesh,
+/// `text_of` the text of another file that is named.
 pub(super) fn read(
     text: &str,
     what: &str,
     lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>,
+    text_of: impl Fn(&str) -> Result<String, Error>,
 ) -> Result<SceneFile, Error> {
     let mut faults = Faults { text, what, found: Vec::new() };
     let (root, broken) = DeTable::parse_recoverable(text);
@@ -37,6 +39,11 @@ pub(super) fn read(
     let file = faults.types_and_keys(&root);
     let Some(mut file) = file else { return Err(faults.all()) };
     file.find_mesh(lumen_of);
+    if let Err(error) = file.find_multipoles(text_of) {
+        let named = root.get_ref().get("coil").map(|coils| coils.span().start);
+        faults.add(named, error.to_string());
+        return Err(faults.all());
+    }
     faults.values(root.get_ref(), &file)?;
     if faults.found.is_empty() { Ok(file) } else { Err(faults.all()) }
 }

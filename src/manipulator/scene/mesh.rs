@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::SceneFile;
 use super::vessel::{BranchEntries, VesselEntries};
+use super::{SceneFile, faults};
 use crate::error::Error;
 use crate::vessel::Lumen;
 
@@ -11,13 +11,24 @@ use crate::vessel::Lumen;
 const KEY: &str = "vessel.mesh_stl";
 
 impl SceneFile {
-    /// Reads a scene file's text, and the mesh that it names, whose path is relative to `folder`; `what` names the text in error
-    /// messages. Coordinates of the mesh are in mm, as those of the scene.
+    /// Reads a scene file's text, and the mesh and the tables of multipoles that it names, whose paths are relative to `folder`;
+    /// `what` names the text in error messages. Coordinates of the mesh are in mm, as those of the scene.
     ///
     /// # Errors
     /// As [`SceneFile::parse`], as where the mesh is missing or is none: see [`crate::vessel::Mesh`].
     pub fn parse_in(text: &str, what: &str, folder: &Path) -> Result<Self, Error> {
-        Self::parse_with(text, what, |name| read(&folder.join(name)))
+        faults::read(
+            text,
+            what,
+            |name| read(&folder.join(name)),
+            |name| {
+                let path = folder.join(name);
+                std::fs::read_to_string(&path).map_err(|error| Error::Syntax {
+                    what: path.display().to_string(),
+                    reason: error.to_string(),
+                })
+            },
+        )
     }
 
     /// Whether a mesh is named.
@@ -71,7 +82,7 @@ impl VesselEntries {
     }
 }
 
-/// Why a text alone does not tell where its mesh is.
+/// Why a text alone does not tell where a file is that it names.
 pub(super) fn unplaced(name: &str) -> Error {
     Error::Unsupported(format!(
         "{name} is not found from a text alone: read the scene's file (Scene::read), or name the folder (SceneFile::parse_in)"

@@ -3,6 +3,7 @@
 mod faults;
 mod file;
 mod mesh;
+mod multipoles;
 mod names;
 mod path;
 mod pose;
@@ -106,7 +107,8 @@ impl Scene {
         Sources::new(self.assembly()?, magnets.chain(coils).collect::<Result<_, _>>()?)
     }
 
-    /// Reads a scene file, and the mesh of a vessel that it names, whose path is relative to the scene's folder.
+    /// Reads a scene file, and the mesh of a vessel and the tables of multipoles that it names, whose paths are relative to the scene's
+    /// folder.
     ///
     /// # Errors
     /// [`Error::Syntax`] for a file that cannot be read; as [`SceneFile::parse_in`].

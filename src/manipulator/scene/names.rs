@@ -62,7 +62,7 @@ impl Unit {
 
 /// Quantities as [`crate::design`] and [`crate::magnetics`] name them, and the keys that may hold them. `*` is the number of a
 /// cylinder.
-const KEYS: [(&str, &str); 51] = [
+const KEYS: [(&str, &str); 52] = [
     ("number of segments", "design.segments"),
     ("helix length L (m)", "design.helix.length_mm"),
     ("boundary angle Theta (rad)", "design.helix.boundary_angle_deg"),
@@ -114,6 +114,7 @@ const KEYS: [(&str, &str); 51] = [
     ("coil outer radius (m)", "coil[*].outer_radius_mm"),
     ("coil length (m)", "coil[*].length_mm"),
     ("coil turns", "coil[*].turns"),
+    ("coil reach (m)", "coil[*].reach_mm"),
 ];
 
 /// What follows from several keys of the helix.

@@ -7,7 +7,6 @@ use super::file::{
     DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
 };
 use super::pose::{LARGEST_TURN, in_metres, pose, turn, turned};
-use super::sources::CoilEntries;
 use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
@@ -63,7 +62,8 @@ impl SceneFile {
         }
         let mut all = all.into_iter();
         let (magnets, further_magnets) = (all.next(), all.collect());
-        let coils = self.coil.iter().map(CoilEntries::si).collect();
+        let coils = (1..).zip(&self.coil).map(|(number, coil)| coil.si(&format!("coil[{number}]")));
+        let coils = coils.collect::<Result<_, _>>()?;
         let vessel = self.vessel.as_ref().map(|entries| entries.si(self.mesh.as_ref())).transpose()?;
         let shaft = self.shaft(&specification)?;
         let guidewire = self.guidewire.map(GuidewireEntries::si);

@@ -7,11 +7,12 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::SceneFile;
+use super::mesh::unplaced;
 use super::pose::{TURN_AXIS, in_metres, pose, turn, turned};
 use super::units::MM_PER_M;
 use crate::equilibrium::PlacedSource;
 use crate::error::Error;
-use crate::magnetics::{AxialMagnet, Coil};
+use crate::magnetics::{AxialMagnet, Coil, IronCore};
 
 /// The magnets of a scene: none, one table `[magnet]`, or several `[[magnet]]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -124,7 +125,7 @@ impl MagnetCylinder {
 }
 
 /// Table `[[coil]]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoilEntries {
     #[serde(default)]
@@ -137,6 +138,14 @@ pub(super) struct CoilEntries {
     pub(super) turns: f64,
     #[serde(default)]
     pub(super) current_a: f64,
+    /// A table of multipoles, see [`super::multipoles`], until it is read.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) multipoles_csv: Option<String>,
+    /// T m^(l + 2) / A for the degrees `l` = 1, 2, ....
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) multipoles: Option<Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) reach_mm: Option<f64>,
 }
 
 fn upright() -> [f64; 4] {
@@ -144,13 +153,28 @@ fn upright() -> [f64; 4] {
 }
 
 impl CoilEntries {
-    pub(super) fn si(&self) -> Coil {
-        Coil {
-            inner_radius: self.inner_radius_mm / MM_PER_M,
-            outer_radius: self.outer_radius_mm / MM_PER_M,
-            length: self.length_mm / MM_PER_M,
-            turns: self.turns,
-        }
+    /// The coil in SI units; `table` is the key of its table.
+    pub(super) fn si(&self, table: &str) -> Result<Coil, Error> {
+        let (outer_radius, length) = (self.outer_radius_mm / MM_PER_M, self.length_mm / MM_PER_M);
+        let around = outer_radius.hypot(0.5 * length);
+        let core = match (&self.multipoles_csv, &self.multipoles) {
+            (Some(_), Some(_)) => {
+                return Err(Error::Unsupported(format!(
+                    "{table}.multipoles_csv has no meaning beside {table}.multipoles: give one or the other"
+                )));
+            }
+            (Some(name), None) => return Err(unplaced(name)),
+            (None, Some(multipoles)) => {
+                let reach = self.reach_mm.map_or(around, |reach| reach / MM_PER_M);
+                Some(IronCore::new(reach, multipoles)?)
+            }
+            (None, None) if self.reach_mm.is_some() => {
+                return Err(Error::Unsupported(format!("{table}.reach_mm needs {table}.multipoles")));
+            }
+            (None, None) => None,
+        };
+        let inner_radius = self.inner_radius_mm / MM_PER_M;
+        Ok(Coil { inner_radius, outer_radius, length, turns: self.turns, core })
     }
 }
 
