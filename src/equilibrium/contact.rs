@@ -81,7 +81,19 @@ impl Placed<'_> {
         section: impl Fn(usize, f64) -> Pose,
         deepest: &mut Option<Contact>,
     ) {
-        let distance = |pose: &Pose| magnet.distance(&at.rotation.tr_mul(&(pose.position - at.position)));
+        let local = |pose: &Pose| at.rotation.tr_mul(&(pose.position - at.position));
+        let distance = |pose: &Pose| magnet.distance(&local(pose));
+        if let Some(reach) = magnet.reach() {
+            let within = |pose: &Pose| reach - local(pose).norm();
+            for (i, ring) in self.chain.rings.iter().enumerate() {
+                let depth = within(&ring.centre(&self.nodes[ring.node]));
+                add(deepest, with_cylinder(Body::Ring(i), (source, 0), depth));
+            }
+            for (k, element) in self.chain.elements.iter().enumerate() {
+                let depth = within(&section(k, 0.5 * element.length));
+                add(deepest, with_cylinder(Body::Segment(k), (source, 0), depth));
+            }
+        }
         for (i, ring) in self.chain.rings.iter().enumerate() {
             let centre = ring.centre(&self.nodes[ring.node]);
             let outline = ring.outline();

@@ -2,10 +2,23 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::host_values::HostValues;
 use super::input_derivatives::InputDerivatives;
 use super::state::State;
 use crate::manipulator::{Jacobian, Manipulator};
+
+/// What is known of an equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Search {
+    /// It was not sought yet.
+    Open,
+    /// It was found: the manipulator's outputs are those of it.
+    Found,
+    /// In model exchange: there is none, which the host can answer by other inputs.
+    InVain,
+}
 
 /// The FMU state of an instance.
 #[derive(Debug, Clone)]
@@ -20,8 +33,8 @@ pub(super) struct FmuState {
     pub(super) manipulator: Option<Manipulator>,
     /// Derivatives of the manipulator's outputs at its present equilibrium; computed when they are first needed.
     pub(super) jacobian: Option<Arc<Jacobian>>,
-    /// Whether the manipulator's outputs are those of the present host values.
-    pub(super) solved: bool,
+    /// What is known of the equilibrium for the present host values.
+    pub(super) search: Search,
     /// Whether the equilibrium for the next communication point has been found already, because the host read outputs
     /// after setting inputs. The step then need not solve again.
     pub(super) solved_ahead: bool,
@@ -30,8 +43,6 @@ pub(super) struct FmuState {
     /// In model exchange: the equilibrium of the last step that the host has accepted. Whatever inputs the host tries, the search
     /// starts from there, so that no value depends on what else was tried.
     pub(super) accepted: Option<Manipulator>,
-    /// In model exchange: whether no equilibrium was found for the inputs now set.
-    pub(super) unsolvable: bool,
     /// Snaps to another branch from initialisation to the last communication point, or to the last accepted step.
     pub(super) snaps: u32,
     /// Time of the last communication point, or as the host has set it, s.
@@ -47,11 +58,10 @@ impl FmuState {
             input_derivatives: InputDerivatives::default(),
             manipulator: None,
             jacobian: None,
-            solved: false,
+            search: Search::Open,
             solved_ahead: false,
             near_fold: false,
             accepted: None,
-            unsolvable: false,
             snaps: 0,
             time: 0.0,
         }

@@ -1,5 +1,6 @@
 //! The variables of an instance, read and set.
 
+use super::fmu_state::Search;
 use super::instance::Instance;
 use super::state::Ending;
 use super::value::Value;
@@ -44,7 +45,7 @@ impl Instance {
             let always = |variable: &&Variable| {
                 variable.causality != Causality::Output || variable.availability == Availability::Always
             };
-            let of_the_search = self.fmu_state.unsolvable && variables.iter().all(always);
+            let of_the_search = self.fmu_state.search == Search::InVain && variables.iter().all(always);
             let ending = if of_the_search { Ending::Ok } else { self.ensure_solved() };
             if ending != Ending::Ok {
                 return Err(ending);
@@ -103,8 +104,7 @@ impl Instance {
         if !changed {
             return Ending::Ok; // the equilibrium, and what was measured of it, stays valid
         }
-        self.fmu_state.solved = false;
-        self.fmu_state.unsolvable = false;
+        self.fmu_state.search = Search::Open;
         if rebuild {
             self.fmu_state.manipulator = None;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::fmu_state::FmuState;
+use super::fmu_state::{FmuState, Search};
 use super::log::Log;
 use super::package::Package;
 use super::state::{Call, Ending, Interface, State};
@@ -165,7 +165,8 @@ impl Instance {
     ///
     /// Parameters that are refused can be corrected, as the instance stays in initialisation mode then.
     pub fn exit_initialization(&mut self) -> Ending {
-        let ending = if self.fmu_state.solved { Ok(Ending::Ok) } else { self.solve_at_host_values() };
+        let found = self.fmu_state.search == Search::Found;
+        let ending = if found { Ok(Ending::Ok) } else { self.solve_at_host_values() };
         match ending {
             Ok(Ending::Ok) => {
                 match self.interface {
@@ -221,7 +222,9 @@ impl Instance {
             self.told_of_unexpected_time = true;
         }
         // Unchanged inputs are solved again, because the status `Snapped` holds for one step only.
-        self.fmu_state.solved &= self.fmu_state.solved_ahead;
+        if !self.fmu_state.solved_ahead {
+            self.fmu_state.search = Search::Open;
+        }
         let moving = self.fmu_state.input_derivatives.move_inputs() && step_size > 0.0;
         let ending = if moving { self.follow_inputs(step_size) } else { self.ensure_solved() };
         if ending != Ending::Ok {
@@ -261,10 +264,10 @@ impl Instance {
 
     /// Follows the equilibrium while the inputs move along their path for `duration` (s).
     fn follow_inputs(&mut self, duration: f64) -> Ending {
-        let FmuState { host_values, input_derivatives, solved, .. } = &self.fmu_state;
+        let FmuState { host_values, input_derivatives, search, .. } = &self.fmu_state;
         let path = host_values.inputs().and_then(|start| {
             let (mut waypoints, end) = input_derivatives.path(self.package.table(), host_values, duration)?;
-            if !solved {
+            if *search != Search::Found {
                 waypoints.insert(0, start);
             }
             Ok((waypoints, end))
@@ -286,11 +289,10 @@ impl Instance {
 
     /// Solves the equilibrium for the inputs now set, unless that is done already.
     pub(super) fn ensure_solved(&mut self) -> Ending {
-        if self.fmu_state.solved {
-            return Ending::Ok;
-        }
-        if self.fmu_state.unsolvable {
-            return Ending::Discard; // the log has told why
+        match self.fmu_state.search {
+            Search::Open => {}
+            Search::Found => return Ending::Ok,
+            Search::InVain => return Ending::Discard, // the log has told why
         }
         match self.solve_at_host_values() {
             Ok(ending) => ending,
@@ -347,14 +349,14 @@ impl Instance {
             }
             let reason = format!("after t = {time}: {}", why_not_solved(manipulator));
             if matches!(now.state, State::Event | State::ContinuousTime) {
-                now.unsolvable = true;
+                now.search = Search::InVain;
                 self.log.discard(&format!("{reason}; try inputs closer to those of the last accepted step"));
                 return Ok(Ending::Discard);
             }
             let reason = format!("{reason}; {}", advice(manipulator));
             return Ok(self.refuse(&reason));
         }
-        now.solved = true;
+        now.search = Search::Found;
         now.solved_ahead = true;
         now.near_fold = status == Status::NearFold;
         if snapped {

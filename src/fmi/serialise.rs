@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::fmu_state::FmuState;
+use super::fmu_state::{FmuState, Search};
 use super::input_derivatives::InputDerivatives;
 use super::package::Package;
 use super::state::{Interface, State};
@@ -33,8 +33,7 @@ struct Record {
     input_derivatives: InputDerivatives,
     manipulator: Option<Snapshot>,
     accepted: Option<Snapshot>,
-    unsolvable: bool,
-    solved: bool,
+    search: Search,
     solved_ahead: bool,
     near_fold: bool,
     snaps: u32,
@@ -64,8 +63,7 @@ pub(super) fn to_bytes(fmu_state: &FmuState, package: &Package) -> Result<Vec<u8
         input_derivatives: fmu_state.input_derivatives.clone(),
         manipulator: fmu_state.manipulator.as_ref().map(Manipulator::snapshot),
         accepted: fmu_state.accepted.as_ref().map(Manipulator::snapshot),
-        unsolvable: fmu_state.unsolvable,
-        solved: fmu_state.solved,
+        search: fmu_state.search,
         solved_ahead: fmu_state.solved_ahead,
         near_fold: fmu_state.near_fold,
         snaps: fmu_state.snaps,
@@ -140,7 +138,7 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         && record.input_derivatives.nonzero().all(of_input)
         && record.time.is_finite()
         && record.state != State::Broken
-        && (record.manipulator.is_some() || !record.solved)
+        && (record.manipulator.is_some() || record.search == Search::Open)
         && (record.accepted.is_some() || record.state.interface() != Some(Interface::ModelExchange));
     if !sound {
         return Err(refused("its values do not fit the variables"));
@@ -155,17 +153,6 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         manipulator.restore(snapshot)?;
         fmu_state.manipulator = Some(manipulator);
     }
-    let Record { state, input_derivatives, solved, solved_ahead, unsolvable, near_fold, snaps, time, .. } =
-        record;
-    Ok(FmuState {
-        state,
-        input_derivatives,
-        solved,
-        solved_ahead,
-        unsolvable,
-        near_fold,
-        snaps,
-        time,
-        ..fmu_state
-    })
+    let Record { state, input_derivatives, search, solved_ahead, near_fold, snaps, time, .. } = record;
+    Ok(FmuState { state, input_derivatives, search, solved_ahead, near_fold, snaps, time, ..fmu_state })
 }

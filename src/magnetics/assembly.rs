@@ -158,6 +158,12 @@ impl Assembly {
         if let Bodies::Winding(coil, _) = &self.bodies { Some(coil) } else { None }
     }
 
+    /// Radius of the sphere about the centre in which the multipoles of an iron core say nothing, m; `None` without one.
+    #[must_use]
+    pub fn reach(&self) -> Option<f64> {
+        self.core().map(|core| core.reach)
+    }
+
     fn core(&self) -> Option<&IronCore> {
         self.coil().and_then(|coil| coil.core.as_ref())
     }

@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use mcm::manipulator::SceneFile;
+
 use super::{assert_status, folder, mcm, stderr, stdout};
 
 /// A small cylinder whose length is the root of 3 times its radius has no octupole.
@@ -11,8 +13,9 @@ fn scene(source: &str) -> String {
     format!("[design]\nsegments = 3\n[model]\ninteraction = \"rings\"\n{source}")
 }
 
-fn tip(test: &str, scene: &str) -> Vec<f64> {
+fn tip(test: &str, scene: &str, table: &str) -> Vec<f64> {
     let here = folder(test);
+    fs::write(here.join("core.csv"), table).unwrap();
     fs::write(here.join("scene.toml"), scene).unwrap();
     let output = mcm(&here, &["solve", "scene.toml", "--json"]);
     assert_status(&output, 0);
@@ -26,8 +29,7 @@ fn a_table_of_multipoles_makes_the_field_of_its_dipole() {
     let (radius, length) = CYLINDER_MM;
     let remanence = 200.0;
     let dipole = 0.5e-9 * remanence * radius * radius * length;
-    let here = folder("multipoles");
-    fs::write(here.join("core.csv"), format!("degree,t_m_per_a\n1,{:e}\n3,0\n", dipole / 4.0)).unwrap();
+    let core = format!("degree,t_m_per_a\n1,{:e}\n3,0\n", dipole / 4.0);
     let place = "position_mm = [10.0, 60.0, 9.0]\norientation_wxyz = [0.8, 0.6, 0, 0]\n";
     let coil = format!(
         "[[coil]]\n{place}inner_radius_mm = 5\nouter_radius_mm = 10\nlength_mm = 20\nturns = 100\ncurrent_a = 4\n"
@@ -35,20 +37,28 @@ fn a_table_of_multipoles_makes_the_field_of_its_dipole() {
     let magnet = format!(
         "[magnet]\n{place}[[magnet.cylinders]]\nradius_mm = {radius}\nlength_mm = {length}\nremanence_t = {remanence}\n"
     );
-    let by_magnet = tip("multipoles_magnet", &scene(&magnet));
-    let by_core = tip("multipoles", &scene(&format!("{coil}multipoles_csv = \"core.csv\"\n")));
-    let inline =
-        tip("multipoles_inline", &scene(&format!("{coil}multipoles = [{:e}, 0, 0]\n", dipole / 4.0)));
-    let unloaded = tip("multipoles_none", &scene(""));
+    let named = scene(&format!("{coil}multipoles_csv = \"core.csv\"\n"));
+    let by_magnet = tip("multipoles_magnet", &scene(&magnet), "");
+    let by_core = tip("multipoles", &named, &core);
+    let inline = scene(&format!("{coil}multipoles = [{:e}, 0, 0]\n", dipole / 4.0));
+    let by_list = tip("multipoles_inline", &inline, "");
+    let unloaded = tip("multipoles_none", &scene(""), "");
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     assert!(apart(&by_magnet, &unloaded) > 1e-4, "the field bends the device");
     assert!(apart(&by_core, &by_magnet) < 1e-7, "{by_core:?} {by_magnet:?}");
-    assert!(apart(&by_core, &inline) == 0.0);
-    // A packed scene has the numbers in it, not the name of a file.
-    assert_status(
-        &mcm(&here, &["sweep", "scene.toml", "--vary", "coil[1].current_a=0:4:3", "--out", "sweep.csv"]),
-        0,
+    assert!(by_core == by_list);
+    // A scene that is packed or written has the numbers in it, not the name of a file.
+    let here = folder("multipoles_written");
+    fs::write(here.join("core.csv"), core).unwrap();
+    let file = SceneFile::parse_in(&named, "named", &here).unwrap();
+    assert_eq!(file, SceneFile::parse(&file.to_toml().unwrap(), "written").unwrap());
+    assert!(
+        SceneFile::parse(&named, "text")
+            .unwrap_err()
+            .to_string()
+            .contains("core.csv is not found from a text")
     );
+    fs::write(here.join("scene.toml"), &named).unwrap();
     fs::remove_file(here.join("core.csv")).unwrap();
     let output = mcm(&here, &["solve", "scene.toml"]);
     assert_status(&output, 1);

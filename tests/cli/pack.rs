@@ -20,7 +20,7 @@ const LIBRARIES: [(&str, &[u8]); 4] = [
 ];
 
 /// Names as a library's table of symbols holds them.
-const FUNCTIONS: [&str; 16] = [
+const FUNCTIONS: [&str; 26] = [
     "fmi2GetTypesPlatform",
     "fmi2GetVersion",
     "fmi2Instantiate",
@@ -37,6 +37,16 @@ const FUNCTIONS: [&str; 16] = [
     "fmi2SetInteger",
     "fmi2SetBoolean",
     "fmi2DoStep",
+    "fmi2EnterEventMode",
+    "fmi2NewDiscreteStates",
+    "fmi2EnterContinuousTimeMode",
+    "fmi2CompletedIntegratorStep",
+    "fmi2SetTime",
+    "fmi2SetContinuousStates",
+    "fmi2GetDerivatives",
+    "fmi2GetEventIndicators",
+    "fmi2GetContinuousStates",
+    "fmi2GetNominalsOfContinuousStates",
 ];
 
 /// The bytes of a file of [`LIBRARIES`], followed by the names of its functions.

@@ -1,19 +1,8 @@
 //! Tables of multipoles of coils with iron cores: CSV with the columns `degree` and `t_m_per_a`, the coefficients of
 //! [`crate::magnetics::IronCore`] in T m^(degree + 2) / A.
 
-use serde::Deserialize;
-
 use super::SceneFile;
 use crate::error::Error;
-use crate::magnetics::IronCore;
-
-/// A row of a table.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    degree: usize,
-    t_m_per_a: f64,
-}
 
 impl SceneFile {
     /// Takes the multipoles from the tables that coils name, whose text `text_of` gives.
@@ -36,7 +25,18 @@ impl SceneFile {
 }
 
 /// The coefficients by degree, 0 where a degree is missing.
+#[cfg(feature = "csv")]
 fn read(text: &str) -> Result<Vec<f64>, String> {
+    use crate::magnetics::IronCore;
+
+    /// A row of a table.
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Row {
+        degree: usize,
+        t_m_per_a: f64,
+    }
+
     let mut coefficients: Vec<Option<f64>> = Vec::new();
     for row in csv::Reader::from_reader(text.as_bytes()).into_deserialize() {
         let Row { degree, t_m_per_a } = row.map_err(|error| error.to_string())?;
@@ -53,4 +53,9 @@ fn read(text: &str) -> Result<Vec<f64>, String> {
         return Err("it has no rows".into());
     }
     Ok(coefficients.into_iter().map(Option::unwrap_or_default).collect())
+}
+
+#[cfg(not(feature = "csv"))]
+fn read(_: &str) -> Result<Vec<f64>, String> {
+    Err("not read: this build of mcm has no reader for CSV files, the feature `csv`".into())
 }

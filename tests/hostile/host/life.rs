@@ -65,7 +65,7 @@ impl Host<'_> {
         self.guests.push(Guest {
             handle,
             design,
-            exchange: kind == fmi2Type::fmi2ModelExchange,
+            kind,
             environment,
             alive: sound,
             has_logger: !callbacks.is_null(),
@@ -112,7 +112,7 @@ impl Host<'_> {
             2 => {
                 self.call(guest, "fmi2ExitInitializationMode", |it| unsafe { fmi2ExitInitializationMode(it) })
             }
-            _ if guest.exchange => self.exchange(guest),
+            _ if guest.kind == fmi2Type::fmi2ModelExchange => self.exchange(guest),
             _ => self.step(guest),
         };
         if status == OK {

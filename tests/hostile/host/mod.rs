@@ -58,8 +58,8 @@ pub(crate) struct Tally {
 struct Guest {
     handle: fmi2Component,
     design: usize,
-    /// Whether it is for model exchange.
-    exchange: bool,
+    /// What it is for.
+    kind: fmi2Type,
     environment: usize,
     alive: bool,
     /// Whether it was given a logger.
