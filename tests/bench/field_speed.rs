@@ -17,7 +17,7 @@ mod reference;
 use core::hint::black_box;
 use std::time::Instant;
 
-use mcm::magnetics::{AxialSource, Dipole};
+use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Coil, Dipole};
 use nalgebra::{Matrix3, Vector3};
 
 const ROUNDS: usize = 2000;
@@ -119,6 +119,37 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
     row([distance, "magba"], times, [of_field(&|p| peer::ring(p).into()), f64::NAN]);
 }
 
+/// Nanoseconds per point for field and gradient of a coil, of the cylinder of its outline and of two such cylinders, in
+/// alternating rounds, and the ratios.
+fn coils() {
+    let dimensions =
+        Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
+    let coil = Assembly::of_coil(dimensions).expect("allowed");
+    let cylinder =
+        |offset| AxialMagnet { radius: 40e-3, inner_radius: 0.0, length: 60e-3, offset, remanence: 1.35 };
+    let one = Assembly::new(vec![cylinder(0.0)]).expect("allowed");
+    let two = Assembly::new(vec![cylinder(0.0), cylinder(0.07)]).expect("apart");
+    println!(
+        "\n| distance from the centre | one cylinder, B and G | two cylinders | coil | coil / cylinder |"
+    );
+    println!("| --- | --- | --- | --- | --- |");
+    for (name, radius) in [("60 to 80 mm", 0.06), ("95 to 130 mm", 0.095), ("300 to 400 mm", 0.3)] {
+        let points: Vec<_> = (0..32)
+            .map(|k| {
+                let (sine, cosine) = (0.1 + 0.04 * f64::from(k)).sin_cos();
+                Vector3::new(sine, 0.0, cosine) * radius * (1.0 + 0.01 * f64::from(k))
+            })
+            .collect();
+        let mut best = [f64::INFINITY; 3];
+        for _ in 0..ROUNDS {
+            let round = [&one, &two, &coil].map(|source| time(&points, |p| source.field_gradient(p)));
+            best = core::array::from_fn(|i| best[i].min(round[i]));
+        }
+        let [one, two, coil] = best;
+        println!("| {name} | {one:.0} | {two:.0} | {coil:.0} | {:.1} |", coil / one);
+    }
+}
+
 fn main() {
     println!("nanoseconds per point, fastest of {ROUNDS} alternating rounds");
     println!("| source | B | B and G | B, G and H | magba B |\n| --- | --- | --- | --- | --- |");
@@ -130,6 +161,7 @@ fn main() {
     measure("cylinder, 2 to 6 radii", &cylinder, &peer::points(22.5e-3), |p| {
         peer::cylinder(p, 22.5e-3, 30.0e-3)
     });
+    coils();
     println!(
         "\nnanoseconds, and median relative errors at the same points, of the last two at the rows of the reference"
     );

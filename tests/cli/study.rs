@@ -9,7 +9,7 @@ use super::{assert_status, folder, mcm, stderr, table};
 /// Largest size of a picture that a page shows, bytes.
 const LARGEST_PICTURE: u64 = 100_000;
 
-const STUDIES: [&str; 12] = [
+const STUDIES: [&str; 13] = [
     "field_ring",
     "fig4",
     "fig5",
@@ -21,6 +21,7 @@ const STUDIES: [&str; 12] = [
     "hysteresis",
     "bands",
     "rest",
+    "coils",
     "communication-step",
 ];
 

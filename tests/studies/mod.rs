@@ -3,6 +3,7 @@
 mod accuracy;
 mod bands;
 mod budget;
+mod coils;
 mod communication_step;
 mod field_ring;
 mod fig4;

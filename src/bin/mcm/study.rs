@@ -63,6 +63,8 @@ enum Name {
     Bands,
     /// Tip angle without any load, over the number of segments, by arrangement of the spirals
     Rest,
+    /// Field and gradient that eight coils reach
+    Coils,
     /// The same path of the magnet in few communication steps and in many
     #[value(name = "communication-step")]
     CommunicationStep,
@@ -99,6 +101,7 @@ impl Name {
             Self::Hysteresis => Some(studies::hysteresis),
             Self::Bands => Some(|_| studies::bands()),
             Self::Rest => Some(|_| studies::rest()),
+            Self::Coils => Some(|_| studies::coils()),
             Self::CommunicationStep => Some(studies::communication_step),
             Self::Accuracy
             | Self::Budget
