@@ -321,7 +321,7 @@ def test_ipopt_finds_a_pose_by_exact_derivatives(tmp_path: Path) -> None:
     for distance in (60.0, 125.0):
         said = example("magnet_pose_casadi.py", fmu, *asked, str(distance)).splitlines()
         place = np.array([float(part) for part in said[0].partition("(")[2].partition(")")[0].split(",")])
-        missed, snaps = float(said[2].split()[5]), int(said[2].split()[9])
+        missed, snaps = float(said[2].split()[5]), int(said[2].split()[10])
         assert missed < 0.2 and snaps == 0, said
         # The device is 18 mm long and its rings lie near its axis.
         assert np.linalg.norm(place - [0.0, 0.0, np.clip(place[2], 0.0, 18.0)]) > distance - 3.0
