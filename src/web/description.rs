@@ -1,5 +1,7 @@
 //! What a page draws of a device and offers to set.
 
+use core::f64::consts::PI;
+
 use serde::Serialize;
 
 use crate::constants::VACUUM_PERMEABILITY;
@@ -8,6 +10,8 @@ use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
 use crate::fmi::variable::{Causality, Variable};
+use crate::fmi::variables::source_names;
+use crate::magnetics::{AxialMagnet, Coil};
 use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
 
@@ -28,6 +32,7 @@ pub(super) struct Description {
     feed_mode: FeedMode,
     guidewire: Option<Wire>,
     magnet: Vec<Cylinder>,
+    further: Vec<Source>,
     vessel: Option<Wall>,
 }
 
@@ -81,7 +86,16 @@ struct Wire {
     radius: f64,
 }
 
-/// A cylinder of the external magnet.
+/// A magnet after the first one, or a coil. The cylinder of a coil is its winding, with the remanence that has its dipole moment of
+/// one ampere.
+#[derive(Debug, Serialize)]
+struct Source {
+    name: String,
+    coil: bool,
+    cylinders: Vec<Cylinder>,
+}
+
+/// A cylinder of a magnet.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Cylinder {
@@ -117,12 +131,14 @@ impl Description {
                 .collect()
         };
         let design = start.design()?;
-        let cylinders = start.magnets.iter().map(|magnet| Cylinder {
-            inner_radius: magnet.inner_radius,
-            outer_radius: magnet.radius,
-            length: magnet.length,
-            offset: magnet.offset,
-            remanence: magnet.remanence,
+        let further = source_names(start).zip(&start.further);
+        let further = further.map(|((name, coil), source)| {
+            let assembly = &source.assembly;
+            let cylinders = match assembly.coil() {
+                Some(coil) => vec![Cylinder::winding(coil, assembly.moment())],
+                None => assembly.magnets().iter().map(Cylinder::of).collect(),
+            };
+            Source { name, coil, cylinders }
         });
         let walls = start.vessel.as_ref().map(|vessel| Wall {
             branches: vessel.lumen.branches().iter().map(Course::of).collect(),
@@ -139,7 +155,8 @@ impl Description {
                 .map(|span| Tube { inner_radius: span.inner_radius, outer_radius: span.outer_radius }),
             feed_mode: start.feed_mode,
             guidewire: design.guidewire().map(|wire| Wire { radius: wire.radius }),
-            magnet: cylinders.collect(),
+            magnet: start.magnets.iter().map(Cylinder::of).collect(),
+            further: further.collect(),
             vessel: walls,
         })
     }
@@ -147,6 +164,25 @@ impl Description {
     pub(super) fn to_json(&self) -> Result<String, Error> {
         serde_json::to_string(self)
             .map_err(|error| Error::Syntax { what: "description".into(), reason: error.to_string() })
+    }
+}
+
+impl Cylinder {
+    fn of(magnet: &AxialMagnet) -> Self {
+        Self {
+            inner_radius: magnet.inner_radius,
+            outer_radius: magnet.radius,
+            length: magnet.length,
+            offset: magnet.offset,
+            remanence: magnet.remanence,
+        }
+    }
+
+    fn winding(coil: &Coil, moment: f64) -> Self {
+        let Coil { inner_radius, outer_radius, length, .. } = *coil;
+        let volume = PI * (outer_radius * outer_radius - inner_radius * inner_radius) * length;
+        let remanence = VACUUM_PERMEABILITY * moment / volume;
+        Self { inner_radius, outer_radius, length, offset: 0.0, remanence }
     }
 }
 

@@ -75,3 +75,23 @@ fn a_vessel_has_its_branches() {
     assert!(number(&described["shaft"]["outerRadius"]) > 0.0);
     assert_eq!(described["feedMode"], "insertion");
 }
+
+#[test]
+fn further_magnets_and_coils_have_their_bodies_and_moments() {
+    let scene = "[design]\nsegments = 1\n[[magnet]]\n[[magnet]]\nposition_mm = [150, 0, 0]\n\
+                 [[coil]]\nposition_mm = [0, 90, 0]\ninner_radius_mm = 20\nouter_radius_mm = 40\nlength_mm = 60\n\
+                 turns = 600\ncurrent_a = 1";
+    let described = described(scene);
+    let further = described["further"].as_array().unwrap();
+    let names: Vec<_> = further.iter().map(|source| source["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["magnet[2]", "coil[1]"]);
+    assert_eq!(further[0]["cylinders"], described["magnet"], "both are the usual pair");
+    let [winding] = &further[1]["cylinders"].as_array().unwrap()[..] else { panic!("one winding") };
+    let [inner, outer, length] = ["innerRadius", "outerRadius", "length"].map(|key| number(&winding[key]));
+    assert_close("winding", &[inner, outer, length], &[0.02, 0.04, 0.06], ROUNDING);
+    // A coil of N turns between the radii a and b has the moment N pi (a^2 + a b + b^2) / 3 of one ampere.
+    let moment = 600.0 * core::f64::consts::PI * (inner * inner + inner * outer + outer * outer) / 3.0;
+    let volume = core::f64::consts::PI * (outer * outer - inner * inner) * length;
+    let expected = 4e-7 * core::f64::consts::PI * moment / volume;
+    assert_relative_eq!(number(&winding["remanence"]), expected, max_relative = 1e-9);
+}

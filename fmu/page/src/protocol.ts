@@ -45,7 +45,7 @@ export interface Body {
     boundaryAngle: number | null;
 }
 
-/** A cylinder of the external magnet, about the magnet's z axis. */
+/** A cylinder of a magnet, about the magnet's z axis. */
 export interface Cylinder {
     innerRadius: number;
     outerRadius: number;
@@ -54,6 +54,17 @@ export interface Cylinder {
     offset: number;
     /** Remanence along the axis, T: positive means that north lies towards +z. */
     remanence: number;
+}
+
+/**
+ * A magnet after the first one, or a coil. The cylinder of a coil is its winding, with the remanence that has its dipole moment of one
+ * ampere.
+ */
+export interface Source {
+    /** Beginning of the names of its inputs, such as `magnet[2]` or `coil[1]`. */
+    name: string;
+    coil: boolean;
+    cylinders: Cylinder[];
 }
 
 /** A branch of a vessel: balls along its centreline, closely spaced; x, y, z and radius of each, m. */
@@ -81,6 +92,8 @@ export interface Description {
     guidewire: { radius: number } | null;
     /** The external magnet; empty where the scene has none (its strength is then 0). */
     magnet: Cylinder[];
+    /** Further magnets, then coils. */
+    further: Source[];
     /** The vessel; null for none. A vessel from a mesh has no branches, but triangles: nine numbers each, m. */
     vessel: { branches: Branch[]; triangles: number[] } | null;
 }

@@ -9,7 +9,7 @@ use super::rows::{Draft, Rows};
 use crate::manipulator::{Input, Output};
 
 /// The structured name of each further source, and whether it is a coil: `magnet[2]`, ..., `coil[1]`, ....
-fn names(start: &HostValues) -> impl Iterator<Item = (String, bool)> {
+pub fn source_names(start: &HostValues) -> impl Iterator<Item = (String, bool)> {
     let (mut magnets, mut coils) = (1, 0);
     start.further.iter().map(move |source| {
         let is_coil = source.assembly.coil().is_some();
@@ -21,7 +21,7 @@ fn names(start: &HostValues) -> impl Iterator<Item = (String, bool)> {
 
 impl Rows {
     pub(super) fn source_inputs(&mut self, start: &HostValues) {
-        for (number, (name, is_coil)) in names(start).enumerate() {
+        for (number, (name, is_coil)) in source_names(start).enumerate() {
             let what = if is_coil { "coil" } else { "magnet" };
             let position = access!(|values, index| values.further[index.item].pose.position[index.component]);
             let draft = Draft::input(
@@ -57,7 +57,7 @@ impl Rows {
     }
 
     pub(super) fn source_outputs(&mut self, start: &HostValues) {
-        for (number, (name, is_coil)) in names(start).enumerate() {
+        for (number, (name, is_coil)) in source_names(start).enumerate() {
             let what = if is_coil { "coil" } else { "magnet" };
             let draft =
                 real(format!("{name}.reaction_force"), FORCE, &format!("Force on the {what}"), |o, index| {

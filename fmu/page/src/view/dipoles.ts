@@ -1,50 +1,64 @@
-import { Quaternion, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { Cylinder, Description } from "../protocol";
 import { type Triple, type ValuePlaces, valueAt, vectorAt } from "./places";
 import { orientationAt } from "./shape";
+import { SourcePlaces } from "./source_places";
 
-/** A dipole on the magnet's axis: its place, m, and its moment times mu0 / 4 pi, T m3. */
+/** A dipole on the axis of a magnet or coil: its place, m, and its moment times mu0 / 4 pi, T m3, where the strength is 1. */
 interface Dipole {
     offset: number;
     strength: number;
 }
 
-/**
- * The field around the device as point dipoles tell it: one for each cylinder of the magnet, and the uniform field with its gradient.
- * Good enough for the direction and relative length of an arrow; the core computes with the exact field of the cylinders.
- */
-export class DipoleField {
-    private readonly dipoles: Dipole[];
-    private readonly position: Triple;
-    private readonly orientation: readonly number[];
-    private readonly strength: number;
-    private readonly uniform: Triple;
-    private readonly gradient: readonly number[];
-    private readonly centre = new Vector3();
-    private readonly axis = new Vector3();
-    private readonly distance = new Vector3();
-    private readonly constant = new Vector3();
-    private factor = 0;
-    private slopes = [0, 0, 0, 0, 0];
+/** A magnet or coil as dipoles, where and as strong as the last inputs said. */
+class DipoleSource {
+    readonly centre = new Vector3();
+    readonly axis = new Vector3();
+    readonly dipoles: Dipole[];
+    factor = 0;
 
-    constructor(description: Description, places: ValuePlaces) {
-        this.dipoles = description.magnet.map((cylinder) => ({
+    constructor(
+        cylinders: readonly Cylinder[],
+        private readonly places: SourcePlaces,
+    ) {
+        this.dipoles = cylinders.map((cylinder) => ({
             offset: cylinder.offset,
             strength: (cylinder.remanence * volume(cylinder)) / (4 * Math.PI),
         }));
-        this.position = places.inputVector("magnet.position");
-        this.orientation = places.inputQuaternion("magnet.orientation");
-        this.strength = places.input("magnet.strength");
+    }
+
+    read(inputs: Float64Array): void {
+        this.centre.set(...vectorAt(inputs, this.places.position));
+        this.axis.set(0, 0, 1).applyQuaternion(orientationAt(inputs, this.places.orientation));
+        this.factor = valueAt(inputs, this.places.strength) || 0;
+    }
+}
+
+/**
+ * The field around the device as point dipoles tell it: one for each cylinder of a magnet and for each coil, and the uniform field with
+ * its gradient. Good enough for the direction and relative length of an arrow; the core computes with the exact fields.
+ */
+export class DipoleField {
+    private readonly sources: DipoleSource[];
+    private readonly uniform: Triple;
+    private readonly gradient: readonly number[];
+    private readonly distance = new Vector3();
+    private readonly constant = new Vector3();
+    private slopes = [0, 0, 0, 0, 0];
+
+    constructor(description: Description, places: ValuePlaces) {
+        const first = new DipoleSource(description.magnet, new SourcePlaces(places, "magnet", "strength"));
+        const further = description.further.map(({ name, coil, cylinders }) => {
+            return new DipoleSource(cylinders, new SourcePlaces(places, name, coil ? "current" : "strength"));
+        });
+        this.sources = [first, ...further];
         this.uniform = places.inputVector("field.uniform");
         this.gradient = [1, 2, 3, 4, 5].map((k) => places.input(`field.gradient[${k}]`));
     }
 
-    /** Takes the magnet's pose and the uniform field from inputs. */
+    /** Takes the poses of magnets and coils and the uniform field from inputs. */
     read(inputs: Float64Array): void {
-        this.centre.set(...vectorAt(inputs, this.position));
-        const turn: Quaternion = orientationAt(inputs, this.orientation);
-        this.axis.set(0, 0, 1).applyQuaternion(turn);
-        this.factor = this.dipoles.length > 0 ? valueAt(inputs, this.strength) || 0 : 0;
+        for (const source of this.sources) source.read(inputs);
         const [x, y, z] = vectorAt(inputs, this.uniform);
         this.constant.set(x || 0, y || 0, z || 0);
         this.slopes = this.gradient.map((place) => valueAt(inputs, place) || 0);
@@ -58,14 +72,16 @@ export class DipoleField {
             this.constant.y + xy * x + yy * y + yz * z,
             this.constant.z + xz * x + yz * y - (xx + yy) * z,
         );
-        for (const dipole of this.factor === 0 ? [] : this.dipoles) {
-            const { axis, distance } = this;
-            distance.set(x, y, z).sub(this.centre).addScaledVector(axis, -dipole.offset);
-            const square = distance.lengthSq();
-            const size = (this.factor * dipole.strength) / (square * Math.sqrt(square));
-            field
-                .addScaledVector(distance, (3 * size * axis.dot(distance)) / square)
-                .addScaledVector(axis, -size);
+        for (const { centre, axis, dipoles, factor } of this.sources) {
+            for (const dipole of factor === 0 ? [] : dipoles) {
+                const { distance } = this;
+                distance.set(x, y, z).sub(centre).addScaledVector(axis, -dipole.offset);
+                const square = distance.lengthSq();
+                const size = (factor * dipole.strength) / (square * Math.sqrt(square));
+                field
+                    .addScaledVector(distance, (3 * size * axis.dot(distance)) / square)
+                    .addScaledVector(axis, -size);
+            }
         }
         return field.toArray();
     }

@@ -4,6 +4,7 @@ import { DARK, LIGHT } from "./colours";
 import { Device } from "./device";
 import { FieldArrows } from "./field";
 import { ForceArrows } from "./forces";
+import { FurtherSource } from "./further_source";
 import { Guidewire } from "./guidewire";
 import { Magnet } from "./magnet";
 import { type Triple, ValuePlaces, valueAt, vectorAt } from "./places";
@@ -25,6 +26,7 @@ export type Overlay = (typeof OVERLAYS)[number];
 /** All that is drawn of one description, in the colours of one theme. */
 export class Drawing {
     readonly magnet: Magnet | null;
+    private readonly further: readonly FurtherSource[];
     private readonly places: ValuePlaces;
     private readonly shape: ShapeReader;
     private readonly device: Device;
@@ -46,13 +48,14 @@ export class Drawing {
     ) {
         const palette = dark ? DARK : LIGHT;
         const places = new ValuePlaces(description);
-        const { guidewire, magnet, vessel } = description;
+        const { guidewire, magnet, further, vessel } = description;
         this.places = places;
         this.shape = new ShapeReader(description, places);
         this.device = new Device(description, places, palette, tint);
         this.shaft = new Shaft(description, palette, tint);
         this.guidewire = guidewire ? new Guidewire(guidewire.radius, palette) : null;
         this.magnet = magnet.length > 0 ? new Magnet(magnet, palette) : null;
+        this.further = further.map((source) => new FurtherSource(source, places, palette));
         this.vessel = vessel ? new Vessel(vessel, palette) : null;
         this.field = new FieldArrows(description, places, palette);
         this.forces = new ForceArrows(description, places, palette);
@@ -64,6 +67,7 @@ export class Drawing {
         scene.add(this.bent);
         if (this.vessel) scene.add(this.vessel.mesh);
         if (this.magnet) scene.add(this.magnet.group);
+        for (const source of this.further) scene.add(source.magnet.group);
     }
 
     /** Whether the vessel lies flat, so that it is better seen from above. */
@@ -89,6 +93,7 @@ export class Drawing {
     /** Draws the shape of an answer. Returns where the tip is, mm; null where it has no shape, or only the last good one. */
     bend(answer: Answer, overlays: ReadonlySet<Overlay>): [number, number, number] | null {
         const { shape, field, forces } = this;
+        for (const source of this.further) source.place(answer.inputs);
         this.bent.visible = shape.read(answer);
         if (!this.bent.visible) return null;
         this.device.bend(shape.centreline, shape.base);
@@ -112,27 +117,33 @@ export class Drawing {
     /** The box around all; a magnet that is switched off does not count. */
     box(): Box3 {
         const box = this.deviceBox();
-        if (this.magnet && !this.magnet.faded) box.union(this.magnet.box());
+        for (const magnet of this.magnets()) if (magnet.present) box.union(magnet.box());
         if (this.vessel) box.union(this.vessel.bounds);
         return box;
     }
 
-    /** Device and magnet, as far as they are shown. */
+    /** Device, magnets and coils, as far as they are shown. */
     solids(): Object3D[] {
-        const { bent, device, shaft, guidewire, magnet } = this;
+        const { bent, device, shaft, guidewire } = this;
         const shaped = bent.visible
             ? [device.group, shaft.group, ...(guidewire ? [guidewire.mesh] : [])]
             : [];
-        return [...shaped, ...(magnet ? [magnet.group] : [])];
+        return [...shaped, ...this.magnets().map((magnet) => magnet.group)];
+    }
+
+    /** All magnets and coils. */
+    private magnets(): Magnet[] {
+        return [...(this.magnet ? [this.magnet] : []), ...this.further.map((source) => source.magnet)];
     }
 
     /** Takes all out of the scene and frees what the graphics card holds. */
     dispose(): void {
-        const { device, shaft, guidewire, magnet, vessel, field, forces } = this;
+        const { device, shaft, guidewire, vessel, field, forces } = this;
         this.scene.remove(this.bent);
-        if (magnet) this.scene.remove(magnet.group);
+        for (const magnet of this.magnets()) this.scene.remove(magnet.group);
         if (vessel) this.scene.remove(vessel.mesh);
-        for (const one of [device, shaft, guidewire, magnet, vessel, field, forces]) one?.dispose();
+        for (const one of [device, shaft, guidewire, vessel, field, forces, ...this.magnets()])
+            one?.dispose();
         this.bent.traverse((object) => {
             if (object instanceof Mesh) (object.material as Material).dispose();
         });

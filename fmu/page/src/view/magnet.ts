@@ -27,7 +27,7 @@ const LETTERS = 4;
 /** Opacity of a magnet without strength. */
 const FADED = 0.22;
 
-/** The external magnet: coaxial cylinders about its z axis, each half in the colour of its pole and with its letter. */
+/** A magnet: coaxial cylinders about its z axis, each half in the colour of its pole and with its letter. Or a coil, in that of a wire. */
 export class Magnet {
     /** Whether it is switched off. */
     faded = false;
@@ -38,17 +38,24 @@ export class Magnet {
     constructor(
         private readonly cylinders: readonly Cylinder[],
         palette: Palette,
+        name = "magnet",
+        private readonly coil = false,
     ) {
-        this.group.name = "magnet";
-        const painted = (pole: "north" | "south" | "plain") =>
+        this.group.name = name;
+        const painted = (pole: "north" | "south" | "plain" | "wire") =>
             this.keep(new MeshStandardMaterial({ color: palette[pole], metalness: 0.15, roughness: 0.36 }));
-        const paint = { north: painted("north"), south: painted("south"), plain: painted("plain") };
+        const plain = painted(coil ? "wire" : "plain");
+        const paint = { north: painted("north"), south: painted("south"), plain };
         const ink = { north: this.ink("N"), south: this.ink("S") };
         for (const cylinder of cylinders) {
             const half = (MM * cylinder.length) / 2;
             for (const side of [-1, 1] as const) {
                 const pole =
-                    cylinder.remanence === 0 ? "plain" : side * cylinder.remanence > 0 ? "north" : "south";
+                    coil || cylinder.remanence === 0
+                        ? "plain"
+                        : side * cylinder.remanence > 0
+                          ? "north"
+                          : "south";
                 const part = new Group();
                 part.add(new Mesh(halfCylinder(cylinder, half), paint[pole]));
                 if (pole !== "plain") this.letter(part, cylinder, half, ink[pole]);
@@ -58,6 +65,11 @@ export class Magnet {
                 this.group.add(part);
             }
         }
+    }
+
+    /** Whether it is in the way: a coil also without a current. */
+    get present(): boolean {
+        return this.coil || !this.faded;
     }
 
     /** The box around it as it lies. */
