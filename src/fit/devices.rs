@@ -6,13 +6,16 @@ use crate::manipulator::{Inputs, Manipulator, Neighbours, Scene, SceneFile, Sens
 /// Number of centreline points of a device whose shape is not looked at.
 const SHAPE_POINTS: usize = 2;
 
-/// Tables of a scene that hold inputs alone, but for `magnet.cylinders`.
-const INPUTS: [&str; 6] = ["field", "magnet", "base", "load", "gravity", "feed"];
+/// Tables of a scene that hold inputs alone, but for those that [`table`] takes out.
+const INPUTS: [&str; 7] = ["field", "magnet", "coil", "base", "load", "gravity", "feed"];
 
 /// The table in which a key counts as input or number of the device.
 fn table(key: &str) -> &str {
-    let of_cylinders = key.starts_with("magnet.cylinders") || key.starts_with("feed.shaft");
-    if of_cylinders { "design" } else { key.split(['.', '[']).next().unwrap_or(key) }
+    let of_coil = ["_radius_mm", ".length_mm", ".turns", ".reach_mm", ".multipoles"];
+    let of_device = key.starts_with("feed.shaft")
+        || key.starts_with("magnet") && key.contains(".cylinders")
+        || key.starts_with("coil") && of_coil.iter().any(|part| key.contains(part));
+    if of_device { "design" } else { key.split(['.', '[']).next().unwrap_or(key) }
 }
 
 /// The inputs of `device`, with those of `row` in these tables.
@@ -21,7 +24,10 @@ fn overlaid(device: &Inputs, row: &Inputs, tables: &[&str]) -> Inputs {
     for table in tables {
         match *table {
             "field" => (out.uniform_field, out.field_gradient) = (row.uniform_field, row.field_gradient),
-            "magnet" => (out.magnet, out.magnet_strength) = (row.magnet, row.magnet_strength),
+            "magnet" | "coil" => {
+                (out.magnet, out.magnet_strength) = (row.magnet, row.magnet_strength);
+                out.further.clone_from(&row.further);
+            }
             "base" => out.base = row.base,
             "load" => {
                 (out.tip_force, out.tip_moment) = (row.tip_force, row.tip_moment);
@@ -61,8 +67,10 @@ pub(super) fn with(file: &SceneFile, keys: &[String], values: &[f64]) -> Result<
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.solver, &a.vessel, &a.shaft, &a.guidewire)
-        == (&b.specification, &b.magnets, &b.settings, &b.solver, &b.vessel, &b.shaft, &b.guidewire)
+    let sources =
+        |scene: &'_ Scene| (scene.magnets.clone(), scene.further_magnets.clone(), scene.coils.clone());
+    (&a.specification, sources(a), &a.settings, &a.solver, &a.vessel, &a.shaft, &a.guidewire)
+        == (&b.specification, sources(b), &b.settings, &b.solver, &b.vessel, &b.shaft, &b.guidewire)
 }
 
 impl Rows {

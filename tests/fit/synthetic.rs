@@ -47,6 +47,32 @@ fn rows_may_move_a_magnet_near_one_whose_place_is_fitted() {
 }
 
 #[test]
+fn rows_may_move_further_magnets_and_drive_coils() {
+    let sources = "[design]\nsegments = 2\n[model]\ninteraction = \"rings\"\n\
+                   [[magnet]]\nposition_mm = [0, -120, 5]\n[[magnet]]\nposition_mm = [150, 0, 5]\n\
+                   [[coil]]\nposition_mm = [0, 90, 5]\norientation_wxyz = [0.7071067811865476, 0.7071067811865476, 0, 0]\n\
+                   inner_radius_mm = 20\nouter_radius_mm = 40\nlength_mm = 60\nturns = 600\ncurrent_a = 0";
+    let file = scene(sources);
+    let truth = [("design.helix.shore_a", 35.0)];
+    for (key, values) in [
+        ("magnet[2].position_mm[1]", [150.0, 120.0, 130.0, 150.0]),
+        ("coil[1].current_a", [0.0, 5.0, -5.0, 0.0]),
+    ] {
+        // What the rows move stands in the first and the last of them where the scene has it.
+        let rows: Vec<Vec<f64>> = values
+            .iter()
+            .map(|value| measure(&file, &truth, &[(key, *value)], &["tip_x_mm", "tip_y_mm"]))
+            .collect();
+        assert!(
+            (rows[1][1] - rows[0][1]).abs() + (rows[1][2] - rows[0][2]).abs() > 1e-3,
+            "{key} moves the tip"
+        );
+        let measured = table(&file, &[key, "tip_x_mm", "tip_y_mm"], &rows);
+        assert_found(&fitted(&file, &truth.map(|(key, _)| key), &measured), &truth);
+    }
+}
+
+#[test]
 fn columns_by_the_names_of_the_fmu_are_those_of_the_scene() {
     let file = scene(ONE);
     let truth = [("design.helix.shore_a", 36.0)];
