@@ -90,5 +90,10 @@ fn flaws_of_a_table_are_told() {
     );
     refused("", "reach_mm = 20.0\n", "coil[1].reach_mm needs coil[1].multipoles");
     refused("", "multipoles = [1e-7]\nreach_mm = -1.0\n", "coil[1].reach_mm = -1");
-    refused("", "multipoles = [1e-7]\nreach_mm = 70.0\n", "bodies touch");
+    // The device reaches into the sphere in which the multipoles say nothing.
+    fs::write(here.join("scene.toml"), scene(&format!("{coil}multipoles = [1e-7]\nreach_mm = 70.0\n")))
+        .unwrap();
+    let output = mcm(&here, &["solve", "scene.toml"]);
+    assert_status(&output, 2);
+    assert!(stderr(&output).contains("bodies touch: segment 2"), "{}", stderr(&output));
 }
