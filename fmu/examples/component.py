@@ -8,10 +8,7 @@ from fmpy.fmi2 import FMU2Slave
 
 
 class Component:
-    """An initialised instance; `start` holds inputs and parameters that differ from the FMU's start values.
-
-    A whole number is set as an integer or enumeration.
-    """
+    """An initialised instance; `start` holds inputs and parameters that differ from the FMU's start values."""
 
     def __init__(self, name: str, fmu: Path, start: dict[str, float | int]) -> None:
         self.description = read_model_description(fmu)
@@ -26,11 +23,12 @@ class Component:
         self.slave.instantiate()
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
+        reals = {v.name for v in self.description.modelVariables if v.type == "Real"}
         for variable, value in start.items():
-            if isinstance(value, int):
-                self.slave.setInteger([self.references[variable]], [value])
-            else:
+            if variable in reals:
                 self.set(variable, value)
+            else:  # an integer or an enumeration
+                self.slave.setInteger([self.references[variable]], [value])
         self.slave.exitInitializationMode()
 
     def get(self, variable: str) -> float:
