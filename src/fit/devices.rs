@@ -67,10 +67,9 @@ pub(super) fn with(file: &SceneFile, keys: &[String], values: &[f64]) -> Result<
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    let sources =
-        |scene: &'_ Scene| (scene.magnets.clone(), scene.further_magnets.clone(), scene.coils.clone());
-    (&a.specification, sources(a), &a.settings, &a.solver, &a.vessel, &a.shaft, &a.guidewire)
-        == (&b.specification, sources(b), &b.settings, &b.solver, &b.vessel, &b.shaft, &b.guidewire)
+    (&a.specification, &a.shaft, &a.guidewire) == (&b.specification, &b.shaft, &b.guidewire)
+        && (&a.magnets, &a.further_magnets, &a.coils) == (&b.magnets, &b.further_magnets, &b.coils)
+        && (&a.settings, &a.solver, &a.vessel) == (&b.settings, &b.solver, &b.vessel)
 }
 
 impl Rows {

@@ -98,12 +98,7 @@ impl Instance {
         if let Some(value) = seed.iter().find(|value| !value.is_finite()) {
             return Err(self.refuse(&Error::range("seed of a derivative", *value, "finite").to_string()));
         }
-        if self.is_live() {
-            match self.ensure_solved() {
-                Ending::Ok => {}
-                failed => return Err(failed),
-            }
-        }
+        self.solve_if_live()?;
         if seed.iter().all(|value| *value == 0.0) {
             return Ok(vec![0.0; unknowns.len()]);
         }

@@ -181,23 +181,23 @@ export! { instance
         |instance| instance.do_step(currentCommunicationPoint, communicationStepSize);
 }
 
+/// What follows from an event: nothing.
+pub const NO_EVENT: fmi2EventInfo = fmi2EventInfo {
+    newDiscreteStatesNeeded: 0,
+    terminateSimulation: 0,
+    nominalsOfContinuousStatesChanged: 0,
+    valuesOfContinuousStatesChanged: 0,
+    nextEventTimeDefined: 0,
+    nextEventTime: 0.0,
+};
+
 // Without continuous states and event indicators every array of model exchange has the length 0.
 export! { instance
     fmi2EnterEventMode: fmi2EnterEventModeTYPE, EnterEventMode = () |instance| instance.enter_event_mode();
 
     fmi2NewDiscreteStates: fmi2NewDiscreteStatesTYPE, NewDiscreteStates = (fmi2eventInfo: *mut fmi2EventInfo)
         where information = output(fmi2eventInfo, 1);
-        |instance| {
-            let nothing_follows = fmi2EventInfo {
-                newDiscreteStatesNeeded: 0,
-                terminateSimulation: 0,
-                nominalsOfContinuousStatesChanged: 0,
-                valuesOfContinuousStatesChanged: 0,
-                nextEventTimeDefined: 0,
-                nextEventTime: 0.0,
-            };
-            information.write_one(nothing_follows, instance.new_discrete_states())
-        };
+        |instance| information.write_one(NO_EVENT, instance.new_discrete_states());
 
     fmi2EnterContinuousTimeMode: fmi2EnterContinuousTimeModeTYPE, EnterContinuousTimeMode = ()
         |instance| instance.enter_continuous_time_mode();

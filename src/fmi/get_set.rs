@@ -41,15 +41,12 @@ impl Instance {
         let variables = self.variables(references).ok_or(Ending::Error)?;
         let any_output = variables.iter().any(|variable| variable.causality == Causality::Output);
         let on_request = variables.iter().any(|variable| variable.availability == Availability::OnRequest);
-        if any_output && self.is_live() {
-            let always = |variable: &&Variable| {
-                variable.causality != Causality::Output || variable.availability == Availability::Always
-            };
-            let of_the_search = self.fmu_state.search == Search::InVain && variables.iter().all(always);
-            let ending = if of_the_search { Ending::Ok } else { self.ensure_solved() };
-            if ending != Ending::Ok {
-                return Err(ending);
-            }
+        let always = |variable: &&Variable| {
+            variable.causality != Causality::Output || variable.availability == Availability::Always
+        };
+        let of_the_search = self.fmu_state.search == Search::InVain && variables.iter().all(always);
+        if any_output && !of_the_search {
+            self.solve_if_live()?;
         }
         if let Some(manipulator) = self.fmu_state.manipulator.as_mut().filter(|_| on_request) {
             manipulator.measure_margin();

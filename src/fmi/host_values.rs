@@ -174,14 +174,24 @@ impl HostValues {
         self.poses().any(UncheckedPose::is_unconnected)
     }
 
+    /// The structured name of each further source, and whether it is a coil: `magnet[2]`, ..., `coil[1]`, ....
+    pub fn source_names(&self) -> impl Iterator<Item = (String, bool)> {
+        let (mut magnets, mut coils) = (1, 0);
+        self.further.iter().map(move |source| {
+            let is_coil = source.assembly.coil().is_some();
+            let (kind, count) = if is_coil { ("coil", &mut coils) } else { ("magnet", &mut magnets) };
+            *count += 1;
+            (format!("{kind}[{count}]"), is_coil)
+        })
+    }
+
     /// The inputs, and gravity, as the manipulator takes them.
     ///
     /// # Errors
     /// [`Error::Range`] naming the quaternion that does not have unit norm.
     pub fn inputs(&self) -> Result<Inputs, Error> {
-        let further = self.further.iter().map(|source| {
-            let kind = if source.assembly.coil().is_some() { "coil" } else { "magnet" };
-            let pose = source.pose.pose(&format!("the orientation of a further {kind}"))?;
+        let further = self.source_names().zip(&self.further).map(|((name, _), source)| {
+            let pose = source.pose.pose(&format!("{name}.orientation"))?;
             Ok(PlacedSource { pose, strength: source.strength })
         });
         let further = further.collect::<Result<_, Error>>()?;

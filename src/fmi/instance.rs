@@ -226,7 +226,11 @@ impl Instance {
             self.fmu_state.search = Search::Open;
         }
         let moving = self.fmu_state.input_derivatives.move_inputs() && step_size > 0.0;
-        let ending = if moving { self.follow_inputs(step_size) } else { self.ensure_solved() };
+        let ending = if moving {
+            self.follow_inputs(step_size)
+        } else {
+            self.ensure_solved().err().unwrap_or(Ending::Ok)
+        };
         if ending != Ending::Ok {
             return ending;
         }
@@ -282,22 +286,29 @@ impl Instance {
         }
     }
 
-    /// Whether the outputs are those of the inputs now set, and not those of the last communication point.
-    pub(super) fn is_live(&self) -> bool {
-        matches!(self.state(), State::Initialization | State::Stepping | State::Event | State::ContinuousTime)
+    /// Solves the equilibrium for the inputs now set, unless that is done already or the outputs are those of the last communication
+    /// point.
+    ///
+    /// # Errors
+    /// As [`Self::ensure_solved`].
+    pub(super) fn solve_if_live(&mut self) -> Result<(), Ending> {
+        let live = [State::Initialization, State::Stepping, State::Event, State::ContinuousTime];
+        if live.contains(&self.state()) { self.ensure_solved() } else { Ok(()) }
     }
 
     /// Solves the equilibrium for the inputs now set, unless that is done already.
-    pub(super) fn ensure_solved(&mut self) -> Ending {
-        match self.fmu_state.search {
-            Search::Open => {}
-            Search::Found => return Ending::Ok,
-            Search::InVain => return Ending::Discard, // the log has told why
-        }
-        match self.solve_at_host_values() {
-            Ok(ending) => ending,
-            Err(error) => self.refuse(&error.to_string()),
-        }
+    ///
+    /// # Errors
+    /// [`Ending::Discard`] or [`Ending::Error`], explained in the log, if there is none.
+    pub(super) fn ensure_solved(&mut self) -> Result<(), Ending> {
+        let ending = match self.fmu_state.search {
+            Search::Found => Ending::Ok,
+            Search::InVain => Ending::Discard, // the log has told why
+            Search::Open => {
+                self.solve_at_host_values().unwrap_or_else(|error| self.refuse(&error.to_string()))
+            }
+        };
+        if ending == Ending::Ok { Ok(()) } else { Err(ending) }
     }
 
     fn solve_at_host_values(&mut self) -> Result<Ending, Error> {

@@ -30,11 +30,11 @@ impl Instance {
 
     /// Accepts the equilibrium for the inputs now set; no event follows from it.
     pub fn new_discrete_states(&mut self) -> Ending {
-        let ending = self.ensure_solved();
-        if ending == Ending::Ok {
-            self.accept();
+        match self.ensure_solved() {
+            Ok(()) => self.accept(),
+            Err(ending) => return ending,
         }
-        ending
+        Ending::Ok
     }
 
     /// Accepts the equilibrium for the inputs now set. Whether the shape has snapped since the last accepted one: then integer and
@@ -44,13 +44,9 @@ impl Instance {
     /// [`Ending::Discard`] or [`Ending::Error`], explained in the log, if there is none.
     pub fn completed_integrator_step(&mut self) -> Result<bool, Ending> {
         let before = self.fmu_state.snaps;
-        match self.ensure_solved() {
-            Ending::Ok => {
-                self.accept();
-                Ok(self.fmu_state.snaps > before)
-            }
-            failed => Err(failed),
-        }
+        self.ensure_solved()?;
+        self.accept();
+        Ok(self.fmu_state.snaps > before)
     }
 
     /// Sets the time, s; nothing depends on it.

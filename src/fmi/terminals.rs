@@ -3,7 +3,7 @@
 
 use std::io;
 
-use super::variable::{Causality, Variable};
+use super::variable::Causality;
 use super::variables::Table;
 use super::xml::{Xml, empty, text, within};
 use crate::error::Error;
@@ -16,22 +16,7 @@ pub fn terminals(table: &Table) -> Result<String, Error> {
     text("terminalsAndIcons.xml", |xml| write(xml, table))
 }
 
-/// The part of a structured name before its first dot, and the rest.
-fn split(variable: &Variable) -> Option<(&str, &str)> {
-    variable.name.split_once('.')
-}
-
 fn write(xml: &mut Xml, table: &Table) -> io::Result<()> {
-    let connected = |causality: Causality| matches!(causality, Causality::Input | Causality::Output);
-    // What has no input is there to be read, not to be connected.
-    let mut names: Vec<&str> = Vec::new();
-    for variable in table.variables().iter().filter(|variable| variable.causality == Causality::Input) {
-        if let Some((name, _)) = split(variable)
-            && !names.contains(&name)
-        {
-            names.push(name);
-        }
-    }
     within(xml, "fmiTerminalsAndIcons", &[("fmiVersion", "3.0")], |xml| {
         within(xml, "GraphicalRepresentation", &[], |xml| {
             let square = [("x1", "-100"), ("y1", "-100"), ("x2", "100"), ("y2", "100")];
@@ -40,27 +25,41 @@ fn write(xml: &mut Xml, table: &Table) -> io::Result<()> {
             empty(xml, "Icon", &square)
         })?;
         within(xml, "Terminals", &[], |xml| {
-            names.iter().try_for_each(|terminal| {
-                let described = format!("Inputs and outputs of {terminal}");
-                let attributes =
-                    [("name", *terminal), ("matchingRule", "bus"), ("description", described.as_str())];
-                within(xml, "Terminal", &attributes, |xml| {
-                    let members = table.variables().iter().filter(|variable| connected(variable.causality));
-                    members.filter_map(|variable| Some((variable, split(variable)?))).try_for_each(
-                        |(variable, (name, member))| {
-                            if name != *terminal {
-                                return Ok(());
-                            }
-                            let attributes = [
-                                ("variableName", variable.name.as_str()),
-                                ("memberName", member),
-                                ("variableKind", "signal"),
-                            ];
-                            empty(xml, "TerminalMemberVariable", &attributes)
-                        },
-                    )
-                })
-            })
+            terminal_names(table).into_iter().try_for_each(|name| terminal(xml, table, name))
         })
+    })
+}
+
+/// The parts of the inputs' structured names before the first dot. What has no input is there to be read, not to be connected.
+fn terminal_names(table: &Table) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for variable in table.variables().iter().filter(|variable| variable.causality == Causality::Input) {
+        if let Some((name, _)) = variable.name.split_once('.')
+            && !names.contains(&name)
+        {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// One terminal with the inputs and outputs whose names begin with its own.
+fn terminal(xml: &mut Xml, table: &Table, name: &str) -> io::Result<()> {
+    let described = format!("Inputs and outputs of {name}");
+    let attributes = [("name", name), ("matchingRule", "bus"), ("description", described.as_str())];
+    within(xml, "Terminal", &attributes, |xml| {
+        for variable in table.variables() {
+            let connected = matches!(variable.causality, Causality::Input | Causality::Output);
+            let member = variable.name.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
+            if let Some(member) = member.filter(|_| connected) {
+                let attributes = [
+                    ("variableName", variable.name.as_str()),
+                    ("memberName", member),
+                    ("variableKind", "signal"),
+                ];
+                empty(xml, "TerminalMemberVariable", &attributes)?;
+            }
+        }
+        Ok(())
     })
 }

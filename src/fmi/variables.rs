@@ -15,8 +15,6 @@ mod sources;
 
 mod vessel;
 
-pub use sources::source_names;
-
 use super::host_values::HostValues;
 use super::value::Value;
 use super::variable::{Causality, Variable};

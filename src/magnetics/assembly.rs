@@ -203,6 +203,20 @@ impl Assembly {
         Ok(sum)
     }
 
+    /// `B` (T) and its gradient `dB_i/dx_j` (T/m), in the world frame, at a point (m) of that frame, where the assembly has this pose.
+    ///
+    /// # Errors
+    /// As [`AxialSource::field`].
+    pub fn field_gradient_from(
+        &self,
+        pose: &Pose,
+        point: &Vector3<f64>,
+    ) -> Result<(Vector3<f64>, Matrix3<f64>), Error> {
+        let turn = pose.rotation;
+        let (field, gradient) = self.field_gradient(&turn.tr_mul(&(point - pose.position)))?;
+        Ok((turn * field, turn * gradient * turn.transpose()))
+    }
+
     /// `B`, its gradient and its second derivative at a point (m).
     ///
     /// # Errors

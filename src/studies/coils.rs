@@ -38,10 +38,7 @@ impl Map {
         for ((coil, PlacedSource { pose, .. }), mut column) in
             sources.further().iter().zip(placed).zip(rows.column_iter_mut())
         {
-            let local = pose.rotation.tr_mul(&(point - pose.position));
-            let (field, gradient) = coil.field_gradient(&local)?;
-            let (field, gradient) =
-                (pose.rotation * field, pose.rotation * gradient * pose.rotation.transpose());
+            let (field, gradient) = coil.field_gradient_from(pose, point)?;
             column.rows_mut(0, 3).copy_from(&field);
             column.rows_mut(3, 5).copy_from_slice(&components(&gradient));
         }

@@ -10,7 +10,6 @@ use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
 use crate::fmi::variable::{Causality, Variable};
-use crate::fmi::variables::source_names;
 use crate::magnetics::{AxialMagnet, Coil};
 use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
@@ -131,7 +130,7 @@ impl Description {
                 .collect()
         };
         let design = start.design()?;
-        let further = source_names(start).zip(&start.further);
+        let further = start.source_names().zip(&start.further);
         let further = further.map(|((name, coil), source)| {
             let assembly = &source.assembly;
             let cylinders = match assembly.coil() {

@@ -19,39 +19,18 @@ const LIBRARIES: [(&str, &[u8]); 4] = [
     ("text.dll", b"no library"),
 ];
 
+/// Every function that a library may export, by the official header.
+const HEADER: &str = include_str!("../../fmu/headers/fmi2Functions.h");
+
 /// Names as a library's table of symbols holds them.
-const FUNCTIONS: [&str; 26] = [
-    "fmi2GetTypesPlatform",
-    "fmi2GetVersion",
-    "fmi2Instantiate",
-    "fmi2FreeInstance",
-    "fmi2SetupExperiment",
-    "fmi2EnterInitializationMode",
-    "fmi2ExitInitializationMode",
-    "fmi2Terminate",
-    "fmi2Reset",
-    "fmi2GetReal",
-    "fmi2GetInteger",
-    "fmi2GetBoolean",
-    "fmi2SetReal",
-    "fmi2SetInteger",
-    "fmi2SetBoolean",
-    "fmi2DoStep",
-    "fmi2EnterEventMode",
-    "fmi2NewDiscreteStates",
-    "fmi2EnterContinuousTimeMode",
-    "fmi2CompletedIntegratorStep",
-    "fmi2SetTime",
-    "fmi2SetContinuousStates",
-    "fmi2GetDerivatives",
-    "fmi2GetEventIndicators",
-    "fmi2GetContinuousStates",
-    "fmi2GetNominalsOfContinuousStates",
-];
+fn functions() -> Vec<&'static str> {
+    let declared = HEADER.lines().filter_map(|line| line.trim().strip_prefix("FMI2_Export"));
+    declared.filter_map(|line| line.trim_end_matches(';').split_whitespace().last()).collect()
+}
 
 /// The bytes of a file of [`LIBRARIES`], followed by the names of its functions.
 fn library(number: usize) -> Vec<u8> {
-    let names = format!("\0{}\0", FUNCTIONS.join("\0"));
+    let names = format!("\0{}\0", functions().join("\0"));
     [LIBRARIES[number].1, names.as_bytes()].concat()
 }
 
@@ -145,15 +124,23 @@ fn what_cannot_be_packed_is_said_and_nothing_is_written() {
 fn a_library_without_the_functions_of_an_fmu_is_refused() {
     let folder = libraries("pack functions");
     let whole = library(0);
-    for name in FUNCTIONS {
+    let mut needed = 0;
+    for name in functions() {
         let text = String::from_utf8_lossy(&whole).replace(&format!("\0{name}\0"), "\0fmi3DoStep\0");
         fs::write(folder.join("other.so"), text).unwrap();
         let output = mcm(&folder, &["pack", "--out", "mcm.fmu", "--library", "other.so"]);
+        if output.status.success() {
+            fs::remove_file(folder.join("mcm.fmu")).unwrap();
+            continue;
+        }
+        needed += 1;
         assert_status(&output, 1);
         let expected = format!("other.so is not the library of an FMU: it has no function {name}");
         assert!(stderr(&output).contains(&expected), "{}", stderr(&output));
         assert!(!folder.join("mcm.fmu").exists());
     }
+    // Without state, derivatives, strings and asynchronous steps a library can still be driven both ways.
+    assert_eq!(needed, 26);
 }
 
 #[test]

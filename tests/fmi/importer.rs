@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Arc;
 
+use fmi_rs::fmi2::FMU2;
 use fmi_rs::fmi2::builder::FMU2Builder;
 use fmi_rs::fmi2::types::fmi2Status;
 use fmi_rs::model_description::fmi2::ModelDescription;
@@ -67,13 +69,68 @@ fn references<'a>(description: &ModelDescription, names: impl Iterator<Item = &'
     names.map(|name| description.variable_by_name(name).unwrap().valueReference).collect()
 }
 
-/// What the Rust API answers for a row of the pass.
-fn answer(manipulator: &mut Manipulator, scene: &Scene, row: &[f64]) -> [f64; 7] {
-    let mut inputs = scene.inputs.clone();
-    inputs.magnet = Pose::new([row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]).unwrap();
-    let Outputs { tip_angle, tip, magnet_reaction_force: force, .. } = manipulator.solve(&inputs).unwrap();
-    let p = tip.position;
-    [*tip_angle, p.x, p.y, p.z, force.x, force.y, force.z]
+/// What an importer drives, and the Rust API beside it.
+struct Pair<T> {
+    device: Arc<FMU2<T>>,
+    inputs: Vec<u32>,
+    outputs: Vec<u32>,
+    scene: Scene,
+    manipulator: Manipulator,
+}
+
+impl<T> Pair<T> {
+    /// Both at the first row of the pass, initialised.
+    fn initialised(
+        device: Arc<FMU2<T>>,
+        description: &ModelDescription,
+        names: &[String],
+        first: &[f64],
+    ) -> Self {
+        // A level of one model: what `auto` answers depends, within its tolerances, on the way there.
+        let mut scene = Scene::parse(DEFAULT_SCENE, "default scene").unwrap();
+        scene.settings.interaction = Interaction::Rings;
+        let manipulator = scene.manipulator(DEFAULT_SHAPE_POINTS).unwrap();
+        let inputs = references(description, names.iter().map(String::as_str));
+        let outputs = references(description, OUTPUTS.into_iter());
+        let level = references(description, ["model.interaction"].into_iter());
+        assert_eq!(device.setInteger(&level, &[Interaction::Rings as i32]), fmi2Status::Ok);
+        assert_eq!(device.setupExperiment(None, 0.0, None), fmi2Status::Ok);
+        assert_eq!(device.enterInitializationMode(), fmi2Status::Ok);
+        let mut out = Self { device, inputs, outputs, scene, manipulator };
+        out.set(first);
+        assert_eq!(out.device.exitInitializationMode(), fmi2Status::Ok);
+        out.answer(first);
+        out
+    }
+
+    /// Sets the inputs of a row of the pass.
+    fn set(&self, row: &[f64]) {
+        assert_eq!(self.device.setReal(&self.inputs, &row[1..]), fmi2Status::Ok);
+    }
+
+    fn read(&self) -> [f64; OUTPUTS.len()] {
+        let mut got = [f64::NAN; OUTPUTS.len()];
+        assert_eq!(self.device.getReal(&self.outputs, &mut got), fmi2Status::Ok);
+        got
+    }
+
+    /// What the Rust API answers for a row.
+    fn answer(&mut self, row: &[f64]) -> [f64; OUTPUTS.len()] {
+        let mut inputs = self.scene.inputs.clone();
+        inputs.magnet = Pose::new([row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]).unwrap();
+        let solved = self.manipulator.solve(&inputs).unwrap();
+        let Outputs { tip_angle, tip, magnet_reaction_force: force, .. } = solved;
+        let p = tip.position;
+        [*tip_angle, p.x, p.y, p.z, force.x, force.y, force.z]
+    }
+
+    /// Compares what the importer got for a row with what the Rust API answers.
+    fn compare(&mut self, got: &[f64; OUTPUTS.len()], row: &[f64]) {
+        let expected = self.answer(row);
+        for (of, part) in [("angle", 0..1), ("tip", 1..4), ("force", 4..7)] {
+            assert_close((of, row[0]), &got[part.clone()], &expected[part], IMPORTER);
+        }
+    }
 }
 
 #[test]
@@ -83,79 +140,41 @@ fn another_importer_gets_what_the_rust_api_answers() {
     let flaws = description.validate();
     assert!(flaws.is_empty(), "{flaws:?}");
     let (names, rows) = pass();
-    let inputs = references(description, names.iter().map(String::as_str));
-    let outputs = references(description, OUTPUTS.into_iter());
-    // A level of one model: what `auto` answers depends, within its tolerances, on the way there.
-    let mut scene = Scene::parse(DEFAULT_SCENE, "default scene").unwrap();
-    scene.settings.interaction = Interaction::Rings;
-    let mut manipulator = scene.manipulator(DEFAULT_SHAPE_POINTS).unwrap();
-
     let device = importer.instantiate_cs("device").unwrap();
-    let level = references(description, ["model.interaction"].into_iter());
-    assert_eq!(device.setInteger(&level, &[Interaction::Rings as i32]), fmi2Status::Ok);
-    assert_eq!(device.setupExperiment(None, 0.0, None), fmi2Status::Ok);
-    assert_eq!(device.enterInitializationMode(), fmi2Status::Ok);
-    assert_eq!(device.setReal(&inputs, &rows[0][1..]), fmi2Status::Ok);
-    assert_eq!(device.exitInitializationMode(), fmi2Status::Ok);
-    answer(&mut manipulator, &scene, &rows[0]);
-    for pair in rows.windows(2) {
-        let (time, step) = (pair[0][0], pair[1][0] - pair[0][0]);
-        assert_eq!(device.setReal(&inputs, &pair[0][1..]), fmi2Status::Ok);
-        assert_eq!(device.doStep(time, step, 0), fmi2Status::Ok, "{time}");
-        let mut got = [f64::NAN; OUTPUTS.len()];
-        assert_eq!(device.getReal(&outputs, &mut got), fmi2Status::Ok);
-        let expected = answer(&mut manipulator, &scene, &pair[0]);
-        for (of, part) in [("angle", 0..1), ("tip", 1..4), ("force", 4..7)] {
-            assert_close((of, time), &got[part.clone()], &expected[part], IMPORTER);
-        }
+    let mut pair = Pair::initialised(device, description, &names, &rows[0]);
+    for (row, next) in rows.iter().zip(&rows[1..]) {
+        pair.set(row);
+        assert_eq!(pair.device.doStep(row[0], next[0] - row[0], 0), fmi2Status::Ok, "{}", row[0]);
+        let got = pair.read();
+        pair.compare(&got, row);
     }
-    assert_eq!(device.terminate(), fmi2Status::Ok);
+    assert_eq!(pair.device.terminate(), fmi2Status::Ok);
 }
 
 #[test]
 fn another_importer_gets_the_same_in_model_exchange() {
     let importer = FMU2Builder::new(&packed("exchange.fmu")).unwrap();
-    let description = &importer.model_description;
     let (names, rows) = pass();
-    let inputs = references(description, names.iter().map(String::as_str));
-    let outputs = references(description, OUTPUTS.into_iter());
-    let mut scene = Scene::parse(DEFAULT_SCENE, "default scene").unwrap();
-    scene.settings.interaction = Interaction::Rings;
-    let mut manipulator = scene.manipulator(DEFAULT_SHAPE_POINTS).unwrap();
-
     let device = importer.instantiate_me("device").unwrap();
-    let level = references(description, ["model.interaction"].into_iter());
-    assert_eq!(device.setInteger(&level, &[Interaction::Rings as i32]), fmi2Status::Ok);
-    assert_eq!(device.setupExperiment(None, 0.0, None), fmi2Status::Ok);
-    assert_eq!(device.enterInitializationMode(), fmi2Status::Ok);
-    assert_eq!(device.setReal(&inputs, &rows[0][1..]), fmi2Status::Ok);
-    assert_eq!(device.exitInitializationMode(), fmi2Status::Ok);
+    let mut pair = Pair::initialised(device, &importer.model_description, &names, &rows[0]);
     let (mut flags, mut next) = ([true; 4], Some(f64::NAN));
     let [needed, end, nominals, values] = &mut flags;
-    assert_eq!(device.newDiscreteStates(needed, end, nominals, values, &mut next), fmi2Status::Ok);
+    assert_eq!(pair.device.newDiscreteStates(needed, end, nominals, values, &mut next), fmi2Status::Ok);
     assert_eq!((flags, next), ([false; 4], None), "no event follows");
-    assert_eq!(device.enterContinuousTimeMode(), fmi2Status::Ok);
-    answer(&mut manipulator, &scene, &rows[0]);
+    assert_eq!(pair.device.enterContinuousTimeMode(), fmi2Status::Ok);
     for (row, next) in rows.iter().zip(&rows[1..]) {
-        assert_eq!(device.setTime(row[0]), fmi2Status::Ok);
-        let read = |row: &[f64]| {
-            let mut got = [f64::NAN; OUTPUTS.len()];
-            assert_eq!(device.setReal(&inputs, &row[1..]), fmi2Status::Ok);
-            assert_eq!(device.getReal(&outputs, &mut got), fmi2Status::Ok);
-            got
-        };
+        assert_eq!(pair.device.setTime(row[0]), fmi2Status::Ok);
         // As an integrator tries a step and takes it back.
-        read(next);
-        let got = read(row);
+        pair.set(next);
+        pair.read();
+        pair.set(row);
+        let got = pair.read();
         let (mut event, mut end) = (7, 7);
-        assert_eq!(device.completedIntegratorStep(0, &mut event, &mut end), fmi2Status::Ok);
+        assert_eq!(pair.device.completedIntegratorStep(0, &mut event, &mut end), fmi2Status::Ok);
         assert_eq!((event, end), (0, 0), "no snap");
-        let expected = answer(&mut manipulator, &scene, row);
-        for (of, part) in [("angle", 0..1), ("tip", 1..4), ("force", 4..7)] {
-            assert_close((of, row[0]), &got[part.clone()], &expected[part], IMPORTER);
-        }
+        pair.compare(&got, row);
     }
-    assert_eq!(device.terminate(), fmi2Status::Ok);
+    assert_eq!(pair.device.terminate(), fmi2Status::Ok);
 }
 
 #[test]

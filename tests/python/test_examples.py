@@ -248,15 +248,27 @@ def test_a_shaft_is_pushed_into_an_aorta(mcm: Path, tmp_path: Path) -> None:
     assert "has no shaft in a vessel" in refused("push_in.py", mcm, "--out", pushed)
 
 
-def test_feedback_makes_up_for_a_wrong_model(tmp_path: Path) -> None:
-    scene, fmu = tmp_path / "loop.toml", tmp_path / "loop.fmu"
+@pytest.fixture(scope="module")
+def three_segments(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An FMU of a short device with the external magnet at its side."""
+    folder = tmp_path_factory.mktemp("three")
+    scene, fmu = folder / "three.toml", folder / "three.fmu"
     scene.write_text(
         '[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, -120.0, 9.0]\n[model]\ninteraction = "rings"\n'
     )
     done = run(program(), "pack", "--scene", scene, "--out", fmu)
     assert done.returncode == 0, done.stderr
+    return fmu
+
+
+def test_feedback_makes_up_for_a_wrong_model(three_segments: Path, tmp_path: Path) -> None:
     said = example(
-        "steer_closed_loop.py", fmu, "--out", tmp_path / "loop.csv", "--picture", tmp_path / "loop.png"
+        "steer_closed_loop.py",
+        three_segments,
+        "--out",
+        tmp_path / "loop.csv",
+        "--picture",
+        tmp_path / "loop.png",
     )
     assert (tmp_path / "loop.png").stat().st_size > 10_000
     forward, closed = (float(line.split()[-2]) for line in said.splitlines() if "error" in line)
@@ -309,17 +321,11 @@ def test_a_stiff_arm_on_the_tip_needs_the_jacobian(mcm: Path) -> None:
     assert force(stiff["Newton"])[0] > 1.0
 
 
-def test_ipopt_finds_a_pose_by_exact_derivatives(tmp_path: Path) -> None:
-    scene, fmu = tmp_path / "three.toml", tmp_path / "three.fmu"
-    scene.write_text(
-        '[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, -120.0, 9.0]\n[model]\ninteraction = "rings"\n'
-    )
-    done = run(program(), "pack", "--scene", scene, "--out", fmu)
-    assert done.returncode == 0, done.stderr
+def test_ipopt_finds_a_pose_by_exact_derivatives(three_segments: Path) -> None:
     asked = ["--tip-position-mm", "0.04,-1.19,15.757", "--keep-away-mm"]
     found = {}
     for distance in (60.0, 125.0):
-        said = example("magnet_pose_casadi.py", fmu, *asked, str(distance)).splitlines()
+        said = example("magnet_pose_casadi.py", three_segments, *asked, str(distance)).splitlines()
         place = np.array([float(part) for part in said[0].partition("(")[2].partition(")")[0].split(",")])
         missed, snaps = float(said[2].split()[5]), int(said[2].split()[10])
         assert missed < 0.2 and snaps == 0, said

@@ -133,11 +133,9 @@ impl Source {
         let (mut field, mut gradient) = (background.at(point), background.gradient());
         for (number, source) in sources.numbered() {
             let Some(PlacedSource { pose, strength }) = inputs.source(number) else { continue };
-            let turn = pose.rotation;
-            let local = turn.transpose() * (point - pose.position);
-            let (own_field, own_gradient) = source.field_gradient(&local)?;
-            field += turn * own_field * strength;
-            gradient += turn * own_gradient * turn.transpose() * strength;
+            let (own_field, own_gradient) = source.field_gradient_from(&pose, point)?;
+            field += own_field * strength;
+            gradient += own_gradient * strength;
         }
         Ok((field, gradient))
     }

@@ -8,20 +8,9 @@ use super::outputs::real;
 use super::rows::{Draft, Rows};
 use crate::manipulator::{Input, Output};
 
-/// The structured name of each further source, and whether it is a coil: `magnet[2]`, ..., `coil[1]`, ....
-pub fn source_names(start: &HostValues) -> impl Iterator<Item = (String, bool)> {
-    let (mut magnets, mut coils) = (1, 0);
-    start.further.iter().map(move |source| {
-        let is_coil = source.assembly.coil().is_some();
-        let (kind, count) = if is_coil { ("coil", &mut coils) } else { ("magnet", &mut magnets) };
-        *count += 1;
-        (format!("{kind}[{count}]"), is_coil)
-    })
-}
-
 impl Rows {
     pub(super) fn source_inputs(&mut self, start: &HostValues) {
-        for (number, (name, is_coil)) in source_names(start).enumerate() {
+        for (number, (name, is_coil)) in start.source_names().enumerate() {
             let what = if is_coil { "coil" } else { "magnet" };
             let position = access!(|values, index| values.further[index.item].pose.position[index.component]);
             let draft = Draft::input(
@@ -57,7 +46,7 @@ impl Rows {
     }
 
     pub(super) fn source_outputs(&mut self, start: &HostValues) {
-        for (number, (name, is_coil)) in source_names(start).enumerate() {
+        for (number, (name, is_coil)) in start.source_names().enumerate() {
             let what = if is_coil { "coil" } else { "magnet" };
             let draft =
                 real(format!("{name}.reaction_force"), FORCE, &format!("Force on the {what}"), |o, index| {

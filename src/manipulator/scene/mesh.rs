@@ -17,18 +17,7 @@ impl SceneFile {
     /// # Errors
     /// As [`SceneFile::parse`], as where the mesh is missing or is none: see [`crate::vessel::Mesh`].
     pub fn parse_in(text: &str, what: &str, folder: &Path) -> Result<Self, Error> {
-        faults::read(
-            text,
-            what,
-            |name| read(&folder.join(name)),
-            |name| {
-                let path = folder.join(name);
-                std::fs::read_to_string(&path).map_err(|error| Error::Syntax {
-                    what: path.display().to_string(),
-                    reason: error.to_string(),
-                })
-            },
-        )
+        faults::read(text, what, |name| read(&folder.join(name)), |name| text_of(&folder.join(name)))
     }
 
     /// Whether a mesh is named.
@@ -80,6 +69,13 @@ impl VesselEntries {
             )),
         }
     }
+}
+
+/// The text of a file.
+pub(super) fn text_of(path: &Path) -> Result<String, Error> {
+    let refused =
+        |error: std::io::Error| Error::Syntax { what: path.display().to_string(), reason: error.to_string() };
+    std::fs::read_to_string(path).map_err(refused)
 }
 
 /// Why a text alone does not tell where a file is that it names.

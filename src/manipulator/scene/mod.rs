@@ -113,11 +113,8 @@ impl Scene {
     /// # Errors
     /// [`Error::Syntax`] for a file that cannot be read; as [`SceneFile::parse_in`].
     pub fn read(path: &Path) -> Result<Self, Error> {
-        let what = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| Error::Syntax { what: what.clone(), reason: error.to_string() })?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        SceneFile::parse_in(&text, &what, folder)?.scene()
+        SceneFile::parse_in(&mesh::text_of(path)?, &path.display().to_string(), folder)?.scene()
     }
 
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.

@@ -10,14 +10,7 @@ impl Host<'_> {
     /// A change of mode, a time, an accepted step, or an array that is none.
     pub(super) fn exchange(&mut self, guest: &mut Guest) -> fmi2Status {
         let (mut enter, mut end, to_null) = (0, 0, self.draw.once_in(8));
-        let mut event = fmi2EventInfo {
-            newDiscreteStatesNeeded: 0,
-            terminateSimulation: 0,
-            nominalsOfContinuousStatesChanged: 0,
-            valuesOfContinuousStatesChanged: 0,
-            nextEventTimeDefined: 0,
-            nextEventTime: 0.0,
-        };
+        let mut event = NO_EVENT;
         let (time, length) = (self.draw.real(0.0), usize::from(self.draw.byte() % 3));
         let (values, none) = ([0.0; 2], ptr::null_mut());
         // SAFETY: null, or as many values as said.

@@ -47,11 +47,10 @@ export class DipoleField {
     private slopes = [0, 0, 0, 0, 0];
 
     constructor(description: Description, places: ValuePlaces) {
-        const first = new DipoleSource(description.magnet, new SourcePlaces(places, "magnet", "strength"));
-        const further = description.further.map(({ name, coil, cylinders }) => {
-            return new DipoleSource(cylinders, new SourcePlaces(places, name, coil ? "current" : "strength"));
+        const first = { name: "magnet", coil: false, cylinders: description.magnet };
+        this.sources = [first, ...description.further].map((source) => {
+            return new DipoleSource(source.cylinders, new SourcePlaces(places, source));
         });
-        this.sources = [first, ...further];
         this.uniform = places.inputVector("field.uniform");
         this.gradient = [1, 2, 3, 4, 5].map((k) => places.input(`field.gradient[${k}]`));
     }

@@ -10,6 +10,7 @@ import { Magnet } from "./magnet";
 import { type Triple, ValuePlaces, valueAt, vectorAt } from "./places";
 import { Shaft } from "./shaft";
 import { MM, orientationAt, scaled, ShapeReader } from "./shape";
+import { SourcePlaces } from "./source_places";
 import type { Tint } from "./tint";
 import { Vessel } from "./vessel";
 
@@ -80,13 +81,11 @@ export class Drawing {
     start(): { pose: Pose; strength: number } {
         const { places } = this;
         const values = places.start();
-        const turn = orientationAt(values, places.inputQuaternion("magnet.orientation"));
+        const { position, orientation, strength } = new SourcePlaces(places, { name: "magnet", coil: false });
+        const turn = orientationAt(values, orientation);
         return {
-            pose: {
-                position: vectorAt(values, places.inputVector("magnet.position")),
-                orientation: [turn.w, turn.x, turn.y, turn.z],
-            },
-            strength: valueAt(values, places.input("magnet.strength")) || 0,
+            pose: { position: vectorAt(values, position), orientation: [turn.w, turn.x, turn.y, turn.z] },
+            strength: valueAt(values, strength) || 0,
         };
     }
 

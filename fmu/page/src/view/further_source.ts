@@ -12,7 +12,7 @@ export class FurtherSource {
 
     constructor(source: Source, places: ValuePlaces, palette: Palette) {
         this.magnet = new Magnet(source.cylinders, palette, source.name, source.coil);
-        this.places = new SourcePlaces(places, source.name, source.coil ? "current" : "strength");
+        this.places = new SourcePlaces(places, source);
         this.place(places.start());
     }
 

@@ -1,3 +1,4 @@
+import type { Source } from "../protocol";
 import type { Triple, ValuePlaces } from "./places";
 
 /** Places of a source's pose and strength among the inputs. */
@@ -6,10 +7,9 @@ export class SourcePlaces {
     readonly orientation: readonly [number, number, number, number];
     readonly strength: number;
 
-    /** `name` begins the names of its inputs, and `strength` is the last word of that for its strength or current. */
-    constructor(places: ValuePlaces, name: string, strength: "strength" | "current") {
+    constructor(places: ValuePlaces, { name, coil }: Pick<Source, "name" | "coil">) {
         this.position = places.inputVector(`${name}.position`);
         this.orientation = places.inputQuaternion(`${name}.orientation`);
-        this.strength = places.input(`${name}.${strength}`);
+        this.strength = places.input(`${name}.${coil ? "current" : "strength"}`);
     }
 }
