@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import matplotlib as mpl
+import numpy as np
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
@@ -18,6 +19,25 @@ BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072b2", "#d55e00", "#009e73", "
 MEASURED = INK  # what the paper measured or states
 LEVEL = {"none": SKY, "preceding": ORANGE, "rings": GREEN, "full": BLUE, "auto": VERMILION}
 CYLINDER = PURPLE  # the solid cylinder beside which the paper measures
+EXACT = LEVEL["full"]  # the exact model, where nothing interacts
+
+# Line styles of components along an axis, of lines along an axis, and of the ways of a load.
+AXIS = {"x": "--", "y": (0, (1, 1.2)), "z": "-"}
+WAY = {"forth": "-", "back": "--"}
+PRINTED = {"ls": "--", "lw": 1.2}  # formulas of the paper as printed
+
+
+def shades(colour: str, count: int) -> list[tuple[float, ...]]:
+    """A colour from dark to light, for values that have an order."""
+    base, black, white = (np.array(mpl.colors.to_rgb(name)) for name in (colour, "black", "white"))
+    mixed = [
+        base + part * (white - base) if part > 0 else base - part * (black - base)
+        for part in np.linspace(-0.5, 0.6, count)
+    ]
+    return [tuple(one) for one in mixed]
+
+
+SEGMENTS = {1: "#9181d4", 3: "#6444a8", 9: "#331266"}  # number of segments: the more, the darker
 
 
 def label(axes, x: float, y: float, text: str, colour: str, **how) -> None:
@@ -26,11 +46,60 @@ def label(axes, x: float, y: float, text: str, colour: str, **how) -> None:
     axes.annotate(text, (x, y), color=colour, annotation_clip=False, **how)
 
 
+def ends(axes, labels: list[tuple[float, float, str, str]], **how) -> None:
+    """Writes `(x, y, text, colour)` at the right ends of curves, moved apart where they would overlap.
+
+    Titles and limits have to be set before, since they decide how much room there is.
+    """
+    axes.figure.draw_without_rendering()
+    size = how.get("fontsize", 9)
+    lines = [1.3 * size * (1 + text.count("\n")) for _, _, text, _ in labels]
+    heights = [axes.transData.transform((x, y))[1] * 72 / axes.figure.dpi for x, y, _, _ in labels]
+    for (x, y, text, colour), shift in zip(labels, apart(heights, lines), strict=True):
+        label(axes, x, y, text, colour, **({"xytext": (4, shift)} | how))
+
+
+def apart(heights: list[float], sizes: list[float]) -> np.ndarray:
+    """Least shifts (by the sum of squares) after which things of these sizes, centred at these heights, do not overlap."""
+    order = np.argsort(heights)
+    heights, sizes = (np.array(values, dtype=float) for values in (heights, sizes))
+    stacked = np.cumsum(sizes[order]) - 0.5 * sizes[order]
+    # Relative to a stack without gaps the heights may only rise: neighbours that fall are pooled to their mean.
+    pools: list[tuple[float, int]] = []
+    for height in heights[order] - stacked:
+        pools.append((height, 1))
+        while len(pools) > 1 and pools[-2][0] > pools[-1][0]:
+            (low, few), (high, many) = pools.pop(), pools.pop()
+            pools.append(((low * few + high * many) / (few + many), few + many))
+    placed, counts = zip(*pools, strict=True)
+    shifts = np.empty_like(heights)
+    shifts[order] = np.repeat(placed, counts) + stacked - heights[order]
+    return shifts
+
+
+def level(axes, y: float, text: str, x: float = 0.02, above: bool = True) -> None:
+    """A value of the paper as a line across, and what it is, at a part of the width above or below it."""
+    axes.axhline(y, color=MEASURED, lw=1.2, zorder=1.5)
+    aside(axes, x, y, text, above)
+
+
+def band(axes, low: float, high: float, text: str, x: float = 0.02, above: bool = True) -> None:
+    """A range of the paper as a band across, and what it is, at a part of the width above or below it."""
+    axes.axhspan(low, high, color=MEASURED, alpha=0.12, lw=0, zorder=0.5)
+    aside(axes, x, high if above else low, text, above)
+
+
+def aside(axes, x: float, y: float, text: str, above: bool) -> None:
+    """What a value of the paper is, at a part of the width above or below it."""
+    how = {"va": "bottom", "xytext": (0, 2)} if above else {"va": "top", "xytext": (0, -3)}
+    label(axes, x, y, text, MEASURED, xycoords=axes.get_yaxis_transform(), **how)
+
+
 def title(figure, text: str, sentence: str = "") -> None:
     """The title of a picture, and under it the sentence that it shows."""
     figure.suptitle(text, x=0.01, ha="left", fontweight="bold")
     if sentence:
-        figure.text(0.01, 0.0, sentence, ha="left", va="bottom", color=GREY, fontsize=9)
+        figure.supxlabel(sentence, x=0.01, ha="left", color=GREY, fontsize=9)  # keeps room for itself
 
 
 def save(figure, path: Path) -> list[Path]:
