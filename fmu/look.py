@@ -60,7 +60,7 @@ def ends(axes, labels: list[tuple[float, float, str, str]], **how) -> None:
 
 
 def apart(heights: list[float], sizes: list[float]) -> np.ndarray:
-    """Least shifts (by the sum of squares) after which things of these sizes, centred at these heights, do not overlap."""
+    """Least shifts, by their squares, after which things of these sizes that are centred at these heights are apart."""
     order = np.argsort(heights)
     heights, sizes = (np.array(values, dtype=float) for values in (heights, sizes))
     stacked = np.cumsum(sizes[order]) - 0.5 * sizes[order]
@@ -83,10 +83,10 @@ def level(axes, y: float, text: str, x: float = 0.02, above: bool = True) -> Non
     aside(axes, x, y, text, above)
 
 
-def band(axes, low: float, high: float, text: str, x: float = 0.02, above: bool = True) -> None:
+def band(axes, limits: tuple[float, float], text: str, x: float = 0.02, above: bool = True) -> None:
     """A range of the paper as a band across, and what it is, at a part of the width above or below it."""
-    axes.axhspan(low, high, color=MEASURED, alpha=0.12, lw=0, zorder=0.5)
-    aside(axes, x, high if above else low, text, above)
+    axes.axhspan(*limits, color=MEASURED, alpha=0.12, lw=0, zorder=0.5)
+    aside(axes, x, max(limits) if above else min(limits), text, above)
 
 
 def aside(axes, x: float, y: float, text: str, above: bool) -> None:
