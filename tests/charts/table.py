@@ -33,10 +33,21 @@ class Table:
         rows = np.all([self[name] == value for name, value in values.items()], axis=0)
         return Table(self.path, {name: cells[rows] for name, cells in self.columns.items()})
 
+    def grid(self, x: str, y: str, value: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Two columns that span a grid, each value once, and a third one on it: `value[i, j]` at `x[i]`, `y[j]`."""
+        (across, i), (along, j) = (np.unique(self[name], return_inverse=True) for name in (x, y))
+        values = np.full((len(across), len(along)), np.nan)
+        values[i, j] = self[value]
+        return across, along, values
+
     def marks(self) -> dict[str, tuple[float, float]]:
         """The marks beside this table, in NAME-marks.csv: name, and place (NaN where it has none)."""
+        return {name: (x, y) for name, x, y in self.places()}
+
+    def places(self) -> list[tuple[str, float, float]]:
+        """The same marks in order, where several have one name."""
         table = Table.read(self.path.with_name(f"{self.path.stem}-marks.csv"))
-        return {name: (x, y) for name, x, y in zip(table["mark"], table["x"], table["y"], strict=True)}
+        return list(zip(table["mark"], table["x"], table["y"], strict=True))
 
 
 def column(cells: list[str]) -> np.ndarray:
