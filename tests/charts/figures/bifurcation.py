@@ -88,7 +88,7 @@ def draw(table: Table) -> Figure:
 
 def diagram(axes: Axes, table: Table, load: str, colours: list) -> None:
     """Branches in their colours with their folds, and slow loading with an arrow at each snap."""
-    name = load.split("_")[0]
+    name, _ = load.split("_")
     for branch, colour in enumerate(colours):
         axes.plot(table[load], table[f"{name}_{branch}_stable_deg"], color=colour, zorder=3)
         for piece in pieces(table[load], table[f"{name}_{branch}_unstable_deg"]):
@@ -106,7 +106,7 @@ def diagram(axes: Axes, table: Table, load: str, colours: list) -> None:
 
 
 def pieces(x: np.ndarray, y: np.ndarray) -> list[np.ndarray]:
-    """The parts of a curve between empty rows, each without what an earlier one has drawn, so that dashes stay dashes."""
+    """The parts of a curve between empty rows, without what an earlier one has drawn: dashes stay dashes."""
     drawn = []
     near = 0.005 * np.array([np.nanmax(x) - np.nanmin(x), 90.0])
     for rows in np.split(np.arange(len(x)), np.flatnonzero(np.isnan(y))):
@@ -128,8 +128,8 @@ def folds(table: Table, name: str) -> list[tuple[float, float]]:
 
 
 def steps(table: Table, load: str) -> list[tuple]:
-    """Both ends of each step of slow loading, and the fold from which it snaps: it turns far more than its neighbours."""
-    name = load.split("_")[0]
+    """Both ends of each step of slow loading, and the fold if it snaps: it turns far more than its neighbours."""
+    name, _ = load.split("_")
     angle = table[f"{name}_loading_deg"]
     known = np.isfinite(angle)
     x, y = table[load][known], angle[known]
