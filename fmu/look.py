@@ -1,5 +1,6 @@
 """The look of all pictures of the project: one colour for one meaning, labels at the curves, PNG and SVG."""
 
+import io
 from pathlib import Path
 
 import matplotlib as mpl
@@ -7,6 +8,7 @@ import numpy as np
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt
+from PIL import Image
 
 plt.style.use(Path(__file__).with_suffix(".mplstyle"))
 
@@ -32,7 +34,7 @@ def shades(colour: str, count: int) -> list[tuple[float, ...]]:
     base, black, white = (np.array(mpl.colors.to_rgb(name)) for name in (colour, "black", "white"))
     mixed = [
         base + part * (white - base) if part > 0 else base - part * (black - base)
-        for part in np.linspace(-0.5, 0.6, count)
+        for part in np.linspace(-0.5, 0.45, count)
     ]
     return [tuple(one) for one in mixed]
 
@@ -46,17 +48,17 @@ def label(axes, x: float, y: float, text: str, colour: str, **how) -> None:
     axes.annotate(text, (x, y), color=colour, annotation_clip=False, **how)
 
 
-def ends(axes, labels: list[tuple[float, float, str, str]], **how) -> None:
+def ends(axes, labels: list[tuple[float, float, str, str]], away: float = 4, **how) -> None:
     """Writes `(x, y, text, colour)` at the right ends of curves, moved apart where they would overlap.
 
-    Titles and limits have to be set before, since they decide how much room there is.
+    They are `away` points from the ends. Titles and limits have to be set before: they decide how much room there is.
     """
     axes.figure.draw_without_rendering()
     size = how.get("fontsize", 9)
     lines = [1.3 * size * (1 + text.count("\n")) for _, _, text, _ in labels]
     heights = [axes.transData.transform((x, y))[1] * 72 / axes.figure.dpi for x, y, _, _ in labels]
     for (x, y, text, colour), shift in zip(labels, apart(heights, lines), strict=True):
-        label(axes, x, y, text, colour, **({"xytext": (4, shift)} | how))
+        label(axes, x, y, text, colour, **({"xytext": (away, shift)} | how))
 
 
 def apart(heights: list[float], sizes: list[float]) -> np.ndarray:
@@ -80,19 +82,15 @@ def apart(heights: list[float], sizes: list[float]) -> np.ndarray:
 def level(axes, y: float, text: str, x: float = 0.02, above: bool = True) -> None:
     """A value of the paper as a line across, and what it is, at a part of the width above or below it."""
     axes.axhline(y, color=MEASURED, lw=1.2, zorder=1.5)
-    aside(axes, x, y, text, above)
-
-
-def band(axes, limits: tuple[float, float], text: str, x: float = 0.02, above: bool = True) -> None:
-    """A range of the paper as a band across, and what it is, at a part of the width above or below it."""
-    axes.axhspan(*limits, color=MEASURED, alpha=0.12, lw=0, zorder=0.5)
-    aside(axes, x, max(limits) if above else min(limits), text, above)
-
-
-def aside(axes, x: float, y: float, text: str, above: bool) -> None:
-    """What a value of the paper is, at a part of the width above or below it."""
     how = {"va": "bottom", "xytext": (0, 2)} if above else {"va": "top", "xytext": (0, -3)}
     label(axes, x, y, text, MEASURED, xycoords=axes.get_yaxis_transform(), **how)
+
+
+def band(axes, limits: tuple[float, float], text: str, x: float = 0.02) -> None:
+    """A range of the paper as a band across, and in it what it is, at a part of the width."""
+    axes.axhspan(*limits, color=MEASURED, alpha=0.12, lw=0, zorder=0.5)
+    how = {"xytext": (0, 0), "xycoords": axes.get_yaxis_transform()}
+    label(axes, x, 0.5 * sum(limits), text, MEASURED, **how)
 
 
 def title(figure, text: str, sentence: str = "") -> None:
@@ -103,9 +101,13 @@ def title(figure, text: str, sentence: str = "") -> None:
 
 
 def save(figure, path: Path) -> list[Path]:
-    """Writes a figure to `path` with the endings .png (200 dpi) and .svg, and closes it."""
+    """Writes a figure to `path` with the endings .png (200 dpi, 256 colours) and .svg, and closes it."""
     written = [path.with_suffix(ending) for ending in (".png", ".svg")]
-    figure.savefig(written[0], metadata={"Software": None})
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png", metadata={"Software": None})
+    # A third of the bytes; no colour of a pixel is off by more than some 12 of 255.
+    few = Image.open(drawn).convert("RGB").quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few.save(written[0], optimize=True)
     figure.savefig(written[1], metadata={"Date": None, "Creator": None})
     plt.close(figure)
     return written
