@@ -36,7 +36,7 @@ def chart(axes, table: Table, name: str, words: str, levels: range) -> None:
         y,
         z,
         values.T,
-        levels=np.arange(levels.start - levels.step, levels.stop + levels.step, levels.step / 5),
+        levels=np.arange(np.floor(values.min()), values.max() + 1),
         cmap=colours,
     )
     drawn.set_edgecolor("face")

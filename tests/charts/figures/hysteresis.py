@@ -20,7 +20,7 @@ def draw(table: Table) -> Figure:
     left.set(title="The tip angle jumps", ylabel="tip angle (°)")
     loop(left, table, "alpha_{}_deg", "angle", {"forth": (-18.4, 152), "back": (-24, 171)})
     right.set(title="The tip goes to the other side", ylabel="tip, away from the magnet (mm)")
-    loop(right, table, "tip_y_{}_mm", "tip", {"forth": (-14.2, 3), "back": (-24, 3)})
+    loop(right, table, "tip_y_{}_mm", "tip", {"forth": (-13.3, 3), "back": (-24, 3)})
     return figure
 
 
