@@ -1,4 +1,4 @@
-"""Drives the FMU in fmpy: the paper's magnet pair passes along the free manipulator, then turns."""
+"""Drives the FMU in fmpy: the paper's magnet pair passes along the free manipulator, turns, and returns."""
 
 import argparse
 import csv
@@ -7,6 +7,7 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import demo_animation
 import demo_picture
 import fmpy
 from fmpy.fmi1 import FMICallException
@@ -22,7 +23,12 @@ from fmpy.fmi2 import (
 from tqdm import tqdm
 
 STEP = 0.05  # communication step, s
-PASSED, BACK, STOP = 12.0, 16.0, 24.0  # ends of the pass, of the way back, of the turn, s
+PASSED, BACK, TURNED, STOP = (
+    12.0,
+    16.0,
+    24.0,
+    30.0,
+)  # ends of the pass, of the way back, of the turn, of the return, s
 REACH = 0.18  # the pass goes this far before and behind the manipulator's middle, m
 MIDDLE = 0.023  # the manipulator's middle, m
 TURN = math.radians(45)  # about x, towards the tip
@@ -48,7 +54,9 @@ def path(time: float) -> tuple[float, float]:
     """Position along the manipulator (m) and turn (rad) of the magnet."""
     passing = -REACH + 2 * REACH * eased(time / PASSED)
     back = -REACH * eased((time - PASSED) / (BACK - PASSED))
-    return MIDDLE + passing + back, TURN * eased((time - BACK) / (STOP - BACK))
+    turned = eased((time - BACK) / (TURNED - BACK))
+    home = eased((time - TURNED) / (STOP - TURNED))
+    return MIDDLE + passing + back - REACH * home, TURN * (turned - home)
 
 
 class Device:
@@ -253,11 +261,11 @@ def main() -> None:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))
         writer.writeheader()
         writer.writerows(rows)
-    picture = Path("mcm_demo.png")
+    picture, film = Path("mcm_demo.png"), Path("mcm_demo.gif")
     demo_picture.draw(table, picture)
-    print(
-        f"wrote {table} and {picture}: largest tip angle {max(row['tip_angle_deg'] for row in rows):.1f} deg"
-    )
+    demo_animation.draw(table, film)
+    largest = max(row["tip_angle_deg"] for row in rows)
+    print(f"wrote {table}, {picture} and {film}: largest tip angle {largest:.1f} deg")
 
 
 if __name__ == "__main__":

@@ -46,7 +46,8 @@ const TOP_LEVEL: [&str; 9] = [
     "fmu",
     "tests",
 ];
-const LEFT_BY_SCRIPTS: [&str; 5] = ["target", "mcm_demo.csv", "mcm_demo.png", "mcm_live.html", "logs"];
+const LEFT_BY_SCRIPTS: [&str; 6] =
+    ["target", "mcm_demo.csv", "mcm_demo.gif", "mcm_demo.png", "mcm_live.html", "logs"];
 
 fn allowed(room: &str) -> BTreeSet<&'static str> {
     let direct = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, direct)| direct);

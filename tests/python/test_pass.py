@@ -1,12 +1,18 @@
 """The magnet passes: the FMU answers what the command line answers."""
 
+import csv
 import math
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import Archive, Device
+from conftest import PACKAGE, Archive, Device
 from fmpy import simulate_fmu
+from PIL import Image
 
 # Relative to a quantity's usual size: the levels are solved to 1e-11.
 SLACK = 1e-9
@@ -165,3 +171,33 @@ tip_force_n = [0.0, 0.001, 0.0]
     device = Device(pack(text, "--shape-points", "7")).start()
     compare(device, solve(text, 7))
     device.slave.freeInstance()
+
+
+def test_the_demonstration_leaves_a_table_and_an_animation_that_loops(
+    default: Archive, tmp_path: Path
+) -> None:
+    script = PACKAGE / "fmu" / "demo.py"
+    run = [sys.executable, script, default.path, "--no-search"]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    with (tmp_path / "mcm_demo.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    first, last = ({name: float(value) for name, value in row.items()} for row in (rows[0], rows[-1]))
+    assert last["snaps"] == 0
+    for name in ("magnet_z_mm", "magnet_turn_deg", "tip_angle_deg", "stability_margin"):
+        assert last[name] == pytest.approx(first[name], rel=1e-4, abs=1e-9), (
+            f"{name} at the end as at the start"
+        )
+    assert all(float(row["largest_core_angle_deg"]) < float(row["boundary_angle_deg"]) for row in rows)
+    picture = tmp_path / "mcm_demo.gif"
+    assert picture.stat().st_size < 3_000_000
+    with Image.open(picture) as film:
+        assert film.info["loop"] == 0, "forever"
+        assert film.n_frames > 60
+        frames = []
+        for index in range(film.n_frames):
+            film.seek(index)
+            frames.append(np.asarray(film.convert("RGB"), dtype=int))
+            assert film.info["duration"] * film.n_frames in range(8_000, 12_001)
+    moved = [np.abs(frame - before).max() for before, frame in pairwise(frames)]
+    assert min(moved) > 50, "each frame differs from the one before"
