@@ -19,7 +19,7 @@ def draw(table: Table) -> Figure:
         "torque on the last ring by those before it; positive bends it further; 4 mm apart, but where spacings vary",
     )
     parts.set(title="Gradient and field nearly cancel", xlabel=DEFLECTION, ylabel=TORQUE)
-    sums.set(title="What is left: four or five straighten", xlabel=DEFLECTION, ylabel=TORQUE)
+    sums.set(title="Below 35°, four or five straighten", xlabel=DEFLECTION, ylabel=TORQUE)
     spaced.set(title="At 20°, closer rings bend further", xlabel="spacing (mm)", ylabel=TORQUE)
     balance.set(title="Closer than this, the gradient wins", xlabel=DEFLECTION, ylabel="spacing (mm)")
     deflection, spacing = table["deflection_deg"], table["spacing_mm"]

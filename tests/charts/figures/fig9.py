@@ -26,7 +26,7 @@ def draw(table: Table) -> Figure:
     look.title(
         figure,
         "Fig. 9: led by a magnet, nine segments turn into the artery, others less",
-        "predictions, level rings; left: nine segments by friction; right: devices without friction; circle: no shape is found",
+        "predictions, level rings; left: nine segments by friction; right: no friction; circle: no further shape",
     )
     inside.set(title="Dry walls hold them at the port", ylabel="shaft inside (mm)")
     turn.set(title="Nine segments turn furthest", ylabel="turn of the tip (°)")
