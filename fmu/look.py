@@ -14,6 +14,7 @@ plt.style.use(Path(__file__).with_suffix(".mplstyle"))
 
 INK, GREY, LIGHT = "#22252a", "#80868f", "#e3e5e9"
 NORTH, SOUTH = "#c8553d", "#4f7cac"  # poles of magnets
+WALL, LUMEN = "#cf958e", "#f7e6e3"  # of vessels
 
 # Colours that people with colour blindness can tell apart: M. Okabe and K. Ito, Color Universal Design (2002).
 BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"
