@@ -2,17 +2,16 @@
 
 from pathlib import Path
 
-import matplotlib as mpl
-import numpy as np
-
-mpl.use("Agg")
+import look
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.collections import PatchCollection
 
-INK, WALL, LUMEN, DEVICE, MAGNET = "#22252a", "#d7a09a", "#f7e6e3", "#4f7cac", "#c8553d"
+DEVICE, MAGNET = look.BLUE, look.NORTH
 SHOWN = 8  # shapes in the picture
 FRAMES = 80
+PAPER = 90  # mN, measured on nine segments
 SMOOTH = 6  # points of an outline between two of its branch
 
 
@@ -27,7 +26,7 @@ def balls(branch: dict) -> tuple[np.ndarray, np.ndarray]:
 
 def draw_vessels(axes, vessel: list[dict]) -> None:
     """The union of all balls, seen from above."""
-    for grown, colour, order in ((1.0, WALL, 1), (0.0, LUMEN, 2)):
+    for grown, colour, order in ((1.0, look.WALL, 1), (0.0, look.LUMEN, 2)):
         circles = [
             plt.Circle((centre[2], centre[0]), radius + grown)
             for branch in vessel
@@ -36,6 +35,7 @@ def draw_vessels(axes, vessel: list[dict]) -> None:
         axes.add_collection(PatchCollection(circles, color=colour, lw=0, zorder=order))
     axes.set(xlabel="z, along the port (mm)", ylabel="x (mm)", aspect="equal")
     axes.autoscale_view()
+    axes.grid(visible=False)
 
 
 def draw_magnet(axes, columns: dict, row: int, alpha: float = 1.0) -> list:
@@ -59,37 +59,52 @@ def draw_magnet(axes, columns: dict, row: int, alpha: float = 1.0) -> list:
 
 def draw(columns: dict, shapes: list[np.ndarray], vessel: list[dict], picture: Path) -> None:
     """Shapes along the way above; forces and inserted length below."""
-    figure, (above, forces) = plt.subplots(
-        2, 1, figsize=(11, 7.4), layout="constrained", height_ratios=[1.3, 1]
-    )
+    figure = plt.figure(figsize=(8.5, 6.2))
+    grid = figure.add_gridspec(2, 2, height_ratios=(1.15, 1), width_ratios=(1.5, 1))
+    above, forces, length = (figure.add_subplot(grid[at]) for at in ((0, slice(None)), (1, 0), (1, 1)))
     draw_vessels(above, vessel)
     for number, row in enumerate(np.linspace(0, len(shapes) - 1, SHOWN).astype(int)):
         alpha = 0.35 + 0.65 * number / (SHOWN - 1)
-        above.plot(
-            1e3 * shapes[row][:, 2], 1e3 * shapes[row][:, 0], color=DEVICE, alpha=alpha, lw=2, zorder=4
-        )
+        z, x = 1e3 * shapes[row][:, 2], 1e3 * shapes[row][:, 0]
+        above.plot(z, x, color=DEVICE, alpha=alpha, lw=2, zorder=4)
         draw_magnet(above, columns, row, alpha)
-    above.set_title("Shapes from above; arrows: the magnet beneath, and its field at the vessels")
-    norm = lambda name: 1e3 * np.linalg.norm([columns[f"{name}[{k}]"] for k in (1, 2, 3)], axis=0)  # noqa: E731
+    above.set_title("From above: the device at times, and the magnet beneath (arrow: its field)")
     time = columns["time"]
-    forces.plot(time, norm("magnet.reaction_force"), color=MAGNET, label="magnet and device")
-    forces.plot(time, norm("contact.force"), color=WALL, label="wall on the device")
-    forces.plot(time, 1e3 * columns["contact.largest_force"], color=INK, label="largest contact")
-    forces.axhline(90, color=INK, lw=0.8, ls=":", label="largest axial force of the paper")
+    strength = {
+        name: 1e3 * np.linalg.norm([columns[f"{name}[{k}]"] for k in (1, 2, 3)], axis=0)
+        for name in ("magnet.reaction_force", "contact.force")
+    }
+    largest = 1e3 * columns["contact.largest_force"]
+    forces.plot(time, strength["magnet.reaction_force"], color=MAGNET)
+    forces.plot(time, strength["contact.force"], color=look.WALL, ls=(0, (4, 2)))
+    forces.plot(time, largest, color=look.INK)
+    look.level(forces, PAPER, "largest axial force of the paper", x=1.0, above=False)
     forces.set(xlabel="time (s)", ylabel="force (mN), predicted", ylim=(0, None))
-    length = forces.twinx()
-    length.plot(time, 1e3 * columns["feed.length"], color=DEVICE, ls="--", label="shaft inside (right)")
-    length.set(ylabel="shaft inside (mm)", ylim=(0, None))
-    lines = [*forces.get_lines(), *length.get_lines()]
-    names = [line.get_label() for line in lines]
-    forces.legend(lines, names, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=5, frameon=False)
-    figure.savefig(picture, dpi=130)
+    forces.set_title("The wall bears what the magnet pulls")
+    middle = len(time) // 2
+    look.label(
+        forces,
+        time[middle],
+        strength["contact.force"][middle],
+        "magnet; dashed: wall",
+        MAGNET,
+        xytext=(0, 9),
+        ha="center",
+    )
+    look.label(
+        forces, time[middle], largest[middle], "largest contact", look.INK, xytext=(0, -9), ha="center"
+    )
+    length.plot(time, 1e3 * columns["feed.length"], color=DEVICE)
+    length.set(xlabel="time (s)", ylabel="shaft inside (mm)", ylim=(0, None))
+    length.set_title("The shaft follows")
+    look.title(figure, "A magnet beneath leads the device up the aorta into a branch")
+    figure.savefig(picture)
     plt.close(figure)
 
 
 def animate(columns: dict, shapes: list[np.ndarray], vessel: list[dict], film: Path) -> None:
     """The device on its way, from above."""
-    figure, axes = plt.subplots(figsize=(9, 3.8), layout="constrained")
+    figure, axes = plt.subplots(figsize=(9, 3.8))
     draw_vessels(axes, vessel)
     (line,) = axes.plot([], [], color=DEVICE, lw=2.2, zorder=4)
     drawn: list = []

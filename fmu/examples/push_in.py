@@ -9,11 +9,15 @@ The magnet moves beneath the vessel along the port's axis, 20 mm ahead of the un
 
 import argparse
 import csv
+import sys
 from pathlib import Path
 
 import numpy as np
 from component import Component
-from matplotlib.figure import Figure
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+import look
+from matplotlib.pyplot import subplots
 
 FASTEST = 8.3e-3  # m/s: half a metre in a minute
 STEP = 0.5e-3  # m
@@ -53,22 +57,32 @@ def drive(fmu: Path, reach: float, beneath: float) -> tuple[list[list[float]], l
 def draw(rows: list[list[float]], shapes: list[np.ndarray], picture: Path) -> None:
     """Shapes from the side above, forces over the insertion below."""
     table = dict(zip(["time", "insertion", *OUTPUTS], np.array(rows).T, strict=True))
-    figure = Figure(figsize=(8, 7), layout="constrained")
-    side, forces = figure.subplots(2, 1)
-    for shape in shapes:
-        side.plot(1e3 * shape[:, 2], 1e3 * shape[:, 1], lw=2)
-    side.set(xlabel="z, along the port (mm)", ylabel="y (mm); the magnet is below")
-    side.set_title("Shapes while the shaft is pushed in")
+    figure, (side, forces) = subplots(2, 1, figsize=(8.5, 6))
+    for shape, colour in zip(shapes, reversed(look.shades(look.BLUE, len(shapes))), strict=True):
+        side.plot(1e3 * shape[:, 2], 1e3 * shape[:, 1], lw=2, color=colour)
+    side.set(
+        xlabel="z, along the port (mm)", ylabel="y (mm)", title="Shapes from the side; the magnet is below"
+    )
+    inserted = 1e3 * table["insertion"]
     wall = np.linalg.norm([table[f"contact.force[{k}]"] for k in (1, 2, 3)], axis=0)
-    for label, values in [
-        ("total force of the wall", wall),
-        ("largest contact", table["contact.largest_force"]),
-        ("push at the port", table["feed.reaction_force"]),
+    labels = []
+    for words, values, colour in [
+        ("force of the wall", wall, look.WALL),
+        ("largest contact", table["contact.largest_force"], look.INK),
+        ("push at the port", table["feed.reaction_force"], look.BLUE),
     ]:
-        forces.plot(1e3 * table["insertion"], 1e3 * values, label=label)
-    forces.set(xlabel="inserted length (mm)", ylabel="force (mN)")
-    forces.legend()
-    figure.savefig(picture, dpi=150)
+        forces.plot(inserted, 1e3 * values, color=colour)
+        labels.append((inserted[-1], 1e3 * values[-1], words, colour))
+    forces.axhline(0, color=look.GREY, lw=0.8)
+    forces.set(xlabel="inserted length (mm)", ylabel="force (mN)", title="Forces, predicted")
+    forces.set_xlim(0, inserted[-1])
+    look.title(
+        figure,
+        "The magnet bends the tip against the wall while the shaft is pushed in",
+        f"Abdominal aorta; dark: {inserted[-1]:.0f} mm of shaft inside; the magnet is {1e3 * AHEAD:.0f} mm ahead.",
+    )
+    look.ends(forces, labels)
+    figure.savefig(picture)
 
 
 def main() -> None:

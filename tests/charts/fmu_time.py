@@ -12,22 +12,21 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from fmpy import simulate_fmu
 from matplotlib.patches import ConnectionPatch
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu"))
 sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu" / "examples"))
 import fmpy_plain
+import look
 from component import Component
-
-mpl.use("Agg")
-import matplotlib.pyplot as plt
+from matplotlib.pyplot import subplots
 
 INPUT, OUTPUT = "magnet.position[3]", "tip.angle"
 STEP, STOP = 0.5, 3.0  # s
 SHOWN = 3  # the row that is told apart
-INK, GRID, GREY, BLUE, RED = "#22252a", "#e6e8ec", "#a9aeb6", "#4f7cac", "#c8553d"
+INK, GREY, BLUE, RED = look.INK, look.GREY, look.BLUE, look.VERMILION
 
 
 def way(time: np.ndarray) -> np.ndarray:
@@ -77,15 +76,15 @@ def panels(fmu: Path) -> list[Panel]:
     return [
         Panel(
             "fmpy as it is",
-            "a row answers the input\nof one step before",
+            "a row answers the\ninput of a step before",
             [(step, (value, value)) for step, value in zip(steps, z[:-1], strict=True)],
             plain["time"],
             plain[OUTPUT],
             SHOWN + 1,
         ),
         Panel(
-            "as in the README's example",
-            "a row answers the input\nof its own time",
+            "as in the README",
+            "a row answers the\ninput of its own time",
             [((time - STEP, time), (value, value)) for time, value in zip(times, z, strict=True)],
             held["time"],
             held[OUTPUT],
@@ -93,23 +92,13 @@ def panels(fmu: Path) -> list[Panel]:
         ),
         Panel(
             "with input derivatives",
-            "the same, and the input moves\nduring the step",
+            "the same; the input\nmoves during the step",
             [(step, ends) for step, ends in zip(steps, pairwise(z), strict=True)],
             moved["time"],
             moved[OUTPUT],
             SHOWN,
         ),
     ]
-
-
-def tidy(axes) -> None:
-    """Light frame; a grid line at each communication point."""
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.set_xticks(np.arange(0, STOP + STEP / 2, STEP), minor=True)
-    axes.set_xticks(np.arange(0, STOP + 0.5, 1.0))
-    axes.grid(axis="x", which="both", color=GRID, lw=0.8)
-    axes.set_axisbelow(True)
-    axes.set_xlim(-1.1 * STEP, STOP + 0.4 * STEP)
 
 
 def draw_panel(above, below, panel: Panel, fine: tuple[np.ndarray, np.ndarray]) -> None:
@@ -152,9 +141,11 @@ def draw_panel(above, below, panel: Panel, fine: tuple[np.ndarray, np.ndarray]) 
     )
     below.figure.add_artist(arrow)
     above.set_title(panel.title, loc="left")
-    below.text(0.97, 0.05, panel.note, transform=below.transAxes, ha="right", va="bottom", color=INK)
-    tidy(above)
-    tidy(below)
+    below.text(1.0, 0.03, panel.note, transform=below.transAxes, ha="right", fontsize=9)
+    for axes in (above, below):
+        axes.set_xticks(times, [f"{time:.0f}" if time == round(time) else "" for time in times])
+        axes.grid(axis="y", visible=False)
+        axes.set_xlim(-1.1 * STEP, STOP + 0.4 * STEP)
     below.set_xlabel("time (s)")
 
 
@@ -164,23 +155,22 @@ def draw(fmu: Path, picture: Path) -> None:
         drawn = panels(fmu)
     instants = np.linspace(0, STOP, 121)
     fine = instants, equilibria(fmu, instants)
-    plt.rcParams.update(
-        {"font.size": 9, "axes.edgecolor": INK, "text.color": INK, "axes.titleweight": "bold"}
-    )
-    figure, axes = plt.subplots(2, 3, figsize=(10.5, 5.2), sharex=True, sharey="row", layout="constrained")
+    figure, axes = subplots(2, 3, figsize=(8.5, 5.4), sharex=True, sharey="row")
     for (above, below), panel in zip(axes.T, drawn, strict=True):
         draw_panel(above, below, panel, fine)
     axes[0, 0].set_ylabel("input: magnet, z (mm)")
-    axes[1, 0].set_ylabel("output: tip angle (deg)")
-    keys = [
-        plt.Line2D([], [], ls="", marker="o", mfc="white", mec=INK, ms=5, label="row of the table of inputs"),
-        plt.Line2D([], [], color=BLUE, lw=2, label="input during the step"),
-        plt.Line2D([], [], ls="", marker="o", color=BLUE, ms=5.5, label="row of the outputs"),
-        plt.Line2D([], [], color=GREY, lw=1.4, label="equilibrium at each instant"),
-        plt.Line2D([], [], color=RED, lw=2.6, marker="o", ms=6, label="one input and its answer"),
-    ]
-    figure.legend(handles=keys, loc="outside lower center", ncols=5, frameon=False)
-    figure.savefig(picture, dpi=150)
+    axes[1, 0].set_ylabel("output: tip angle (°)")
+    first = axes[0, 0], axes[1, 0]
+    look.label(first[0], 1.0, 1e3 * way(0.5), "input held", BLUE, xytext=(4, 0))
+    look.label(first[0], 0.5, 1e3 * way(0.0), "row of inputs", INK, xytext=(4, 0))
+    look.label(first[1], 0.6, 15.6, "equilibrium", GREY, ha="right", xytext=(-2, 4))
+    look.label(first[1], 1.5, np.degrees(drawn[0].angles[3]), "row of outputs", BLUE, xytext=(6, -4))
+    look.title(
+        figure,
+        "fmpy's rows come one step late; relabelled, each answers its own input",
+        "Red: one input and its answer.",
+    )
+    figure.savefig(picture)
 
 
 def main() -> None:
