@@ -21,7 +21,7 @@ def draw(table: Table) -> Figure:
     look.title(
         figure,
         "Fig. 4: with all interactions the paper's design is close to the best score",
-        "cells: designs within the constraints; lines: every 0.2; circle: the paper's; cross: best; dots: within 5 % of it",
+        "cells: designs within constraints; lines every 0.2; circle: the paper's; cross: best; dots: within 5 % of it",
     )
     for panel, (name, words, most) in zip(axes.flat, PANELS, strict=True):
         chart(panel, table, f"score_{name}", words, most)
