@@ -78,22 +78,11 @@ def draw(columns: dict, shapes: list[np.ndarray], vessel: list[dict], picture: P
     forces.plot(time, strength["magnet.reaction_force"], color=MAGNET)
     forces.plot(time, strength["contact.force"], color=look.WALL, ls=(0, (4, 2)))
     forces.plot(time, largest, color=look.INK)
-    look.level(forces, PAPER, "largest axial force of the paper", x=1.0, above=False)
+    look.level(forces, PAPER, "largest axial force in the paper", x=0.22, above=False)
     forces.set(xlabel="time (s)", ylabel="force (mN), predicted", ylim=(0, None))
     forces.set_title("The wall bears what the magnet pulls")
-    middle = len(time) // 2
-    look.label(
-        forces,
-        time[middle],
-        strength["contact.force"][middle],
-        "magnet; dashed: wall",
-        MAGNET,
-        xytext=(0, 9),
-        ha="center",
-    )
-    look.label(
-        forces, time[middle], largest[middle], "largest contact", look.INK, xytext=(0, -9), ha="center"
-    )
+    look.label(forces, time[0], max(strength["magnet.reaction_force"]), "magnet; dashed: wall", MAGNET)
+    look.label(forces, time[len(time) // 4], min(largest), "largest contact", look.INK, xytext=(0, -10))
     length.plot(time, 1e3 * columns["feed.length"], color=DEVICE)
     length.set(xlabel="time (s)", ylabel="shaft inside (mm)", ylim=(0, None))
     length.set_title("The shaft follows")
