@@ -2,8 +2,6 @@
 //!
 //! The times are measured: they are those of one machine at one moment.
 
-mod picture;
-
 use std::time::{Duration, Instant};
 
 use nalgebra::Vector3;
@@ -15,8 +13,6 @@ use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Outputs, Scene, Solve, Status};
 use crate::methods::{self, Method};
-
-pub use picture::{PEERS, Peered, accuracy_picture};
 
 /// Name and scene text of each field: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
 const FIELDS: [(&str, &str); 3] = [

@@ -1,7 +1,7 @@
 //! Bands of 95 % of what the paper measured: Shore hardness to 1, remanences to 2 %, the spacing of the rings to 0.05 mm.
 
 use super::experiment::{DISTANCE, SEGMENTS, axis_distance, held_force, magnet_pair};
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Design, Helix, Specification};
 use crate::error::Error;
 use crate::manipulator::{Neighbours, SceneFile, Status};
@@ -205,7 +205,9 @@ pub fn bands() -> Result<Study, Error> {
     for column in &mut columns {
         column.values.resize(rows, f64::NAN);
     }
-    Ok(Study { title: "Measured values beside bands of 95 %", columns, panels: panels(), comparison })
+    let marks = [("gain", GAIN), ("three segments", THREE_DEG), ("cylinder", CYLINDER_DEG)]
+        .map(|(quantity, measured)| Mark::level(format!("paper, {quantity}"), measured));
+    Ok(Study { columns, marks: marks.into(), comparison })
 }
 
 /// Columns of a quantity and of the limits of its band.
@@ -232,48 +234,4 @@ fn compared(quantity: &str, decimals: usize, paper: f64, known: &Known) -> Compa
             "{verdict}: the band is {low:.decimals$} to {high:.decimals$}, the measured value {widths:.1} half widths from its middle"
         ),
     }
-}
-
-fn panels() -> Vec<Panel> {
-    let banded = |name: &str, unit: &str, label: &str, colour| {
-        vec![
-            Curve::new(label, format!("{name}{unit}"), colour, Stroke::Solid),
-            Curve::new("95 % band", format!("{name}_low{unit}"), colour, Stroke::Dashed),
-            Curve::new("", format!("{name}_high{unit}"), colour, Stroke::Dashed),
-        ]
-    };
-    let panel = |title: &str, x: (&str, &str), y: &str, curves, marks| Panel::Curves {
-        title: title.into(),
-        x: (x.0.into(), x.1.into()),
-        y: y.into(),
-        curves,
-        marks,
-    };
-    let (field, direction) =
-        (("perpendicular field (mT)", "field_mt"), ("direction of 20 mT (deg)", "direction_deg"));
-    let level = |label: String, value| vec![Mark::Level(label, value)];
-    vec![
-        panel("one segment", field, "tip angle (deg)", banded("alpha", "_deg", "full", 0), Vec::new()),
-        panel(
-            "gain from the base ring",
-            field,
-            "gain (1)",
-            banded("gain", "", "full", 0),
-            level(format!("paper: {GAIN}"), GAIN),
-        ),
-        panel(
-            "three segments, bending stop",
-            direction,
-            "tip angle (deg)",
-            banded("alpha_three", "_deg", "full", 0),
-            level(format!("paper: {THREE_DEG} deg"), THREE_DEG),
-        ),
-        panel(
-            "solid cylinder",
-            direction,
-            "tip angle (deg)",
-            banded("alpha_cylinder", "_deg", "exact", 1),
-            level(format!("paper: {CYLINDER_DEG} deg"), CYLINDER_DEG),
-        ),
-    ]
 }

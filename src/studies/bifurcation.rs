@@ -1,6 +1,6 @@
 //! Bifurcation diagrams: stable and unstable branches, their folds, and predictions of snaps.
 
-mod canvas;
+mod branches;
 mod case;
 mod dipole;
 mod spacing;
@@ -8,7 +8,7 @@ mod spacing;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use self::canvas::{Canvas, Drawing};
+use self::branches::Branches;
 use self::case::{Case, turned};
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::progress::Progress;
@@ -64,7 +64,7 @@ pub struct Prediction {
 
 /// One diagram with its folds and predictions.
 struct Found {
-    canvas: Canvas,
+    branches: Branches,
     places: Vec<Place>,
     predictions: Vec<Prediction>,
 }
@@ -91,32 +91,24 @@ pub fn bifurcation(progress: &dyn Progress) -> Result<Bifurcation, Error> {
         found
     });
     let found = found.collect::<Result<Vec<_>, Error>>()?;
-    let rows = found.iter().map(|diagram| diagram.canvas.rows()).max().unwrap_or(0);
-    let (mut columns, mut panels) = (Vec::new(), Vec::new());
+    let rows = found.iter().map(|diagram| diagram.branches.rows()).max().unwrap_or(0);
+    let (mut columns, mut marks) = (Vec::new(), Vec::new());
     let (mut places, mut predictions) = (Vec::new(), Vec::new());
     for diagram in found {
-        panels.push(diagram.canvas.finish(rows, &mut columns));
+        diagram.branches.finish(rows, &mut columns, &mut marks);
         places.extend(diagram.places);
         predictions.extend(diagram.predictions);
     }
-    let title = "Where shapes end: equilibria, stable or not, and the way of slow loading";
-    Ok(Bifurcation { study: Study { title, columns, panels, comparison: Vec::new() }, places, predictions })
+    Ok(Bifurcation { study: Study { columns, marks, comparison: Vec::new() }, places, predictions })
 }
 
 /// One core with a dipole at its tip in a field that turns.
 fn turning() -> Result<Found, Error> {
     let case = dipole::turning()?;
-    let mut found = Found::new(Drawing {
-        name: "turning",
-        title: "dipole on one core; 61 mT, turning",
-        x: ["direction of the field", "deg"],
-        y: ["tip angle", "deg"],
-        branches: &["stable"],
-        explained: true,
-    });
+    let mut found = Found::new("turning", ["deg", "deg"], 1);
     let (diagram, loading) = (case.trace(case.path[0])?, case.load(true)?);
-    found.canvas.draw(0, &case, &diagram);
-    found.canvas.draw_loading(&loading);
+    found.branches.add(0, &case, &diagram);
+    found.branches.add_loading(&loading);
     let plane = dipole::fold_of_turning();
     for shape in diagram.shapes.iter().filter(|shape| shape.kind != PointKind::Regular) {
         let (what, closed_form, snap) = match (shape.kind, shape.tip.axis().y > 0.0) {
@@ -137,14 +129,7 @@ fn turning() -> Result<Found, Error> {
 /// The same in a growing field, antiparallel and one degree off.
 fn growing() -> Result<Found, Error> {
     let (straight, aside) = (dipole::growing(180.0)?, dipole::growing(dipole::ASIDE)?);
-    let mut found = Found::new(Drawing {
-        name: "growing",
-        title: "the same; antiparallel field, growing",
-        x: ["field", "mT"],
-        y: ["tip angle", "deg"],
-        branches: &["exactly", "1 deg aside"],
-        explained: false,
-    });
+    let mut found = Found::new("growing", ["mt", "deg"], 2);
     let (perfect, near) = (straight.trace(0.0)?, aside.trace(0.0)?);
     // The shape bent to the other side is close to the one in the mirrored field.
     let mirrored = dipole::growing(360.0 - dipole::ASIDE)?;
@@ -153,9 +138,9 @@ fn growing() -> Result<Found, Error> {
     model.solve(&(mirrored.way)(largest))?;
     let far = aside.trace_from(&model, largest)?;
     for (branch, case, diagram) in [(0, &straight, &perfect), (1, &aside, &near), (1, &aside, &far)] {
-        found.canvas.draw(branch, case, diagram);
+        found.branches.add(branch, case, diagram);
     }
-    found.canvas.draw_loading(&aside.load(false)?);
+    found.branches.add_loading(&aside.load(false)?);
     let critical = dipole::critical_field()?;
     for shape in perfect.shapes.iter().filter(|shape| shape.kind != PointKind::Regular) {
         found.add("dipole, antiparallel: buckles (mT)", shape, None, Some(critical));
@@ -185,23 +170,16 @@ fn nearing() -> Result<Found, Error> {
         angle: turned,
         points: POINTS,
     };
-    let mut found = Found::new(Drawing {
-        name: "nearing",
-        title: "nine segments; magnet pair comes, goes",
-        x: ["distance of the axes", "mm"],
-        y: ["tip angle", "deg"],
-        branches: &[""],
-        explained: false,
-    });
+    let mut found = Found::new("nearing", ["mm", "deg"], 1);
     let loading = case.load(true)?;
-    found.canvas.draw_loading(&loading);
+    found.branches.add_loading(&loading);
     for (number, what) in
         ["nine segments: snap as the magnet comes (mm)", "nine segments: snap as it goes (mm)"]
             .into_iter()
             .enumerate()
     {
         let diagram = case.trace(case.path[number])?;
-        found.canvas.draw(0, &case, &diagram);
+        found.branches.add(0, &case, &diagram);
         if let Some(shape) = diagram.folds().next() {
             found.add(what, shape, loading.snaps.get(number).copied(), None);
             found.predict(&case, what, shape, number == 0)?;
@@ -212,22 +190,15 @@ fn nearing() -> Result<Found, Error> {
 
 /// One and three segments whose rings snap together in a growing transverse field.
 fn pulling() -> Result<Found, Error> {
-    let mut found = Found::new(Drawing {
-        name: "pulling",
-        title: "level full; field across, growing",
-        x: ["field", "mT"],
-        y: ["tip angle", "deg"],
-        branches: &["one segment", "three segments"],
-        explained: false,
-    });
+    let mut found = Found::new("pulling", ["mt", "deg"], 2);
     for (branch, segments, points, what) in [
         (0, 1, POINTS, "one segment, `full`: pulled shut (mT)"),
         (1, 3, POINTS_OF_THREE, "three segments, `full`: pulled shut (mT)"),
     ] {
         let case = pulled(Specification::paper(segments), [0.0, 40.0], points)?;
         let (diagram, loading) = (case.trace(0.0)?, case.load(false)?);
-        found.canvas.draw(branch, &case, &diagram);
-        found.canvas.draw_loading(&loading);
+        found.branches.add(branch, &case, &diagram);
+        found.branches.add_loading(&loading);
         if let Some(shape) = diagram.folds().next() {
             found.add(what, shape, loading.snaps.first().copied(), None);
             found.predict(&case, what, shape, true)?;
@@ -249,8 +220,8 @@ fn pulled(specification: Specification, path: [f64; 2], points: usize) -> Result
 }
 
 impl Found {
-    fn new(drawing: Drawing) -> Self {
-        Self { canvas: Canvas::new(drawing), places: Vec::new(), predictions: Vec::new() }
+    fn new(name: &'static str, units: [&'static str; 2], branches: usize) -> Self {
+        Self { branches: Branches::new(name, units, branches), places: Vec::new(), predictions: Vec::new() }
     }
 
     /// Adds the fold or branching point that continuation has found at `shape`.

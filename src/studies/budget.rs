@@ -2,7 +2,6 @@
 //! from the paper's measurements.
 
 mod entries;
-mod picture;
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -14,7 +13,6 @@ use super::{fig7a, fig7b, fig7c};
 use crate::error::Error;
 
 pub use entries::{BUDGET_SCENES, BudgetKind, BudgetScene};
-pub use picture::budget_picture;
 
 /// Effect of one entry in one scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]

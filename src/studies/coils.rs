@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::study::{Column, Comparison, Curve, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Study, Value};
 use crate::equilibrium::PlacedSource;
 use crate::error::Error;
 use crate::magnetics::Sources;
@@ -100,17 +100,6 @@ pub fn coils() -> Result<Study, Error> {
     }
     let middle = Map::at(&sources, placed, &Vector3::zeros())?;
     let [field, gradient] = [middle.reach(&fields)?, middle.reach(&gradients)?];
-    let panel = |title: &str, y: &str, column: &str, unit: &str| Panel::Curves {
-        title: title.into(),
-        x: ("distance from the middle (mm)".into(), "place_mm".into()),
-        y: y.into(),
-        curves: [("along x", "x", 0), ("along z, the upper coils' axis", "z", 1)]
-            .map(|(label, axis, colour)| {
-                Curve::new(label, format!("{column}_{axis}_{unit}"), colour, Stroke::Solid)
-            })
-            .into(),
-        marks: Vec::new(),
-    };
     let row = |quantity: &str, [least, most]: [f64; 2], remark: &str| Comparison {
         quantity: quantity.into(),
         decimals: 2,
@@ -120,12 +109,8 @@ pub fn coils() -> Result<Study, Error> {
         remark: remark.into(),
     };
     Ok(Study {
-        title: "Eight coils with at most 10 A: what they reach in every direction",
         columns,
-        panels: vec![
-            panel("field, whatever its gradient", "field (mT)", "field", "mt"),
-            panel("gradient without a field", "gradient (T/m)", "gradient", "t_per_m"),
-        ],
+        marks: Vec::new(),
         comparison: vec![
             row(
                 "field of eight coils in the middle, 10 A, by direction (mT)",

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::hysteresis;
 use super::progress::Progress;
-use super::study::{Column, Comparison, Panel, Series, Stroke, Study, Value};
+use super::study::{Column, Comparison, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -21,9 +21,6 @@ const FINEST: u32 = 1000;
 
 /// Tip distance up to which two shapes count as equal, mm: the error that the residuals of two solves leave.
 const SAME: f64 = 1e-7;
-
-/// Smallest plotted tip distance, mm; smaller ones are plotted here.
-const LEAST: f64 = 1e-10;
 
 /// Distance of the magnet's axis from the manipulator's, m, as in the demonstration.
 const DISTANCE: f64 = 0.14;
@@ -66,8 +63,8 @@ pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
     let walked = walks.par_iter().map(|&(way, steps)| ways[way].walked(steps, progress));
     let walked = walked.collect::<Result<Vec<Walked>, Error>>()?;
     let mut columns = vec![Column::new("steps", STEPS.iter().map(|&steps| f64::from(steps)).collect())];
-    let (mut series, mut comparison) = (Vec::new(), Vec::new());
-    for (number, (way, walked)) in ways.iter().zip(walked.chunks(STEPS.len())).enumerate() {
+    let mut comparison = Vec::new();
+    for (way, walked) in ways.iter().zip(walked.chunks(STEPS.len())) {
         let finest = &walked[STEPS.len() - 1];
         let apart = |walked: &Walked| 1e3 * (walked.tip - finest.tip).norm();
         let mut add = |quantity: &str, value: &dyn Fn(&Walked) -> f64| {
@@ -78,12 +75,6 @@ pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
         add("WAY_apart_mm", &apart);
         add("snaps_WAY", &|walked| f64::from(walked.snaps));
         add("refused_WAY", &|walked| f64::from(walked.refused));
-        series.push(Series {
-            label: way.name.into(),
-            colour: number,
-            stroke: Stroke::Solid,
-            places: walked.iter().map(|walked| [walked.step, apart(walked).max(LEAST)]).collect(),
-        });
         let same =
             |walked: &Walked| walked.refused == 0 && apart(walked) <= SAME && walked.snaps == finest.snaps;
         let fine = walked.iter().rev().take_while(|walked| same(walked)).map(|walked| walked.step);
@@ -102,18 +93,7 @@ pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
             ),
         });
     }
-    Ok(Study {
-        title: "The same way of the magnet in few steps and in many",
-        columns,
-        panels: vec![Panel::Places {
-            title: "where the tip is at the end".into(),
-            x: "longest step of the magnet (mm)".into(),
-            y: "distance from the tip after 1000 steps (mm)".into(),
-            series,
-            marks: Vec::new(),
-        }],
-        comparison,
-    })
+    Ok(Study { columns, marks: Vec::new(), comparison })
 }
 
 impl Way {

@@ -8,7 +8,6 @@ use serde::Serialize;
 
 use super::progress::Progress;
 use super::scenes::{PAIR, later};
-use super::study::{Mark, Panel, Series, Stroke, Study};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Scene, Status, models_of_auto};
@@ -152,52 +151,5 @@ impl Walk {
 
     fn with(&self, settings: Settings) -> Scene {
         Scene { settings, ..self.scene.clone() }
-    }
-}
-
-/// Chart of the time of a step relative to the richest model, and of the error relative to the tolerance.
-#[must_use]
-pub fn fidelity_picture(rows: &[Fidelity]) -> Study {
-    let series = |value: fn(&Fidelity) -> Option<f64>| {
-        let places = |scene: &str| {
-            let own = rows.iter().filter(|row| row.scene == scene);
-            own.filter_map(|row| Some([row.tolerance?, value(row)?])).collect()
-        };
-        SCENES
-            .iter()
-            .enumerate()
-            .map(|(colour, (scene, ..))| Series {
-                label: (*scene).into(),
-                colour,
-                stroke: Stroke::Solid,
-                places: places(scene),
-            })
-            .collect()
-    };
-    let panel = |title: &str, y: &str, series, mark: &str| Panel::Places {
-        title: title.into(),
-        x: "tolerance of the tip over the length".into(),
-        y: y.into(),
-        series,
-        marks: vec![Mark::Level(mark.into(), 1.0)],
-    };
-    Study {
-        title: "Level auto: as much model as the tolerance needs",
-        columns: vec![],
-        panels: vec![
-            panel(
-                "time of a step at 1 kHz",
-                "over that of the richest model",
-                series(|row| Some(row.time_relative)),
-                "the richest model alone",
-            ),
-            panel(
-                "largest error against a finer discretisation",
-                "over the tolerance",
-                series(|row| Some(row.tip_over_length / row.tolerance?)),
-                "the tolerance",
-            ),
-        ],
-        comparison: vec![],
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::study::{Column, Comparison, Curve, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Study, Value};
 use crate::design::{Helix, RingMagnet};
 use crate::error::Error;
 use crate::magnetics::{AxialSource, Dipole};
@@ -87,43 +87,8 @@ pub fn field_ring() -> Result<Study, Error> {
             column.values.push(value);
         }
     }
-    let z = ("z from the ring's centre (mm)", "z_mm");
-    let map = |title: &str, value: &str| Panel::Map {
-        title: title.into(),
-        x: ("y (mm)".into(), "y_mm".into()),
-        y: ("z (mm)".into(), "z_mm".into()),
-        value: value.into(),
-        marks: Vec::new(),
-    };
-    let axis = |title: &str, label: &str, name: &str, unit: &str| {
-        let curve = |label: &str, source: &str, colour, stroke| {
-            Curve::new(label, format!("axis_{name}_{source}_{unit}"), colour, stroke)
-        };
-        Panel::Curves {
-            title: title.into(),
-            x: (z.0.into(), z.1.into()),
-            y: label.into(),
-            curves: vec![
-                curve("exact", "exact", 0, Stroke::Solid),
-                curve("dipole", "dipole", 2, Stroke::Dashed),
-                curve("fit of 7A", "fit_7a", 1, Stroke::Dots),
-                curve("fit of 8", "fit_8", 3, Stroke::Dots),
-            ],
-            marks: Vec::new(),
-        }
-    };
     let comparison = comparison(&columns);
-    Ok(Study {
-        title: "Fig. 3E: field of one ring magnet, 3 to 5 mm from its centre",
-        columns,
-        panels: vec![
-            map("size of B (mT)", "b_mt"),
-            map("dB_z/dz (T/m)", "dbz_dz_t_per_m"),
-            axis("on the axis", "B_z (mT)", "bz", "mt"),
-            axis("on the axis", "dB_z/dz (T/m)", "dbz_dz", "t_per_m"),
-        ],
-        comparison,
-    })
+    Ok(Study { columns, marks: Vec::new(), comparison })
 }
 
 fn comparison(columns: &[Column]) -> Vec<Comparison> {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::progress::Progress;
-use super::study::{Column, Comparison, Mark, Panel, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Design, Helix, HelixGeometry, RingMagnet, Segmented, Specification, SpiralVolume};
 use crate::equilibrium::{Inputs, Interaction, Settings};
 use crate::error::Error;
@@ -109,24 +109,8 @@ pub fn fig4(progress: &dyn Progress) -> Result<Study, Error> {
         }
     }
     let chosen = [f64::from(CHOSEN.0) / 10.0, f64::from(CHOSEN.1)];
-    let panel = |title: &str, value: &str| Panel::Map {
-        title: title.into(),
-        x: ("helix length (mm)".into(), "length_mm".into()),
-        y: ("boundary angle (deg)".into(), "boundary_angle_deg".into()),
-        value: value.into(),
-        marks: vec![Mark::Point("paper".into(), chosen)],
-    };
-    Ok(Study {
-        title: "Fig. 4: scores of the designs that meet the constraints",
-        columns,
-        panels: vec![
-            panel("deflection, Eq. (17), preceding", "score_deflection_preceding"),
-            panel("moment, Eq. (18), as printed", "score_moment_preceding"),
-            panel("sum, preceding", "score_sum_preceding"),
-            panel("sum, full", "score_sum_full"),
-        ],
-        comparison: comparison(&grid, &scored, &coarse),
-    })
+    let comparison = comparison(&grid, &scored, &coarse);
+    Ok(Study { columns, marks: vec![Mark::point("paper", chosen)], comparison })
 }
 
 impl Candidate {

@@ -1,6 +1,6 @@
 //! Fig. 5: relative magnetic moment over the number of segments.
 
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Helix, RelativeMoment, Segmented, SpiralVolume};
 use crate::error::Error;
 
@@ -13,12 +13,12 @@ const BUILT: usize = 9;
 /// The paper's relative moment of that manipulator.
 const PAPER: f64 = 0.2;
 
-/// A case: its name in columns and in the legend, and how its helix differs from Table 1.
-type Case = (&'static str, &'static str, fn(&mut Helix));
+/// A case: its name in columns, and how its helix differs from Table 1.
+type Case = (&'static str, fn(&mut Helix));
 
-const CLOSED: Case = ("closed", "closed core (r_ic = 0)", |helix| helix.core_inner_radius = 0.0);
-const OPEN: Case = ("open", "open core", |_| ());
-const PLAIN: Case = ("plain", "open core, no particles", |helix| helix.volume_fraction = 0.0);
+const CLOSED: Case = ("closed", |helix| helix.core_inner_radius = 0.0);
+const OPEN: Case = ("open", |_| ());
+const PLAIN: Case = ("plain", |helix| helix.volume_fraction = 0.0);
 
 /// Relative magnetic moment `mu_rel` (Eq. 4 to 8) of manipulators of Table 1 with 1 to 20 segments.
 ///
@@ -30,31 +30,15 @@ const PLAIN: Case = ("plain", "open core, no particles", |helix| helix.volume_fr
 pub fn fig5() -> Result<Study, Error> {
     let segments: Vec<usize> = (1..=MOST_SEGMENTS).collect();
     let mut columns = vec![Column::new("segments", segments.iter().map(|&s| s as f64).collect())];
-    let mut curves = Vec::new();
-    for (colour, case) in [CLOSED, OPEN, PLAIN].into_iter().enumerate() {
-        let (case_name, label, _) = case;
-        for (volume, name, stroke) in
-            [(SpiralVolume::Exact, "exact", Stroke::Solid), (SpiralVolume::Printed, "printed", Stroke::Dots)]
-        {
+    for case in [CLOSED, OPEN, PLAIN] {
+        for (volume, name) in [(SpiralVolume::Exact, "exact"), (SpiralVolume::Printed, "printed")] {
             let values = segments.iter().map(|&s| Ok(moment(case, s, volume)?.moment));
-            let column = format!("mu_rel_{case_name}_{name}");
-            columns.push(Column::new(&column, values.collect::<Result<_, Error>>()?));
-            let legend = if stroke == Stroke::Solid { label.into() } else { String::new() };
-            curves.push(Curve::new(legend, column, colour, stroke));
+            let column = format!("mu_rel_{}_{name}", case.0);
+            columns.push(Column::new(column, values.collect::<Result<_, Error>>()?));
         }
     }
-    Ok(Study {
-        title: "Fig. 5: relative magnetic moment of a manipulator with S segments",
-        columns,
-        panels: vec![Panel::Curves {
-            title: "lines: exact volume of the spiral; dots: Eq. (8) as printed".into(),
-            x: ("number of segments S".into(), "segments".into()),
-            y: "relative magnetic moment (1)".into(),
-            curves,
-            marks: vec![Mark::Point("paper: 0.2 at S = 9".into(), [BUILT as f64, PAPER])],
-        }],
-        comparison: comparison()?,
-    })
+    let marks = vec![Mark::point("paper", [BUILT as f64, PAPER])];
+    Ok(Study { columns, marks, comparison: comparison()? })
 }
 
 fn comparison() -> Result<Vec<Comparison>, Error> {
@@ -81,7 +65,7 @@ fn comparison() -> Result<Vec<Comparison>, Error> {
 }
 
 /// The relative moment of a case with `segments` segments.
-fn moment((_, _, change): Case, segments: usize, spiral: SpiralVolume) -> Result<RelativeMoment, Error> {
+fn moment((_, change): Case, segments: usize, spiral: SpiralVolume) -> Result<RelativeMoment, Error> {
     let mut chain = Segmented::paper(segments);
     change(&mut chain.helix);
     chain.relative_moment(spiral)

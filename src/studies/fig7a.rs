@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::bending::Device;
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Design, Segmented, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -65,83 +65,30 @@ pub fn gain_from_base_ring(level: Interaction) -> Result<Gain, Error> {
 pub fn fig7a() -> Result<Study, Error> {
     let fields = millitesla(0, LARGEST_FIELD);
     let mut columns = vec![Column::new("field_mt", fields.clone())];
-    let mut curves = Vec::new();
-    for (name, label, colour, stroke, device) in [
-        ("alpha_helix_deg", "helix", 0, Stroke::Solid, segment(false, false, Interaction::None)?),
-        (
-            "alpha_tip_deg",
-            "tip ring, preceding and rings",
-            1,
-            Stroke::Dashed,
-            segment(false, true, Interaction::Rings)?,
-        ),
-        ("alpha_tip_full_deg", "tip ring, full", 1, Stroke::Solid, segment(false, true, Interaction::Full)?),
-        (
-            "alpha_both_preceding_deg",
-            "both rings, preceding",
-            2,
-            Stroke::Dashed,
-            segment(true, true, Interaction::Preceding)?,
-        ),
-        (
-            "alpha_both_rings_deg",
-            "both rings, rings",
-            3,
-            Stroke::Solid,
-            segment(true, true, Interaction::Rings)?,
-        ),
-        (
-            "alpha_both_full_deg",
-            "both rings, full",
-            2,
-            Stroke::Solid,
-            segment(true, true, Interaction::Full)?,
-        ),
+    for (name, device) in [
+        ("alpha_helix_deg", segment(false, false, Interaction::None)?),
+        ("alpha_tip_deg", segment(false, true, Interaction::Rings)?),
+        ("alpha_tip_full_deg", segment(false, true, Interaction::Full)?),
+        ("alpha_both_preceding_deg", segment(true, true, Interaction::Preceding)?),
+        ("alpha_both_rings_deg", segment(true, true, Interaction::Rings)?),
+        ("alpha_both_full_deg", segment(true, true, Interaction::Full)?),
     ] {
         columns.push(Column::new(name, device.bend(across, &fields)?.angles));
-        curves.push(Curve::new(label, name, colour, stroke));
     }
     let scripts =
         |field: u32| AUTHORS_SCRIPTS.iter().find(|row| row.0 == field).map_or(f64::NAN, |row| row.1);
     columns.push(Column::new("alpha_authors_scripts_deg", (0..=LARGEST_FIELD).map(scripts).collect()));
-    curves.push(Curve::new("both rings, the authors' scripts", "alpha_authors_scripts_deg", 2, Stroke::Dots));
     let gains = LEVELS.iter().map(|&level| gain_from_base_ring(level)).collect::<Result<Vec<_>, Error>>()?;
     let comparison = comparison(&columns, &gains);
-    let mut gain_curves = Vec::new();
-    for (colour, (level, gain)) in LEVELS.iter().zip(gains).enumerate() {
-        let label = level.name();
-        for (what, values, stroke) in
-            [("angle", gain.angle, Stroke::Solid), ("field", gain.field, Stroke::Dashed)]
-        {
-            let name = format!("gain_{what}_{label}");
+    for (level, gain) in LEVELS.iter().zip(gains) {
+        for (what, values) in [("angle", gain.angle), ("field", gain.field)] {
             let before = core::iter::repeat_n(f64::NAN, GAIN_FROM as usize);
             let after = core::iter::repeat_n(f64::NAN, (LARGEST_FIELD - GAIN_TO) as usize);
-            columns.push(Column::new(&name, before.chain(values).chain(after).collect()));
-            gain_curves.push(Curve::new(format!("{label}, {what}"), name, colour, stroke));
+            let name = format!("gain_{what}_{}", level.name());
+            columns.push(Column::new(name, before.chain(values).chain(after).collect()));
         }
     }
-    let x = || ("perpendicular field (mT)".to_owned(), "field_mt".to_owned());
-    Ok(Study {
-        title: "Fig. 7A: one segment in a perpendicular field",
-        columns,
-        panels: vec![
-            Panel::Curves {
-                title: "tip angle".into(),
-                x: x(),
-                y: "tip angle (deg)".into(),
-                curves,
-                marks: Vec::new(),
-            },
-            Panel::Curves {
-                title: "gain from the base ring: more angle, less field".into(),
-                x: x(),
-                y: "gain (1)".into(),
-                curves: gain_curves,
-                marks: vec![Mark::Level("paper: 0.31".into(), PAPER_GAIN)],
-            },
-        ],
-        comparison,
-    })
+    Ok(Study { columns, marks: vec![Mark::level("paper, gain", PAPER_GAIN)], comparison })
 }
 
 fn comparison(columns: &[Column], gains: &[Gain]) -> Vec<Comparison> {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::bending::{Bent, Device};
 use super::experiment::solid_cylinder;
 use super::progress::Progress;
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -23,17 +23,8 @@ const PAPER: [f64; 2] = [119.0, 16.0];
 const ROWS: u32 = 20;
 const LAST_TURN: f64 = 170.0;
 
-/// Name in columns, label, colour index and line style of a device.
-type Drawn = (&'static str, &'static str, usize, Stroke);
-
-const DEVICES: [Drawn; 6] = [
-    ("rings", "rings", 0, Stroke::Dashed),
-    ("full", "full", 1, Stroke::Dashed),
-    ("rings_stop", "rings, bending stop", 0, Stroke::Solid),
-    ("full_stop", "full, bending stop", 1, Stroke::Solid),
-    ("cylinder", "solid cylinder", 2, Stroke::Solid),
-    ("preceding", "preceding", 3, Stroke::Dashed),
-];
+/// Names of the devices in columns.
+const DEVICES: [&str; 6] = ["rings", "full", "rings_stop", "full_stop", "cylinder", "preceding"];
 
 /// Tip angles of three segments and of the solid cylinder, in a perpendicular field that grows to 20 mT, and in 20 mT
 /// turning from the base's axis to 170 degrees. Without bending stop a branch may end: the curve ends there.
@@ -50,42 +41,15 @@ pub fn fig7b(progress: &dyn Progress) -> Result<Study, Error> {
     let turned = bend(&devices, progress, |device| device.bend(turning, &turns))?;
     let comparison = comparison(&devices, &grown, &turned)?;
     let mut columns = vec![Column::new("field_mt", fields), Column::new("turn_deg", turns)];
-    let mut panels = Vec::new();
-    for (way, bent, title, x) in [
-        ("across", grown, "three segments; field at 90 deg from the base's axis", ("field (mT)", "field_mt")),
-        (
-            "turned",
-            turned,
-            "three segments; 20 mT, turned from the base's axis",
-            ("direction of the field (deg)", "turn_deg"),
-        ),
-    ] {
-        let [segments, cylinder] = PAPER;
-        let mut marks = vec![
-            Mark::Level(format!("paper: {segments} deg"), segments),
-            Mark::Level(format!("paper, cylinder: {cylinder} deg"), cylinder),
-        ];
-        let mut curves = Vec::new();
-        for ((name, label, colour, stroke), bent) in DEVICES.into_iter().zip(bent) {
-            let column = format!("alpha_{way}_{name}_deg");
-            curves.push(Curve::new(label, &column, colour, stroke));
-            columns.push(Column::new(column, bent.angles));
-            marks.extend(bent.end.map(|end| Mark::Point(format!("{name}: the branch ends"), end)));
+    let [segments, cylinder] = PAPER;
+    let mut marks = vec![Mark::level("paper, segments", segments), Mark::level("paper, cylinder", cylinder)];
+    for (way, bent) in [("across", grown), ("turned", turned)] {
+        for (name, bent) in DEVICES.into_iter().zip(bent) {
+            columns.push(Column::new(format!("alpha_{way}_{name}_deg"), bent.angles));
+            marks.extend(bent.end.map(|end| Mark::point(format!("end {way} {name}"), end)));
         }
-        panels.push(Panel::Curves {
-            title: title.into(),
-            x: (x.0.into(), x.1.into()),
-            y: "tip angle (deg)".into(),
-            curves,
-            marks,
-        });
     }
-    Ok(Study {
-        title: "Fig. 7B: three segments and a solid cylinder within 20 mT",
-        columns,
-        panels,
-        comparison,
-    })
+    Ok(Study { columns, marks, comparison })
 }
 
 /// The devices in the order of [`DEVICES`].

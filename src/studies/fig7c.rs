@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::experiment::{DISTANCE, SEGMENTS, axis_distance, held_force, magnet_pair, solid_cylinder};
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Backbone, Design, Segmented, Specification};
 use crate::error::Error;
 
@@ -39,27 +39,8 @@ pub fn fig7c() -> Result<Study, Error> {
         columns.push(Column::new(format!("axial_force_{name}_n"), axial));
         columns.push(Column::new(format!("attraction_{name}_n"), attraction));
     }
-    let panel = |title: &str, label: &str, component: &str, marks| Panel::Curves {
-        title: title.into(),
-        x: ("offset of the magnet (mm)".into(), "offset_mm".into()),
-        y: label.into(),
-        curves: vec![
-            Curve::new("9 segments", format!("{component}_manipulator_n"), 0, Stroke::Solid),
-            Curve::new("solid cylinder, Phi = 0.2", format!("{component}_cylinder_n"), 1, Stroke::Dashed),
-        ],
-        marks,
-    };
-    let measured =
-        vec![Mark::Level("paper: at most 0.09 N".into(), MEASURED), Mark::Level(String::new(), -MEASURED)];
-    Ok(Study {
-        title: "Fig. 7C: magnetic force at 40 mm from the magnet pair, held straight",
-        columns,
-        panels: vec![
-            panel("along the device", "axial force (N)", "axial_force", measured),
-            panel("towards the magnet", "attraction (N)", "attraction", Vec::new()),
-        ],
-        comparison: comparison(&found, &manipulator, &cylinder)?,
-    })
+    let comparison = comparison(&found, &manipulator, &cylinder)?;
+    Ok(Study { columns, marks: Mark::band("paper, axial force", [-MEASURED, MEASURED]).into(), comparison })
 }
 
 /// Largest forces on one device, N, for the comparison.

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::experiment::{DISTANCE, axis_distance, magnet_pair};
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::error::Error;
 use crate::magnetics::{Assembly, Dipole};
 
@@ -18,6 +18,10 @@ const HALF_DEVICE: f64 = 23.0;
 
 const MM: f64 = 1e-3;
 
+/// What the paper states along the device at 40 mm: field, mT, and gradient, T/m.
+const PAPER_FIELD_MT: [f64; 2] = [20.0, 30.0];
+const PAPER_GRADIENT: [f64; 2] = [0.7, 1.0];
+
 /// Field and gradients on lines beside the magnet pair, parallel to its axis.
 ///
 /// `z` runs along the device from the magnet's middle, against the magnet's moment, `y` away from the magnet: the signs
@@ -29,8 +33,7 @@ pub fn fig7d() -> Result<Study, Error> {
     let magnet = magnet_pair()?;
     let places: Vec<f64> = (-FARTHEST..=FARTHEST).map(f64::from).collect();
     let mut columns = vec![Column::new("z_mm", places.clone())];
-    let (mut fields, mut gradients) = (Vec::new(), Vec::new());
-    for (colour, distance) in DISTANCES_MM.into_iter().enumerate() {
+    for distance in DISTANCES_MM {
         let along = places
             .iter()
             .map(|z| beside(&magnet, f64::from(distance) * MM, z * MM))
@@ -46,41 +49,9 @@ pub fn fig7d() -> Result<Study, Error> {
                 along.iter().map(|row| row[index]).collect(),
             ));
         }
-        let curve = |label: &str, name: &str, unit: &str, stroke| {
-            Curve::new(label, format!("{name}_{at}_{unit}"), colour, stroke)
-        };
-        let label = format!("{distance} mm");
-        fields.push(curve(&label, "bz", "mt", Stroke::Solid));
-        fields.push(curve("", "by", "mt", Stroke::Dashed));
-        gradients.push(curve(&label, "dbz_dz", "t_per_m", Stroke::Solid));
-        gradients.push(curve("", "dbz_dy", "t_per_m", Stroke::Dashed));
     }
-    let panel = |title: &str, label: &str, curves, mark| Panel::Curves {
-        title: title.into(),
-        x: ("z from the magnet's middle (mm)".into(), "z_mm".into()),
-        y: label.into(),
-        curves,
-        marks: vec![mark],
-    };
-    Ok(Study {
-        title: "Fig. 7D: the magnet pair's field at distances from its surface",
-        columns,
-        panels: vec![
-            panel(
-                "solid: B_z, dashed: B_y",
-                "field (mT)",
-                fields,
-                Mark::Band("paper: 20 to 30 mT".into(), [20.0, 30.0]),
-            ),
-            panel(
-                "solid: dB_z/dz, dashed: dB_z/dy",
-                "gradient (T/m)",
-                gradients,
-                Mark::Band("paper: 0.7 to 1 T/m".into(), [0.7, 1.0]),
-            ),
-        ],
-        comparison: comparison(&magnet, &places)?,
-    })
+    let marks = [Mark::band("paper, field", PAPER_FIELD_MT), Mark::band("paper, gradient", PAPER_GRADIENT)];
+    Ok(Study { columns, marks: marks.concat(), comparison: comparison(&magnet, &places)? })
 }
 
 /// `B_z`, `B_y` (mT), `dB_z/dz`, `dB_z/dy`, `dB_y/dy` (T/m) at `distance` from the surface and `z` along it (m).
@@ -92,6 +63,7 @@ fn beside(magnet: &Assembly, distance: f64, z: f64) -> Result<[f64; 5], Error> {
 }
 
 fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Error> {
+    let stated = |[low, high]: [f64; 2]| Value::Range(low, high);
     let rows = places.iter().map(|z| Ok((*z, beside(magnet, DISTANCE, z * MM)?)));
     let rows = rows.collect::<Result<Vec<_>, Error>>()?;
     let range = |value: fn(&[f64; 5]) -> f64| {
@@ -109,7 +81,7 @@ fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Erro
         Comparison {
             quantity: "field along the device at 40 mm (mT)".into(),
             decimals: 1,
-            paper: Value::Range(20.0, 30.0),
+            paper: stated(PAPER_FIELD_MT),
             printed: Value::Absent,
             exact: range(|row| row[0].hypot(row[1])),
             remark: format!(
@@ -119,7 +91,7 @@ fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Erro
         Comparison {
             quantity: "largest dB_z/dz at 40 mm (T/m)".into(),
             decimals: 2,
-            paper: Value::Range(0.7, 1.0),
+            paper: stated(PAPER_GRADIENT),
             printed: Value::Absent,
             exact: Value::Number(gradient),
             remark: format!(
@@ -129,7 +101,7 @@ fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Erro
         Comparison {
             quantity: "size of grad B_z along the device at 40 mm (T/m)".into(),
             decimals: 2,
-            paper: Value::Range(0.7, 1.0),
+            paper: stated(PAPER_GRADIENT),
             printed: Value::Absent,
             exact: range(|row| row[2].hypot(row[3])),
             remark: "inside; at the middle all of it is across the device".into(),

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::study::{Column, Comparison, Curve, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Study, Value};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Helix, RingMagnet};
 use crate::error::Error;
@@ -55,8 +55,7 @@ pub fn fig8() -> Result<Study, Error> {
     let spacings: Vec<f64> = (0..deflections.len()).map(|i| SPACINGS.0 + SPACINGS.1 * i as f64).collect();
     let mut columns =
         vec![Column::new("deflection_deg", deflections.clone()), Column::new("spacing_mm", spacings.clone())];
-    let mut panels = [Vec::new(), Vec::new(), Vec::new(), Vec::new()];
-    for (colour, count) in COUNTS.into_iter().enumerate() {
+    for count in COUNTS {
         let torques = deflections
             .par_iter()
             .map(|deflection| torque(&source, count, *deflection, length))
@@ -71,42 +70,19 @@ pub fn fig8() -> Result<Study, Error> {
             .collect::<Result<Vec<_>, Error>>()?;
         let of =
             |torques: &[Torque], part: fn(&Torque) -> f64| torques.iter().map(|t| part(t) * 1e6).collect();
-        let parts: [(&str, usize, Stroke, Vec<f64>); 5] = [
-            ("gradient_torque", 0, Stroke::Solid, of(&torques, |t| t.gradient)),
-            ("field_torque", 0, Stroke::Dashed, of(&torques, |t| t.field)),
-            ("torque", 1, Stroke::Solid, of(&torques, Torque::sum)),
-            ("torque_at_20_deg", 2, Stroke::Solid, of(&spaced, Torque::sum)),
-            ("balance_spacing", 3, Stroke::Solid, balanced),
+        let parts: [(&str, &str, Vec<f64>); 5] = [
+            ("gradient_torque", "unm", of(&torques, |t| t.gradient)),
+            ("field_torque", "unm", of(&torques, |t| t.field)),
+            ("torque", "unm", of(&torques, Torque::sum)),
+            ("torque_at_20_deg", "unm", of(&spaced, Torque::sum)),
+            ("balance_spacing", "mm", balanced),
         ];
-        for (name, panel, stroke, values) in parts {
-            let unit = if name == "balance_spacing" { "mm" } else { "unm" };
-            let column = format!("{name}_{count}_rings_{unit}");
-            let label = if stroke == Stroke::Solid { format!("{count} rings") } else { String::new() };
-            panels[panel].push(Curve::new(label, column.clone(), colour, stroke));
-            columns.push(Column::new(column, values));
+        for (name, unit, values) in parts {
+            columns.push(Column::new(format!("{name}_{count}_rings_{unit}"), values));
         }
     }
-    let [parts, sums, spaced, balanced] = panels;
-    let panel = |title: &str, x: (&str, &str), y: &str, curves| Panel::Curves {
-        title: title.into(),
-        x: (x.0.into(), x.1.into()),
-        y: y.into(),
-        curves,
-        marks: Vec::new(),
-    };
-    let deflection = ("deflection of adjacent rings (deg)", "deflection_deg");
     let comparison = comparison(&columns);
-    Ok(Study {
-        title: "Fig. 8: bending torque on the last of several rings; positive bends on",
-        columns,
-        panels: vec![
-            panel("solid: by gradient, dashed: by field", deflection, "torque (uN m)", parts),
-            panel("sum", deflection, "torque (uN m)", sums),
-            panel("sum at 20 deg over the spacing", ("spacing (mm)", "spacing_mm"), "torque (uN m)", spaced),
-            panel("closer than this, the gradient wins", deflection, "spacing (mm)", balanced),
-        ],
-        comparison,
-    })
+    Ok(Study { columns, marks: Vec::new(), comparison })
 }
 
 impl Torque {

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use self::case::{CASES, Case};
 use self::walk::{Row, Walk, places, time, walk};
 use super::progress::Progress;
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::error::Error;
 
 /// Largest axial force that the paper measured, N.
@@ -58,42 +58,9 @@ pub fn fig9(points: usize, progress: &dyn Progress) -> Result<Study, Error> {
             columns.push(Column::new(format!("{}_{ending}", case.name), values.collect()));
         }
     }
-    let panel = |title: &str, ending: &str, y: &str, curves: Vec<(&Case, String, usize)>, marks| {
-        let curve = |(case, label, colour): (&Case, String, usize)| {
-            Curve::new(label, format!("{}_{ending}", case.name), colour, Stroke::Solid)
-        };
-        Panel::Curves {
-            title: title.into(),
-            x: ("time (s)".into(), "time_s".into()),
-            y: y.into(),
-            curves: curves.into_iter().map(curve).collect(),
-            marks,
-        }
-    };
-    let segmented = || {
-        let same = CASES.iter().filter(|case| case.device == CASES[0].device);
-        same.enumerate().map(|(number, case)| (case, case.walls(), number)).collect()
-    };
-    let sliding = || {
-        let free = CASES.iter().filter(|case| case.slides());
-        free.map(|case| (case, case.device.to_owned(), case.colour)).collect()
-    };
-    let paper = vec![Mark::Level("paper: at most 0.09 N".into(), AXIAL)];
-    Ok(Study {
-        title: "Fig. 9: led through an abdominal aorta by a magnet beneath it (predictions)",
-        columns,
-        panels: vec![
-            panel("nine segments, by friction", "inside_mm", "shaft (mm)", segmented(), Vec::new()),
-            panel("turn of the tip, no friction", "tip_heading_deg", "turn (deg)", sliding(), Vec::new()),
-            panel("pull along the field, nine segments", "axial_n", "pull (N)", segmented(), paper),
-            panel("largest contact, no friction", "largest_contact_n", "force (N)", sliding(), Vec::new()),
-        ],
-        comparison: CASES
-            .iter()
-            .zip(&walks)
-            .map(|(case, walk)| comparison(case, walk, places.len()))
-            .collect(),
-    })
+    let comparison =
+        CASES.iter().zip(&walks).map(|(case, walk)| comparison(case, walk, places.len())).collect();
+    Ok(Study { columns, marks: vec![Mark::level("paper, pull", AXIAL)], comparison })
 }
 
 fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {

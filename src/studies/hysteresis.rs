@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::progress::Progress;
-use super::study::{Column, Comparison, Curve, Mark, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -41,14 +41,13 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
     let mut back = walk(&mut places.iter().rev())?;
     back.0.reverse();
     back.1.reverse();
-    let mut marks = [Vec::new(), Vec::new()];
-    let mut comparison = Vec::new();
+    let (mut marks, mut comparison) = (Vec::new(), Vec::new());
     for fold in branch.folds() {
         let way = if fold.upwards { "forth" } else { "back" };
         let before = fold.before.tip_angle.to_degrees();
         let after = fold.after.as_ref().map_or(f64::NAN, |(_, shape)| shape.tip_angle.to_degrees());
-        for (marks, height) in marks.iter_mut().zip([before, 1e3 * fold.before.tip.position.y]) {
-            marks.push(Mark::Point(format!("snap, {way}"), [fold.value, height]));
+        for (quantity, height) in [("angle", before), ("tip", 1e3 * fold.before.tip.position.y)] {
+            marks.push(Mark::point(format!("snap {way}, {quantity}"), [fold.value, height]));
         }
         comparison.push(Comparison {
             quantity: format!("place of the magnet at which nine segments snap over, {way} (mm)"),
@@ -62,7 +61,6 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
         });
     }
     Ok(Study {
-        title: "Hysteresis: a magnet passes nine segments with its field against them, and comes back",
         columns: vec![
             Column::new("magnet_z_mm", places),
             Column::new("alpha_forth_deg", forth.0),
@@ -70,21 +68,7 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
             Column::new("tip_y_forth_mm", forth.1),
             Column::new("tip_y_back_mm", back.1),
         ],
-        panels: ["tip angle (deg)", "tip's distance from the axis, away from the magnet (mm)"]
-            .into_iter()
-            .zip([["alpha_forth_deg", "alpha_back_deg"], ["tip_y_forth_mm", "tip_y_back_mm"]])
-            .zip(marks)
-            .map(|((y, [forth, back]), marks)| Panel::Curves {
-                title: "120 mm from axis to axis; rings, bending stop".into(),
-                x: ("place of the magnet along the axis (mm)".into(), "magnet_z_mm".into()),
-                y: y.into(),
-                curves: vec![
-                    Curve::new("forth", forth, 0, Stroke::Solid),
-                    Curve::new("back", back, 1, Stroke::Dashed),
-                ],
-                marks,
-            })
-            .collect(),
+        marks,
         comparison,
     })
 }

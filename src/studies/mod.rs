@@ -1,10 +1,8 @@
-//! The paper's figures and further studies, computed: data to plot, and their comparison with the paper.
+//! The paper's figures and further studies, computed: tables of numbers, and their comparison with the paper.
 //!
 //! Most studies are functions that return a [`Study`]; those that take long tell their [`Progress`]. [`accuracy()`], [`fidelity()`],
-//! [`omissions()`] and [`budget()`] return rows, most of which have a function such as [`accuracy_picture`] for their
-//! chart; [`bifurcation()`] returns tables beside its diagrams. The map of failures takes minutes: [`stability_rays`]
-//! lists its parts, [`Ray::attempts`] computes one, [`stability_picture`] makes the chart. Nothing is printed or
-//! written here.
+//! [`omissions()`] and [`budget()`] return rows; [`bifurcation()`] returns tables beside its diagrams. The map of failures takes
+//! minutes: [`stability_rays`] lists its parts, [`Ray::attempts`] computes one. Nothing is printed, written or drawn here.
 
 mod accuracy;
 mod bands;
@@ -32,13 +30,13 @@ mod scenes;
 mod stability;
 mod study;
 
-pub use accuracy::{PEERS, Peered, Point, accuracy, accuracy_picture, front};
+pub use accuracy::{Point, accuracy, front};
 pub use bands::bands;
 pub use bifurcation::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
-pub use budget::{BUDGET_SCENES, BudgetKind, BudgetScene, Contribution, budget, budget_picture};
+pub use budget::{BUDGET_SCENES, BudgetKind, BudgetScene, Contribution, budget};
 pub use coils::coils;
 pub use communication_step::communication_step;
-pub use fidelity::{Fidelity, fidelity, fidelity_picture};
+pub use fidelity::{Fidelity, fidelity};
 pub use field_ring::field_ring;
 pub use fig4::fig4;
 pub use fig5::fig5;
@@ -52,7 +50,5 @@ pub use hysteresis::hysteresis;
 pub use omissions::{Omission, omissions};
 pub use progress::Progress;
 pub use rest::rest;
-pub use stability::{Attempt, Ray, Verdict, stability_picture, stability_rays};
-pub use study::{
-    AtlasRow, Bar, Column, Comparison, Curve, Kind, Mark, Panel, Series, Stroke, Study, Tint, Value,
-};
+pub use stability::{Attempt, Ray, Verdict, stability_rays};
+pub use study::{Column, Comparison, Mark, Study, Value};

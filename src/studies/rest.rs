@@ -1,6 +1,6 @@
 //! Rest shape: how far spirals beside rings bend a manipulator without loads, by their arrangement.
 
-use super::study::{Column, Comparison, Curve, Panel, Stroke, Study, Value};
+use super::study::{Column, Comparison, Study, Value};
 use crate::design::{Design, Segmented, Specification, SpiralKind, SpiralStart};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
@@ -12,16 +12,13 @@ const MOST_SEGMENTS: usize = 12;
 /// Number of segments of the manipulator that was built.
 const BUILT: usize = 9;
 
-/// An arrangement: its name in columns and in the legend, and what it makes of a chain.
-type Arrangement = (&'static str, &'static str, fn(&mut Segmented));
+/// An arrangement: its name in columns, and what it makes of a chain.
+type Arrangement = (&'static str, fn(&mut Segmented));
 
-const HELICAL: Arrangement = ("helical", "helical: all alike", |_| ());
-const ALTERNATING: Arrangement = ("alternating", "alternating: every second one mirrored", |chain| {
-    chain.spiral = SpiralKind::Alternating;
-});
-const TURNED: Arrangement = ("turned", "turned: by 0, 240, 120 deg; what remains by 0, 180 deg", |chain| {
-    chain.spiral_start = SpiralStart::Each(turned(chain.segments));
-});
+const HELICAL: Arrangement = ("helical", |_| ());
+const ALTERNATING: Arrangement = ("alternating", |chain| chain.spiral = SpiralKind::Alternating);
+const TURNED: Arrangement =
+    ("turned", |chain| chain.spiral_start = SpiralStart::Each(turned(chain.segments)));
 
 /// Tip angle of manipulators of Table 1 with 1 to 12 segments without any load, at the level `full`.
 ///
@@ -34,30 +31,15 @@ const TURNED: Arrangement = ("turned", "turned: by 0, 240, 120 deg; what remains
 pub fn rest() -> Result<Study, Error> {
     let segments: Vec<usize> = (1..=MOST_SEGMENTS).collect();
     let mut columns = vec![Column::new("segments", segments.iter().map(|&s| s as f64).collect())];
-    let mut curves = Vec::new();
     let mut built = Vec::new();
-    for (colour, arrangement) in [HELICAL, ALTERNATING, TURNED].into_iter().enumerate() {
-        let (name, label, _) = arrangement;
+    for arrangement in [HELICAL, ALTERNATING, TURNED] {
+        let (name, _) = arrangement;
         let angles =
             segments.iter().map(|&s| tip_angle(arrangement, s)).collect::<Result<Vec<_>, Error>>()?;
         built.push((name, angles[BUILT - 1]));
-        let column = format!("alpha_{name}_deg");
-        columns.push(Column::new(&column, angles));
-        curves.push(Curve::new(label, &column, colour, Stroke::Solid));
-        curves.push(Curve::new("", column, colour, Stroke::Dots));
+        columns.push(Column::new(format!("alpha_{name}_deg"), angles));
     }
-    Ok(Study {
-        title: "Rest shape: tip angle of a manipulator with S segments without any load",
-        columns,
-        panels: vec![Panel::Curves {
-            title: "level full; spirals turned about the axis or mirrored".into(),
-            x: ("number of segments S".into(), "segments".into()),
-            y: "tip angle (deg)".into(),
-            curves,
-            marks: Vec::new(),
-        }],
-        comparison: built.into_iter().map(comparison).collect(),
-    })
+    Ok(Study { columns, marks: Vec::new(), comparison: built.into_iter().map(comparison).collect() })
 }
 
 fn comparison((name, angle): (&str, f64)) -> Comparison {
@@ -97,7 +79,7 @@ fn turned(segments: usize) -> Vec<f64> {
 }
 
 /// Tip angle of a chain in an arrangement without loads, deg.
-fn tip_angle((_, _, arrange): Arrangement, segments: usize) -> Result<f64, Error> {
+fn tip_angle((_, arrange): Arrangement, segments: usize) -> Result<f64, Error> {
     let mut chain = Segmented::paper(segments);
     arrange(&mut chain);
     let design = Design::new(Specification::Segmented(chain))?;

@@ -1,7 +1,6 @@
 //! Where methods fail: every method over field strength and direction, cold and warm, with every solution verified.
 
 mod judge;
-mod picture;
 mod verdict;
 
 use nalgebra::{Rotation3, Vector3};
@@ -15,7 +14,6 @@ use crate::manipulator::{Inputs, Scene, Status};
 use crate::methods::{self, Method};
 use judge::{Judge, Known};
 
-pub use picture::stability_picture;
 pub use verdict::Verdict;
 
 /// Number of field strengths and their step, mT; the largest are beyond the ends of all known branches.

@@ -1,14 +1,12 @@
-//! Data of a study: columns of numbers, how they are plotted, and their comparison with the paper.
+//! Data of a study: columns of numbers, marks beside them, and their comparison with the paper.
 
 /// A computed figure of the paper, or a further study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
-    /// Title, in one line.
-    pub title: &'static str,
     /// The numbers, all columns of equal length.
     pub columns: Vec<Column>,
-    /// The axes on which they are plotted.
-    pub panels: Vec<Panel>,
+    /// Points and levels besides the columns.
+    pub marks: Vec<Mark>,
     /// Comparison with the paper.
     pub comparison: Vec<Comparison>,
 }
@@ -22,168 +20,17 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// One set of axes.
+/// A point or level besides the columns: a value of the paper, or an event such as a snap, a fold or the end of a branch.
+///
+/// A band is two marks whose names end in `from` and `to`.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Panel {
-    /// Columns plotted over one column.
-    Curves {
-        /// Title.
-        title: String,
-        /// Label with unit, and column name, of the abscissa.
-        x: (String, String),
-        /// Label with unit of the ordinate.
-        y: String,
-        /// The curves.
-        curves: Vec<Curve>,
-        /// Additional lines, bands and points.
-        marks: Vec<Mark>,
-    },
-    /// Points on logarithmic axes; points with values that are not positive are omitted.
-    Places {
-        /// Title.
-        title: String,
-        /// Label with unit of the abscissa.
-        x: String,
-        /// Label with unit of the ordinate.
-        y: String,
-        /// The points.
-        series: Vec<Series>,
-        /// Additional lines, bands and points.
-        marks: Vec<Mark>,
-    },
-    /// Colour map of one column over the grid of two others.
-    Map {
-        /// Title.
-        title: String,
-        /// Label with unit, and column name, of the abscissa.
-        x: (String, String),
-        /// Label with unit, and column name, of the ordinate.
-        y: (String, String),
-        /// Column of the colour; a cell without a value stays empty.
-        value: String,
-        /// Additional points.
-        marks: Vec<Mark>,
-    },
-    /// Grouped horizontal bars that start at zero, with labels on the left and numbers on the right.
-    Bars {
-        /// Title.
-        title: String,
-        /// Label with unit of the abscissa.
-        x: String,
-        /// Limits of the abscissa; longer bars are cut off there.
-        range: [f64; 2],
-        /// Legend label of each bar within a row.
-        series: Vec<String>,
-        /// The rows, from top to bottom.
-        bars: Vec<Bar>,
-    },
-    /// Small maps in rows and columns, on common axes, whose cells are coloured by category.
-    Atlas {
-        /// Label with unit of the abscissa.
-        x: String,
-        /// Label with unit of the ordinate.
-        y: String,
-        /// The categories of cells.
-        kinds: Vec<Kind>,
-        /// Names of the columns within a group, and names of the groups.
-        columns: [Vec<String>; 2],
-        /// The rows of maps.
-        rows: Vec<AtlasRow>,
-    },
-}
-
-/// A row of bars.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bar {
-    /// Heading of the group that begins with this row; empty if the row belongs to the group above.
-    pub group: String,
-    /// Label of the row.
-    pub label: String,
-    /// Its values as text.
-    pub numbers: String,
-    /// Colour index of its first bar, from 0; further bars take the following indices.
-    pub colour: usize,
-    /// Smallest (at most 0) and largest (at least 0) value of each series; `None` where there is no value.
-    pub ends: Vec<Option<[f64; 2]>>,
-}
-
-/// A category of cells.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Kind {
-    /// Label in the legend.
-    pub label: String,
-    /// Its colour.
-    pub tint: Tint,
-}
-
-/// Colour of a category.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Tint {
-    /// The colour with this index, from 0.
-    Colour(usize),
-    /// Light grey.
-    Light,
-    /// Dark grey.
-    Dark,
-}
-
-/// A row of small maps.
-#[derive(Debug, Clone, PartialEq)]
-pub struct AtlasRow {
-    /// Heading of the group that begins with this row; empty if the row belongs to the group above.
-    pub group: String,
-    /// Label of the row.
-    pub label: String,
-    /// Cells of the map in each column: abscissa and ordinate, and index of the category.
-    pub maps: Vec<Vec<([f64; 2], usize)>>,
-}
-
-/// A column plotted over the abscissa of its panel.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    /// Label in the legend.
-    pub label: String,
-    /// Name of the column of the ordinate; the curve has gaps where the value is NaN.
-    pub column: String,
-    /// Colour index, from 0; related curves share one.
-    pub colour: usize,
-    /// Line style.
-    pub stroke: Stroke,
-}
-
-/// A sequence of points.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Series {
-    /// Label in the legend.
-    pub label: String,
-    /// Colour index, from 0.
-    pub colour: usize,
-    /// Style of the line through the points.
-    pub stroke: Stroke,
-    /// Abscissa and ordinate of each point.
-    pub places: Vec<[f64; 2]>,
-}
-
-/// Style of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stroke {
-    /// A line.
-    Solid,
-    /// A dashed line.
-    Dashed,
-    /// A dot for each value.
-    Dots,
-}
-
-/// A line, band or point drawn in addition to the data, mostly a value from the paper.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Mark {
-    /// A horizontal line at a height.
-    Level(String, f64),
-    /// A horizontal band between two heights.
-    Band(String, [f64; 2]),
-    /// A point.
-    Point(String, [f64; 2]),
+pub struct Mark {
+    /// What it is.
+    pub name: String,
+    /// Its abscissa; `None` for a level, which has no place.
+    pub x: Option<f64>,
+    /// Its ordinate.
+    pub y: Option<f64>,
 }
 
 /// A row of the table that compares the models with the paper.
@@ -232,11 +79,23 @@ impl Column {
     }
 }
 
-impl Curve {
-    /// A curve of the given label, column, colour and stroke.
+impl Mark {
+    /// A level of the ordinate.
     #[must_use]
-    pub fn new(label: impl Into<String>, column: impl Into<String>, colour: usize, stroke: Stroke) -> Self {
-        Self { label: label.into(), column: column.into(), colour, stroke }
+    pub fn level(name: impl Into<String>, y: f64) -> Self {
+        Self { name: name.into(), x: None, y: Some(y) }
+    }
+
+    /// A point.
+    #[must_use]
+    pub fn point(name: impl Into<String>, [x, y]: [f64; 2]) -> Self {
+        Self { name: name.into(), x: Some(x), y: Some(y) }
+    }
+
+    /// A band of the ordinate.
+    #[must_use]
+    pub fn band(name: &str, [from, to]: [f64; 2]) -> [Self; 2] {
+        [Self::level(format!("{name} from"), from), Self::level(format!("{name} to"), to)]
     }
 }
 

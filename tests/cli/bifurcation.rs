@@ -1,6 +1,6 @@
 //! `mcm study bifurcation`: folds on three ways, and predictions of snaps.
 
-use super::{assert_status, folder, mcm};
+use super::{assert_status, folder, mcm, table};
 use crate::tolerance::{CLOSED_FORM_OF_FOLDS, LOCATED, PREDICTED_CLOSE, PREDICTED_FAR};
 
 /// Spans of the paths, in the order of the rows.
@@ -19,7 +19,6 @@ fn continuation_bisection_and_closed_forms_agree_and_snaps_are_seen_coming() {
     let said = String::from_utf8(output.stdout).unwrap();
     let file = |ending: &str| here.join("figures/bifurcation").with_extension(ending);
     assert_eq!(said, std::fs::read_to_string(file("md")).unwrap());
-    assert!(file("csv").is_file() && file("png").is_file());
     let (places, predictions) = said.split_once("\n\n").unwrap();
     let page = include_str!("../../src/studies/README.md");
     for table in [places, predictions.trim_end()] {
@@ -41,6 +40,28 @@ fn continuation_bisection_and_closed_forms_agree_and_snaps_are_seen_coming() {
         }
     }
     assert_eq!((snaps, known), (8, 6));
+    // Each fold and branching point is a mark on its diagram, whose columns have a value there.
+    let (rows, marks) = (table(&file("csv")), table(&here.join("figures/bifurcation-marks.csv")));
+    for mark in marks.iter().filter(|mark| !mark["x"].is_empty()) {
+        let (kind, diagram) = mark["mark"].split_once(", ").unwrap();
+        assert!(["fold", "branching point"].contains(&kind), "{mark:?}");
+        let on = |row: &&std::collections::HashMap<String, String>| {
+            let x = row.iter().any(|(name, cell)| {
+                let unit = name.strip_prefix(diagram).and_then(|rest| rest.strip_prefix('_'));
+                unit.is_some_and(|unit| ["mm", "mt", "deg"].contains(&unit)) && *cell == mark["x"]
+            });
+            x && row.iter().any(|(name, cell)| name.starts_with(diagram) && *cell == mark["y"])
+        };
+        assert!(rows.iter().any(|row| on(&row)), "{mark:?} is on no branch");
+    }
+    for row in &places {
+        let marked = |mark: &&std::collections::HashMap<String, String>| {
+            let x = mark["x"].parse::<f64>().unwrap_or(f64::NAN);
+            format!("{x:.6}") == row[1]
+        };
+        assert!(marks.iter().any(|mark| marked(&mark)), "{row:?} has no mark");
+    }
+    assert!(marks.iter().any(|mark| mark["mark"] == "windings touch, gap" && mark["y"] == "40"), "{marks:?}");
     for row in predictions {
         let errors: Vec<f64> =
             row[1..].iter().map(|cell| cell.trim_end_matches(" %").parse().unwrap_or(f64::NAN)).collect();

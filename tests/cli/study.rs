@@ -1,13 +1,9 @@
-//! `mcm study`: tables, pictures, the comparison in their page.
+//! `mcm study`: tables, marks, the comparison in their page.
 
-use std::fs::File;
-use std::io::BufReader;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::{assert_status, folder, mcm, stderr, table};
-
-/// Largest size of a picture that a page shows, bytes.
-const LARGEST_PICTURE: u64 = 100_000;
 
 const STUDIES: [&str; 13] = [
     "field_ring",
@@ -25,22 +21,22 @@ const STUDIES: [&str; 13] = [
     "communication-step",
 ];
 
+/// Studies with marks, and how many.
+const MARKS: [(&str, usize); 8] = [
+    ("fig4", 1),
+    ("fig5", 1),
+    ("fig7a", 1),
+    ("fig7b", 5),
+    ("fig7c", 2),
+    ("fig7d", 4),
+    ("hysteresis", 4),
+    ("bands", 3),
+];
+
 /// Beginnings of pure numbers' headers, and the ends of all others: their unit.
 const PURE: [&str; 8] =
     ["mu_rel", "segments", "height_over_pitch", "score_", "gain", "steps", "snaps_", "refused_"];
 const UNITS: [&str; 6] = ["_mm", "_deg", "_mt", "_t_per_m", "_n", "_unm"];
-
-fn assert_picture(path: &Path) {
-    let name = path.display();
-    assert!(path.metadata().unwrap().len() < LARGEST_PICTURE, "{name} is too large");
-    let mut picture = png::Decoder::new(BufReader::new(File::open(path).unwrap())).read_info().unwrap();
-    let mut pixels = vec![0; picture.output_buffer_size().unwrap()];
-    let frame = picture.next_frame(&mut pixels).unwrap();
-    assert_eq!((frame.width, frame.height), (900, 600), "{name}");
-    let background = pixels.chunks(3).filter(|pixel| *pixel == [255; 3]).count();
-    let share = background as f64 / f64::from(900 * 600);
-    assert!((0.2..0.99).contains(&share), "{name}: {share} of the picture is white");
-}
 
 fn assert_table(path: &Path) {
     let rows = table(path);
@@ -55,19 +51,41 @@ fn assert_table(path: &Path) {
     }
 }
 
+/// Marks have names of their own, and a place or a level.
+fn assert_marks(path: &Path, count: usize) {
+    let rows = table(path);
+    let names: BTreeSet<&str> = rows.iter().map(|row| row["mark"].as_str()).collect();
+    assert_eq!((rows.len(), names.len()), (count, count), "{}: {names:?}", path.display());
+    for row in &rows {
+        let number = |column: &str| row[column].parse::<f64>().is_ok_and(f64::is_finite);
+        assert!(number("y") && (row["x"].is_empty() || number("x")), "{}: {row:?}", path.display());
+    }
+}
+
+fn files(folder: &Path) -> BTreeSet<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
 #[test]
-fn every_study_leaves_table_and_picture_and_their_page_has_the_comparison() {
+fn every_study_leaves_tables_and_their_page_has_the_comparison() {
     let here = folder("study");
     let page = include_str!("../../src/studies/README.md");
     let output = mcm(&here, &["study", "all", "--out", "figures"]);
     assert_status(&output, 0);
     for name in STUDIES {
         assert_table(&here.join("figures").join(name).with_extension("csv"));
-        assert_picture(&here.join("figures").join(name).with_extension("png"));
         let shown = format!("tests/charts/{name}.png");
         assert!(page.contains(&shown), "the page does not show {shown}");
         assert!(Path::new(env!("CARGO_MANIFEST_DIR")).join(&shown).is_file());
     }
+    for (name, count) in MARKS {
+        assert_marks(&here.join(format!("figures/{name}-marks.csv")), count);
+    }
+    let tables = STUDIES.map(|name| format!("{name}.csv"));
+    let marks = MARKS.map(|(name, _)| format!("{name}-marks.csv"));
+    let expected = tables.into_iter().chain(marks).chain(["comparison.md".to_owned()]).collect();
+    assert_eq!(files(&here.join("figures")), expected, "a study leaves nothing else");
     let comparison = std::fs::read_to_string(here.join("figures/comparison.md")).unwrap();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), comparison);
     assert!(
@@ -80,12 +98,8 @@ fn every_study_leaves_table_and_picture_and_their_page_has_the_comparison() {
 fn one_study_leaves_its_files_alone() {
     let here = folder("study_one");
     assert_status(&mcm(&here, &["study", "fig5", "--out", "a/b"]), 0);
-    let mut left: Vec<String> = std::fs::read_dir(here.join("a/b"))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    left.sort();
-    assert_eq!(left, ["fig5.csv", "fig5.png"]);
+    let left = files(&here.join("a/b"));
+    assert_eq!(left.iter().map(String::as_str).collect::<Vec<_>>(), ["fig5-marks.csv", "fig5.csv"]);
 }
 
 #[test]
@@ -97,27 +111,7 @@ fn unknown_study_lists_the_known_ones() {
 }
 
 #[test]
-fn a_table_of_peers_is_read_before_anything_is_measured() {
-    let here = folder("peers");
-    let known = include_str!("../charts/peers.csv");
-    let (header, _) = known.split_once('\n').unwrap();
-    assert_eq!(header, "case,solver,variant,time_us,error");
-    for case in ["tip dipole", "ring near", "ring far"] {
-        assert!(known.lines().any(|row| row.starts_with(case)), "{case} is missing");
-    }
-    for (text, expected) in [
-        (format!("{header}\nrope,mcm,cold,1,1\n"), "there is no case rope"),
-        (format!("{header}\ntip dipole,mcm,cold,fast,1\n"), "cannot read"),
-    ] {
-        std::fs::write(here.join("peers.csv"), text).unwrap();
-        let output = mcm(&here, &["study", "accuracy", "--out", "figures", "--peers", "peers.csv"]);
-        assert_status(&output, 1);
-        assert!(stderr(&output).contains(expected), "{}", stderr(&output));
-    }
-}
-
-#[test]
-fn the_budget_leaves_table_picture_and_markdown() {
+fn the_budget_leaves_a_table_and_markdown() {
     let here = folder("study_budget");
     let output = mcm(&here, &["study", "budget", "--out", "figures"]);
     assert_status(&output, 0);
@@ -126,10 +120,4 @@ fn the_budget_leaves_table_picture_and_markdown() {
     let markdown = std::fs::read_to_string(here.join("figures/budget.md")).unwrap();
     assert_eq!(String::from_utf8(output.stdout).unwrap(), markdown);
     assert_eq!(markdown.lines().count(), rows.len() + 2);
-    let picture = here.join("figures/budget.png");
-    let size = png::Decoder::new(BufReader::new(File::open(&picture).unwrap())).read_info().unwrap();
-    let (width, height) = (size.info().width, size.info().height);
-    assert!(width == 900 && height >= 600, "{width} x {height}");
-    // The limit is one of 900 by 600 pixels; a chart of more rows is as much higher.
-    assert!(picture.metadata().unwrap().len() < LARGEST_PICTURE * u64::from(height) / 600);
 }

@@ -1,8 +1,8 @@
-//! Who is on the front of error against time, and what the picture shows; times themselves are not tested.
+//! Which solves are on the front of error against time; times themselves are not tested.
 
-use mcm::studies::{Panel, Point, Series, Stroke, accuracy_picture, front};
+use mcm::studies::{Point, front};
 
-/// A solve of the drawn scene.
+/// A solve of one scene.
 fn point(name: &'static str, time: f64, error: f64) -> Point {
     Point {
         field: "pair",
@@ -39,17 +39,4 @@ fn the_front_is_who_nobody_beats() {
     assert_eq!(found, [("potential", 1e-4), ("collocation", 1e-7), ("planar", 1e-8)]);
     let [first, other] = [&points[0], &Point { start: "cold", ..points[1].clone() }];
     assert!(first.beside(&points[1]) && !first.beside(other));
-}
-
-#[test]
-fn the_picture_shows_the_drawn_scene_and_peers_where_there_are_any() {
-    let mut points = points();
-    points.push(Point { segments: 3, ..point("potential", 1.0, 1e-9) }); // another scene
-    let picture = accuracy_picture(&points, Default::default());
-    let [Panel::Places { series, marks, .. }] = picture.panels.as_slice() else { panic!("one panel") };
-    assert_eq!(series.iter().map(|s| s.places.len()).sum::<usize>(), 5);
-    assert_eq!(marks.len(), 4, "three on the front and how well it is known");
-    let peer = Series { label: "peer".into(), colour: 1, stroke: Stroke::Solid, places: vec![[1.0, 1.0]] };
-    let panels = accuracy_picture(&points, [Vec::new(), vec![peer.clone()], vec![peer]]).panels;
-    assert_eq!(panels.len(), 3, "none where nobody is");
 }

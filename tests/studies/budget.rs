@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use mcm::design::{Segmented, Specification, gent_modulus};
 use mcm::manipulator::{Scene, Status};
-use mcm::studies::{BUDGET_SCENES, BudgetKind, Contribution, Panel, budget, budget_picture, fig7b};
+use mcm::studies::{BUDGET_SCENES, BudgetKind, Contribution, budget, fig7b};
 
 use super::{Counted, number, row as compared};
 use crate::tolerance::{BUDGET_POINTS, BUDGET_SOLVES, BY_RECOIL};
@@ -232,20 +232,13 @@ fn the_papers_measurements_stand_beside() {
 }
 
 #[test]
-fn the_chart_is_sorted_and_has_every_row() {
-    let study = budget_picture(&ROWS);
-    let [Panel::Bars { bars, series, range, .. }] = study.panels.as_slice() else {
-        panic!("one panel of bars")
-    };
-    assert_eq!(series.len(), BUDGET_SCENES.len());
-    assert_eq!(bars.iter().filter(|bar| !bar.group.is_empty()).count(), 4);
-    assert_eq!(bars.iter().map(|bar| bar.ends.len()).sum::<usize>(), ROWS.len());
-    let size = |ends: Option<[f64; 2]>| ends.map_or(0.0, |[least, largest]| largest.max(-least));
-    for pair in bars.windows(2).filter(|pair| pair[1].group.is_empty()) {
-        assert!(size(pair[0].ends[0]) >= size(pair[1].ends[0]), "{} before {}", pair[0].label, pair[1].label);
-    }
-    for bar in bars {
-        let within = bar.ends.iter().flatten().all(|[least, largest]| *least <= 0.0 && *largest >= 0.0);
-        assert!(within && !bar.numbers.is_empty() && range[0] < 0.0, "{}", bar.label);
+fn rows_of_a_kind_are_sorted_by_their_size_in_the_first_scene() {
+    let first = |row: &&Contribution| row.scene.is_none_or(|scene| scene == BUDGET_SCENES[0].name);
+    let rows: Vec<&Contribution> = ROWS.iter().filter(first).collect();
+    let kinds: Vec<BudgetKind> = rows.iter().map(|row| row.kind).collect();
+    assert!(kinds.is_sorted() && kinds.windows(2).filter(|pair| pair[0] != pair[1]).count() == 3, "{kinds:?}");
+    for pair in rows.windows(2).filter(|pair| pair[0].kind == pair[1].kind) {
+        let [before, after] = [pair[0], pair[1]];
+        assert!(before.size() >= after.size(), "{} before {}", before.quantity, after.quantity);
     }
 }

@@ -1,4 +1,4 @@
-//! `mcm study bifurcation`: diagrams as a table and a chart, folds and predictions in Markdown.
+//! `mcm study bifurcation`: diagrams as tables, folds and predictions in Markdown.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -8,14 +8,14 @@ use mcm::studies::{Bifurcation, DISTANCES, Place, Prediction, bifurcation};
 
 use super::failure::Failure;
 use super::progress::Parts;
-use super::study_files::{leave_drawn, tell};
+use super::study_files::{leave_study, tell};
 
-/// Writes bifurcation.csv, bifurcation.png and bifurcation.md to `out`; prints the Markdown tables as well.
+/// Writes bifurcation.csv, bifurcation-marks.csv and bifurcation.md to `out`; prints the Markdown tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let diagrams = Parts::of("branches");
     let Bifurcation { study, places, predictions } = bifurcation(&diagrams)?;
     diagrams.0.finish_and_clear();
-    leave_drawn(out, "bifurcation", &study)?;
+    leave_study(out, "bifurcation", &study)?;
     tell(out, "bifurcation", &format!("{}\n{}", table_of_places(&places), table_of_predictions(&predictions)))
 }
 

@@ -1,9 +1,9 @@
-//! `mcm study budget`: what changes the tip angle and by how much, as a table, a chart and Markdown.
+//! `mcm study budget`: what changes the tip angle and by how much, as a table and Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{Contribution, budget, budget_picture};
+use mcm::studies::{Contribution, budget};
 
 use super::failure::Failure;
 use super::progress::Parts;
@@ -14,13 +14,13 @@ const HEADER: &str = "\
 | --- | --- | --- | --- | --- | --- | --- |
 ";
 
-/// Computes and writes budget.csv, budget.md and budget.png to `out`; prints the table as well.
+/// Computes and writes budget.csv and budget.md to `out`; prints the table as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let changes = Parts::of("changes");
     let rows = budget(&changes)?;
     changes.0.finish_and_clear();
     let table = rows.iter().map(row).collect::<String>();
-    leave(out, "budget", &rows, &budget_picture(&rows), &format!("{HEADER}{table}"))
+    leave(out, "budget", &rows, &format!("{HEADER}{table}"))
 }
 
 fn row(row: &Contribution) -> String {

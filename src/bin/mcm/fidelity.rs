@@ -1,9 +1,9 @@
-//! `mcm study fidelity`: time saved and error made by the level `auto`, as a table, a chart and Markdown.
+//! `mcm study fidelity`: time saved and error made by the level `auto`, as a table and Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
 
-use mcm::studies::{Fidelity, Omission, fidelity, fidelity_picture, omissions};
+use mcm::studies::{Fidelity, Omission, fidelity, omissions};
 
 use super::failure::Failure;
 use super::progress::Parts;
@@ -19,7 +19,7 @@ const LEFT_OUT: &str = "\
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// Measures and writes fidelity.csv, fidelity.md and fidelity.png to `out`; prints the tables as well.
+/// Measures and writes fidelity.csv and fidelity.md to `out`; prints the tables as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let walks = Parts::of("models along a path");
     let rows = fidelity(&walks)?;
@@ -27,7 +27,7 @@ pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let left_out = omissions(&walks)?.iter().map(left_out).collect::<String>();
     walks.0.finish_and_clear();
     let tables = format!("{HEADER}{table}\n{LEFT_OUT}{left_out}");
-    leave(out, "fidelity", &rows, &fidelity_picture(&rows), &tables)
+    leave(out, "fidelity", &rows, &tables)
 }
 
 fn left_out(row: &Omission) -> String {

@@ -1,17 +1,17 @@
-//! `mcm study stability`: the map of failures as a table and a chart, and its counts in Markdown.
+//! `mcm study stability`: the map of failures as a table, and its counts in Markdown.
 
 use std::path::Path;
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::studies::{Attempt, Verdict, stability_picture, stability_rays};
+use mcm::studies::{Attempt, Verdict, stability_rays};
 use rayon::prelude::*;
 
 use super::failure::Failure;
 use super::progress::progress_bar;
 use super::study_files::leave;
 
-/// Computes and writes stability.csv, stability.md and stability.png to `out`; prints the counts as well.
+/// Computes and writes stability.csv and stability.md to `out`; prints the counts as well.
 pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     let rays = stability_rays();
     let bar = progress_bar(rays.len() as u64, "directions");
@@ -22,7 +22,7 @@ pub(super) fn run(out: &Path) -> Result<ExitCode, Failure> {
     });
     let attempts = attempts.collect::<Result<Vec<_>, Error>>()?.concat();
     bar.finish_and_clear();
-    leave(out, "stability", &attempts, &stability_picture(&attempts), &counts(&attempts))
+    leave(out, "stability", &attempts, &counts(&attempts))
 }
 
 /// Number of attempts by method, level, start and verdict, in Markdown.

@@ -1,4 +1,4 @@
-//! `mcm study`: the paper's figures as tables and pictures.
+//! `mcm study`: the paper's figures as tables.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -9,16 +9,17 @@ use mcm::studies::{self, Progress};
 use rayon::prelude::*;
 
 use super::failure::Failure;
-use super::files::refuse_same;
 use super::output::print;
 use super::progress::Parts;
-use super::study_files::{leave_drawn, tell};
+use super::study_files::{leave_study, tell};
 use super::{accuracy, bifurcation, budget, comparison, fidelity, stability};
 
-/// Computes figures of the paper: NAME.csv and NAME.png, and how they compare with the paper.
+/// Computes figures of the paper as tables, and how they compare with the paper.
 #[derive(clap::Args)]
 #[command(
-    after_help = "`all` computes every figure of the paper and also writes the comparison to comparison.md. It does \
+    after_help = "A study leaves its numbers in NAME.csv. Where there are values of the paper or events such as snaps and folds to \
+show beside them, they are in NAME-marks.csv, with an empty x for a level. `tests/charts/draw DIR` draws them.\n\n\
+`all` computes every figure of the paper and also writes the comparison to comparison.md. It does \
 not include `accuracy` and `fidelity`, which measure times, `bifurcation`, `stability` and `fig9`, which take long, and \
 `budget`, which is not a figure of the paper.\n\n\
 Example: mcm study fig5 --out figures"
@@ -27,12 +28,9 @@ pub(crate) struct Study {
     /// Figure or study to compute
     #[arg(value_enum)]
     name: Name,
-    /// Folder for tables and charts; created if it does not exist
+    /// Folder for the tables; created if it does not exist
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// For accuracy: table of the results of other software, as tests/bench/table.py writes it
-    #[arg(long, value_name = "CSV")]
-    peers: Option<PathBuf>,
 }
 
 /// Name of a study.
@@ -129,15 +127,8 @@ impl Study {
         // Tried before the work, which may take long.
         tempfile::tempfile_in(&self.out)
             .map_err(|error| Failure::writing(format!("in {}", self.out.display()), error.kind()))?;
-        if let Some(peers) = &self.peers {
-            if self.name != Name::Accuracy {
-                return Err(Failure("--peers belongs to the study accuracy".into()));
-            }
-            let written = ["csv", "md", "png"].map(|ending| self.out.join("accuracy").with_extension(ending));
-            refuse_same(&[peers], &written.each_ref().map(PathBuf::as_path))?;
-        }
         match self.name {
-            Name::Accuracy => return accuracy::run(&self.out, self.peers.as_deref()),
+            Name::Accuracy => return accuracy::run(&self.out),
             Name::Budget => return budget::run(&self.out),
             Name::Fidelity => return fidelity::run(&self.out),
             Name::Bifurcation => return bifurcation::run(&self.out),
@@ -158,7 +149,7 @@ impl Study {
             .map(|(name, study)| {
                 parts.0.set_message(name.clone());
                 let study = study(&parts)?;
-                leave_drawn(&self.out, &name, &study)?;
+                leave_study(&self.out, &name, &study)?;
                 parts.done();
                 Ok((name, study))
             })

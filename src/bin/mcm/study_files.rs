@@ -3,15 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use mcm::studies;
+use mcm::studies::Study;
 use serde::Serialize;
 
 use super::failure::Failure;
 use super::output::{Output, Table, print};
-use super::picture;
 
-/// Writes a study's columns and chart to NAME.csv and NAME.png in `out`; a missing value is an empty cell.
-pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Result<(), Failure> {
+/// Writes a study's columns to NAME.csv and its marks, if it has any, to NAME-marks.csv in `out`; a missing value is an empty cell.
+pub(super) fn leave_study(out: &Path, name: &str, study: &Study) -> Result<(), Failure> {
     let mut table = Table::at(&file(out, name, "csv"))?;
     table.header(study.columns.iter().map(|column| &column.name))?;
     let rows = study.columns.first().map_or(0, |column| column.values.len());
@@ -20,21 +19,25 @@ pub(super) fn leave_drawn(out: &Path, name: &str, study: &studies::Study) -> Res
         table.row(cells.collect::<Vec<_>>())?;
     }
     table.complete()?;
-    picture::write(study, &file(out, name, "png"))
+    if study.marks.is_empty() {
+        return Ok(());
+    }
+    let mut table = Table::at(&file(out, &format!("{name}-marks"), "csv"))?;
+    table.header(["mark", "x", "y"])?;
+    study.marks.iter().try_for_each(|mark| table.row((&mark.name, mark.x, mark.y)))?;
+    table.complete()
 }
 
-/// Writes rows, chart and Markdown tables to NAME.csv, NAME.png and NAME.md in `out`, and prints the Markdown.
+/// Writes rows and Markdown tables to NAME.csv and NAME.md in `out`, and prints the Markdown.
 pub(super) fn leave(
     out: &Path,
     name: &str,
     rows: &[impl Serialize],
-    picture: &studies::Study,
     markdown: &str,
 ) -> Result<ExitCode, Failure> {
     let mut table = Table::at(&file(out, name, "csv"))?;
     rows.iter().try_for_each(|row| table.row(row))?;
     table.complete()?;
-    picture::write(picture, &file(out, name, "png"))?;
     tell(out, name, markdown)
 }
 

@@ -5,15 +5,14 @@
 
 use rayon::prelude::*;
 
-use super::canvas::Drawing;
 use super::{Found, POINTS, POINTS_OF_THREE, pulled};
 use crate::design::{Helix, Segmented, Specification};
 use crate::error::Error;
 use crate::studies::progress::Progress;
 use crate::studies::study::Mark;
 
-/// Gaps whose branches are plotted, mm, and descriptions of their folds in the table.
-const DRAWN: [(f64, Option<&str>); 3] = [
+/// Gaps whose branches are followed, mm, and descriptions of their folds in the table.
+const FOLLOWED: [(f64, Option<&str>); 3] = [
     (3.0, Some("one segment, gaps of 3 mm: pulled shut (mT)")),
     (3.4, Some("one segment, gaps of 3.4 mm: pulled shut (mT)")),
     (4.0, None), // its fold is already in the table
@@ -28,38 +27,24 @@ const LARGEST: f64 = 60.0;
 
 /// Branches of one segment in a growing field.
 pub(super) fn branches() -> Result<Found, Error> {
-    let mut found = Found::new(Drawing {
-        name: "gap",
-        title: "one segment, full; by the rings' gap",
-        x: ["field", "mT"],
-        y: ["tip angle", "deg"],
-        branches: &["3 mm", "3.4 mm", "4 mm"],
-        explained: false,
-    });
-    for (branch, (gap, what)) in DRAWN.into_iter().enumerate() {
+    let mut found = Found::new("gap", ["mt", "deg"], 3);
+    for (branch, (gap, what)) in FOLLOWED.into_iter().enumerate() {
         let case = pulled(spaced(1, gap), [0.0, 40.0], POINTS)?;
         let (diagram, loading) = (case.trace(0.0)?, case.load(false)?);
-        found.canvas.draw(branch, &case, &diagram);
-        found.canvas.draw_loading(&loading);
+        found.branches.add(branch, &case, &diagram);
+        found.branches.add_loading(&loading);
         if let (Some(shape), Some(what)) = (diagram.folds().next(), what) {
             found.add(what, shape, loading.snaps.first().copied(), None);
         }
     }
     let touching = Helix::paper().boundary_angle.to_degrees();
-    found.canvas.mark(Mark::Level("windings touch".into(), touching));
+    found.branches.mark(Mark::level("windings touch, gap", touching));
     Ok(found)
 }
 
 /// The field at which the branches of one and of three segments fold, by the gap.
 pub(super) fn critical(progress: &dyn Progress) -> Result<Found, Error> {
-    let mut found = Found::new(Drawing {
-        name: "critical",
-        title: "full; field that pulls shut, by gap",
-        x: ["gap between rings", "mm"],
-        y: ["critical field", "mT"],
-        branches: &["one segment", "three segments"],
-        explained: false,
-    });
+    let mut found = Found::new("critical", ["mm", "mt"], 2);
     let [first, last] = TRACED;
     let gaps = (0..COUNT).map(|i| first + (last - first) * f64::from(i) / f64::from(COUNT - 1));
     let gaps: Vec<f64> = gaps.collect();
@@ -72,7 +57,7 @@ pub(super) fn critical(progress: &dyn Progress) -> Result<Found, Error> {
             Ok([gap, diagram.folds().next().map_or(f64::NAN, |shape| shape.value)])
         });
         for place in folds.collect::<Result<Vec<_>, Error>>()? {
-            found.canvas.put(branch, place);
+            found.branches.put(branch, place);
         }
     }
     Ok(found)

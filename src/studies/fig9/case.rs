@@ -34,17 +34,15 @@ pub(super) struct Case {
     /// Whether a guidewire follows up to the base of the device.
     pub(super) wired: bool,
     friction: f64,
-    /// Colour index: one for each device.
-    pub(super) colour: usize,
 }
 
-const fn case(name: &'static str, device: &'static str, colour: usize) -> Case {
-    Case { name, device, design: SEGMENTS, tube: SILICONE, wired: false, friction: 0.0, colour }
+const fn case(name: &'static str, device: &'static str) -> Case {
+    Case { name, device, design: SEGMENTS, tube: SILICONE, wired: false, friction: 0.0 }
 }
 
-const SEGMENTED: Case = case("mcm", "nine segments", 0);
-const SOLID: Case = Case { design: CYLINDER, ..case("cylinder", "solid cylinder", 1) };
-const ON_PTFE: Case = Case { tube: PTFE, ..case("ptfe", "segments on PTFE", 2) };
+const SEGMENTED: Case = case("mcm", "nine segments");
+const SOLID: Case = Case { design: CYLINDER, ..case("cylinder", "solid cylinder") };
+const ON_PTFE: Case = Case { tube: PTFE, ..case("ptfe", "segments on PTFE") };
 
 /// All devices.
 pub(super) const CASES: [Case; 8] = [
@@ -55,7 +53,7 @@ pub(super) const CASES: [Case; 8] = [
     Case { name: "cylinder_oiled", friction: 0.04, ..SOLID },
     Case { name: "cylinder_dry", friction: 1.0, ..SOLID },
     ON_PTFE,
-    Case { name: "ptfe_wire", device: "PTFE, guidewire", wired: true, colour: 3, ..ON_PTFE },
+    Case { name: "ptfe_wire", device: "PTFE, guidewire", wired: true, ..ON_PTFE },
 ];
 
 impl Case {

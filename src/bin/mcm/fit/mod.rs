@@ -1,9 +1,8 @@
 //! `mcm fit`: numbers of the scene from measured rows.
 
-mod chart;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::str::FromStr;
 
@@ -14,7 +13,6 @@ use super::doing::Doing;
 use super::failure::{Failure, NOT_CONVERGED};
 use super::files::{bad_table, is_scene, open_table, read_scene, refuse_over};
 use super::output::{Output, print, warn};
-use super::picture;
 
 /// Finds numbers of the scene from measured rows, and how sure they are.
 #[derive(clap::Args)]
@@ -48,9 +46,6 @@ pub(crate) struct Fit {
     /// Let outliers count little: the Huber loss instead of squares
     #[arg(long)]
     robust: bool,
-    /// Draw measured against computed values, and residuals
-    #[arg(long, value_name = "OUT.png")]
-    picture: Option<PathBuf>,
 }
 
 /// A standard deviation of an output.
@@ -75,14 +70,7 @@ impl FromStr for Deviation {
 impl Fit {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        let written: Vec<&Path> =
-            [Some(&self.out), self.picture.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-        refuse_over(&[&self.scene, &self.measured], &written)?;
-        if let Some(picture) =
-            self.picture.as_ref().filter(|path| path.extension().is_none_or(|e| e != "png"))
-        {
-            return Err(Failure(format!("--picture {} must end in .png", picture.display())));
-        }
+        refuse_over(&[&self.scene, &self.measured], &[&self.out])?;
         if !is_scene(&self.out) {
             return Err(Failure(format!("--out {} must end in .toml: it is a scene", self.out.display())));
         }
@@ -98,10 +86,6 @@ impl Fit {
         let loss = if self.robust { Loss::Huber } else { Loss::Squares };
         let settings = Settings { loss, ..Settings::default() };
         let fit = mcm::fit::Fit::new(&file, &self.vary, &measured, &settings)?;
-        if let Some(path) = &self.picture {
-            doing.then("drawing");
-            picture::write(&chart::of(&fit), path)?;
-        }
         drop(doing);
         out.fill(fit.scene()?.to_toml()?.as_bytes())?;
         print(report::of(&fit))?;

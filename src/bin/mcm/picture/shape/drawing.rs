@@ -7,8 +7,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::outline::{LumenOutline, Outline};
 use super::{INSIDE, Picture};
-use crate::picture::axes::tick;
-use crate::picture::{Drawn, GRID, INK, LINE, PAPER, TITLE, colour, pen, scaled, text, use_font};
+use crate::picture::{Drawn, GRID, INK, LINE, PAPER, TITLE, colour, pen, scaled, text, tick, use_font};
 
 /// Length of the longest arrow of a force, relative to the shorter side, and least force that is drawn, relative to the largest.
 const ARROW: f64 = 0.16;
