@@ -40,6 +40,16 @@ def shades(colour: str, count: int) -> list[tuple[float, ...]]:
     return [tuple(one) for one in mixed]
 
 
+# Methods: that of the project, and the others in the muted colours of P. Tol, Colour Schemes (2021).
+METHOD = {
+    "potential": BLUE,
+    "collocation": "#882255",
+    "multiple-shooting": "#999933",
+    "shooting": "#cc6677",
+    "shooting-fd": "#aa4499",
+    "planar": "#44aa99",
+    "constant-curvature": INK,
+}
 SEGMENTS = {1: "#9181d4", 3: "#6444a8", 9: "#331266"}  # number of segments: the more, the darker
 
 
