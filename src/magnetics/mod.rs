@@ -21,6 +21,7 @@ mod sheet;
 mod sheet_lanes;
 mod sources;
 mod uniform;
+mod winding;
 mod wrench;
 
 pub use assembly::{Assembly, AxialMagnet};

@@ -27,6 +27,17 @@ pub enum SourceName {
     Coil(usize),
 }
 
+impl SourceName {
+    /// Its body of this number, counted from 0, in words: magnets have several, a coil is one.
+    #[must_use]
+    pub fn body(&self, number: usize) -> String {
+        match self {
+            Self::Magnet(_) => format!("cylinder {} of {self}", number + 1),
+            Self::Coil(_) => self.to_string(),
+        }
+    }
+}
+
 /// Counted from 1, as in scene files and in the FMU.
 impl fmt::Display for SourceName {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
