@@ -2,7 +2,7 @@
 
 use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
-use super::super::units::{FIELD, FORCE, GRADIENT, MOMENT, POSITION, QUATERNION, RATIO};
+use super::super::units::{FIELD, FORCE, GRADIENT, MOMENT, POSITION, RATIO};
 use super::rows::{Draft, Rows};
 use super::{Counts, access};
 use crate::manipulator::Input;
@@ -17,7 +17,7 @@ impl Rows {
         let orientation = access!(|values, index| values.magnet.orientation[index.component]);
         let description =
             "Orientation of the external magnet assembly, whose dipole axis is its z, as a unit quaternion";
-        let draft = Draft::input("magnet.orientation", QUATERNION, description, orientation);
+        let draft = Draft::orientation("magnet.orientation", description, orientation);
         self.array(4, &draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation)));
 
         let strength = access!(|values| values.magnet_strength);
@@ -46,7 +46,7 @@ impl Rows {
 
         let orientation = access!(|values, index| values.base.orientation[index.component]);
         let description = "Orientation of the clamped base as a unit quaternion";
-        let draft = Draft::input("base.orientation", QUATERNION, description, orientation);
+        let draft = Draft::orientation("base.orientation", description, orientation);
         let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::BaseRotation));
         self.array(4, &draft.known(Known::BaseOrientation));
     }

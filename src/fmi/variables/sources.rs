@@ -2,7 +2,7 @@
 
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
-use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, QUATERNION, RATIO};
+use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, RATIO};
 use super::access;
 use super::outputs::real;
 use super::rows::{Draft, Rows};
@@ -25,7 +25,7 @@ impl Rows {
             let orientation =
                 access!(|values, index| values.further[index.item].pose.orientation[index.component]);
             let description = format!("Orientation of the {what}, whose axis is its z, as a unit quaternion");
-            let draft = Draft::input(format!("{name}.orientation"), QUATERNION, &description, orientation);
+            let draft = Draft::orientation(format!("{name}.orientation"), &description, orientation);
             let role = DerivativeRole::InputQuaternion(Input::SourceRotation(number));
             self.array_of(number, 4, &draft.derivative_role(role));
 
