@@ -14,6 +14,7 @@ mod iron_core;
 mod jet;
 mod lanes;
 mod multipole;
+mod mutual;
 mod overlap;
 mod pair_table;
 mod points;
