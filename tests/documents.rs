@@ -116,3 +116,37 @@ fn dead_links_are_seen() {
     assert_eq!(anchors(text), ["a-b-c", "more-or-less-1"].map(String::from).into());
     assert_eq!(plain(Path::new("a/b/../c.md")), Path::new("a/c.md"));
 }
+
+/// Code without what stands in quotation marks and comments.
+fn bare(code: &str) -> String {
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    lines.map(|line| line.split('"').step_by(2).collect::<String>() + "\n").collect()
+}
+
+#[test]
+fn the_page_of_magnets_and_coils_lists_the_files_that_know_of_coils() {
+    let page = fs::read_to_string(package().join("src/magnetics/README.md")).unwrap();
+    let section = page.split("\n## ").find(|part| part.starts_with("Which files know of sources")).unwrap();
+    let rows = section.lines().filter(|line| line.starts_with("| "));
+    let listed: BTreeSet<String> = rows
+        .flat_map(|row| row.split('`').skip(1).step_by(2))
+        .filter(|name| Path::new(name).extension().is_some_and(|extension| extension == "rs"))
+        .map(str::to_owned)
+        .collect();
+    let mut found = Vec::new();
+    files(&package().join("src"), "rs", &mut found);
+    let knows = |path: &PathBuf| {
+        let code = bare(&fs::read_to_string(path).unwrap()).to_lowercase().replace("recoil", "");
+        code.contains("coil")
+    };
+    let known: BTreeSet<String> = found
+        .iter()
+        .filter(|path| knows(path))
+        .map(|path| path.strip_prefix(package().join("src")).unwrap().to_string_lossy().into_owned())
+        // Studies use sources as anybody does.
+        .filter(|name| {
+            !["magnetics/", "studies/", "bin/mcm/study.rs"].iter().any(|own| name.starts_with(own))
+        })
+        .collect();
+    assert_eq!(listed, known);
+}

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
-use crate::magnetics::Sources;
+use crate::magnetics::{Sources, Wrench};
 
 /// Longest inserted part of a shaft, m.
 pub(crate) const LONGEST_INSERTION: f64 = 1.0;
@@ -125,6 +125,14 @@ impl Inputs {
             None => Some(PlacedSource { pose: self.magnet, strength: self.magnet_strength }),
             Some(further) => self.further.get(further).copied(),
         }
+    }
+
+    /// Wrench of all other sources on each where these inputs place them; see [`Sources::mutual_wrenches`].
+    ///
+    /// # Errors
+    /// As [`Sources::mutual_wrenches`].
+    pub fn mutual_wrenches(&self, sources: &Sources) -> Result<Vec<Wrench>, Error> {
+        sources.mutual_wrenches(|number| self.source(number).map(|placed| (placed.pose, placed.strength)))
     }
 
     /// Copies `other`, without allocation if it has the same numbers of rings and sources.

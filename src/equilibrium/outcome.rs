@@ -114,8 +114,7 @@ impl fmt::Display for Body {
         match self {
             Self::Ring(number) => write!(out, "ring {}", number + 1),
             Self::Segment(number) => write!(out, "segment {}", number + 1),
-            Self::Source(name @ SourceName::Coil(_), _) => write!(out, "{name}"),
-            Self::Source(name, cylinder) => write!(out, "cylinder {} of {name}", cylinder + 1),
+            Self::Source(name, body) => out.write_str(&name.body(*body)),
         }
     }
 }

@@ -101,6 +101,8 @@ pub struct Settings {
     /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
     /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
     pub time_budget: f64,
+    /// Whether the wrench of magnets and coils on one another is an output; default no. It has no influence on the equilibrium.
+    pub mutual_wrenches: bool,
 }
 
 impl Default for Settings {
@@ -119,6 +121,7 @@ impl Default for Settings {
             fold_margin: 0.05,
             iterations: 1500,
             time_budget: 1.0,
+            mutual_wrenches: false,
         }
     }
 }

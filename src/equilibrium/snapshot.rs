@@ -7,7 +7,6 @@ use super::friction::FrictionMemory;
 use super::history::{History, are_finite};
 use super::solver::Equilibrium;
 use crate::error::Error;
-use crate::magnetics::Assembly;
 use crate::numerics::trust_region::Objective;
 
 /// Stored state of a branch, from which another equilibrium of the same design in the same vessel continues bit for bit.
@@ -72,10 +71,8 @@ impl Equilibrium {
 
     /// A number that equilibria of one design, discretisation, magnet and vessel have in common: a checksum of all their numbers.
     fn mark(&self) -> u32 {
-        let bodies = |(number, source): (usize, &Assembly)| {
-            (number, source.magnets().to_vec(), source.coil().copied())
-        };
-        let sources: Vec<_> = self.sources.numbered().map(bodies).collect();
+        let sources = self.sources.numbered().map(|(number, source)| (number, source.made_from()));
+        let sources: Vec<_> = sources.collect();
         let vessel = self.vessel().map(|vessel| (vessel.lumen.checksum(), vessel.wall.modulus()));
         crc32fast::hash(format!("{:?} {sources:?} {vessel:?}", self.chain.made_from()).as_bytes())
     }

@@ -16,6 +16,8 @@ pub enum Known {
     RingLength,
     /// The length of another body of the chain.
     BodyLength,
+    /// Pose, strength or shape of a magnet or coil.
+    Source,
     /// Anything else that acts on the equilibrium.
     Other,
 }
@@ -37,6 +39,8 @@ pub enum Dependency {
     ClampedAxis,
     /// As an arc length: on the lengths of the bodies.
     Lengths,
+    /// As the wrench of magnets and coils on one another: on those alone.
+    Sources,
 }
 
 /// The standard's kind of a dependency.
@@ -76,6 +80,7 @@ impl Dependency {
             (Self::ClampedCentre, known) => matches!(known, Known::BaseOrientation | Known::RingLength),
             (Self::ClampedAxis, known) => known == Known::BaseOrientation,
             (Self::Lengths, known) => matches!(known, Known::RingLength | Known::BodyLength),
+            (Self::Sources, known) => known == Known::Source,
         };
         depends.then_some(DependencyKind::Dependent)
     }

@@ -4,7 +4,7 @@ use super::fmu_state::Search;
 use super::instance::Instance;
 use super::state::Ending;
 use super::value::Value;
-use super::variable::{Availability, Causality, Variability, Variable};
+use super::variable::{Availability, Causality, Request, Variability, Variable};
 use crate::manipulator::Manipulator;
 
 impl Instance {
@@ -40,7 +40,9 @@ impl Instance {
     ) -> Result<Vec<T>, Ending> {
         let variables = self.variables(references).ok_or(Ending::Error)?;
         let any_output = variables.iter().any(|variable| variable.causality == Causality::Output);
-        let on_request = variables.iter().any(|variable| variable.availability == Availability::OnRequest);
+        let asked =
+            |of| variables.iter().any(|variable| variable.availability == Availability::OnRequest(of));
+        let (margin, wrenches) = (asked(Request::Margin), asked(Request::MutualWrenches));
         let always = |variable: &&Variable| {
             variable.causality != Causality::Output || variable.availability == Availability::Always
         };
@@ -48,8 +50,13 @@ impl Instance {
         if any_output && !of_the_search {
             self.solve_if_live()?;
         }
-        if let Some(manipulator) = self.fmu_state.manipulator.as_mut().filter(|_| on_request) {
-            manipulator.measure_margin();
+        if let Some(manipulator) = self.fmu_state.manipulator.as_mut() {
+            if margin {
+                manipulator.measure_margin();
+            }
+            if wrenches && let Err(error) = manipulator.measure_mutual_wrenches() {
+                return Err(self.refuse(&error.to_string()));
+            }
         }
         references.iter().map(|&reference| self.read(reference, type_name, read)).collect()
     }

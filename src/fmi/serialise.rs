@@ -18,7 +18,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// Number of the format; must be raised with every change of [`Record`] or of the types in it.
-const FORMAT: u32 = 13;
+const FORMAT: u32 = 14;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

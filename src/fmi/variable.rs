@@ -43,7 +43,16 @@ pub enum Availability {
     /// Once an equilibrium was found.
     Solved,
     /// Once an equilibrium was found; it takes a computation of its own, which is done only when the host reads it.
-    OnRequest,
+    OnRequest(Request),
+}
+
+/// A computation that is done only when the host reads what it gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Request {
+    /// The stability margin.
+    Margin,
+    /// The wrench of magnets and coils on one another.
+    MutualWrenches,
 }
 
 /// Which element of an array a variable is; both indices start at 0.

@@ -1,17 +1,19 @@
 //! Field sources that move as one body: coaxial magnetised cylinders, or a coil.
 
+use core::fmt;
+
 use nalgebra::{Matrix3, Vector3};
 
 use super::axial_source::AxialSource;
+use super::axisymmetric::{Components, Meridian};
 use super::coil::Coil;
 use super::edge::{FIELD, GRADIENT, HESSIAN};
 use super::iron_core::IronCore;
 use super::jet::Jet;
 use super::overlap::{Outline, depth};
-use crate::constants::VACUUM_PERMEABILITY;
+use super::winding::Winding;
 use crate::error::{Error, check};
 use crate::geometry::Pose;
-use crate::numerics::quadrature::gauss_legendre;
 
 /// One axially magnetised cylinder (or ring) of an assembly.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,14 +30,6 @@ pub struct AxialMagnet {
     pub remanence: f64,
 }
 
-/// Numbers of Gauss points across the winding of a coil, and the distance from it, in halves of its thickness, from which each
-/// leaves less than 1e-10 of the field.
-///
-/// A sheet's field, seen as a function of its radius, is singular at the distance `d` from the winding; `n` points leave
-/// `rho^(-2 n)`, where `(rho - 1 / rho) / 2 = d` (Trefethen, Approximation Theory and Approximation Practice, theorem 19.3). Far
-/// away, where the field itself fades as `(r / d)^2`, the first power of `r / d` that the rule does not integrate counts.
-const LAYERS: [(usize, f64); 5] = [(4, 24.0), (6, 5.0), (12, 1.3), (24, 0.55), (48, 0.0)];
-
 /// A checked assembly of coaxial cylinders, or a coil; its frame's third axis is the common axis.
 ///
 /// Its cylinders may touch but not overlap. All fields are in the assembly's frame and add up; see [`AxialSource`] for
@@ -51,8 +45,10 @@ pub struct Assembly {
 enum Bodies {
     /// Cylinders, each with the source of the same number.
     Magnets(Vec<AxialMagnet>),
-    /// A winding. Its sources are thin solenoids of its length for each of [`LAYERS`], one after the other.
-    Winding(Coil, Box<AxialSource>),
+    /// A coil without iron; the assembly has no sources of its own.
+    Winding(Coil, Box<Winding>),
+    /// A coil with an iron core, and the outline of both; the assembly has no sources of its own.
+    Iron(Coil, IronCore, Box<AxialSource>),
 }
 
 impl Assembly {
@@ -127,23 +123,15 @@ impl Assembly {
     /// # Errors
     /// [`Error::Range`] naming the first dimension out of range.
     pub fn of_coil(coil: Coil) -> Result<Self, Error> {
-        let Coil { inner_radius, outer_radius, length, turns, core } = coil.checked()?;
-        if core.is_some() {
-            let winding = AxialSource::new(0.0, outer_radius, length, 0.0)?;
-            return Ok(Self { bodies: Bodies::Winding(coil, Box::new(winding)), sources: Vec::new() });
-        }
-        let (middle, half) = (0.5 * (outer_radius + inner_radius), 0.5 * (outer_radius - inner_radius));
-        let remanence = VACUUM_PERMEABILITY * turns / length; // of all layers together
-        let mut sources = Vec::new();
-        for (points, _) in LAYERS {
-            let (nodes, weights) = gauss_legendre(points);
-            for (node, weight) in nodes.iter().zip(&weights) {
-                let radius = middle + half * node;
-                sources.push(AxialSource::new(0.0, radius, length, 0.5 * weight * remanence)?);
+        let coil = coil.checked()?;
+        let bodies = match coil.core {
+            Some(core) => {
+                let outline = AxialSource::new(0.0, coil.outer_radius, coil.length, 0.0)?;
+                Bodies::Iron(coil, core, Box::new(outline))
             }
-        }
-        let winding = AxialSource::new(inner_radius, outer_radius, length, 0.0)?;
-        Ok(Self { bodies: Bodies::Winding(coil, Box::new(winding)), sources })
+            None => Bodies::Winding(coil, Box::new(Winding::new(&coil)?)),
+        };
+        Ok(Self { bodies, sources: Vec::new() })
     }
 
     /// The magnetised cylinders; none for a coil.
@@ -152,10 +140,18 @@ impl Assembly {
         if let Bodies::Magnets(magnets) = &self.bodies { magnets } else { &[] }
     }
 
+    /// All numbers that it is made from.
+    pub(crate) fn made_from(&self) -> impl fmt::Debug {
+        (self.magnets(), self.coil())
+    }
+
     /// The coil that it is; `None` for magnets.
     #[must_use]
     pub fn coil(&self) -> Option<&Coil> {
-        if let Bodies::Winding(coil, _) = &self.bodies { Some(coil) } else { None }
+        match &self.bodies {
+            Bodies::Magnets(_) => None,
+            Bodies::Winding(coil, _) | Bodies::Iron(coil, ..) => Some(coil),
+        }
     }
 
     /// Radius of the sphere about the centre in which the multipoles of an iron core say nothing, m; `None` without one.
@@ -165,7 +161,7 @@ impl Assembly {
     }
 
     fn core(&self) -> Option<&IronCore> {
-        self.coil().and_then(|coil| coil.core.as_ref())
+        if let Bodies::Iron(_, core, _) = &self.bodies { Some(core) } else { None }
     }
 
     /// Flux density `B` (T) at a point (m).
@@ -173,13 +169,12 @@ impl Assembly {
     /// # Errors
     /// As [`AxialSource::field`]; [`Error::Range`] for a point where the multipoles of a core say nothing.
     pub fn field(&self, point: &Vector3<f64>) -> Result<Vector3<f64>, Error> {
+        if let Some((at, components)) = self.coil_components::<FIELD>(point)? {
+            return Ok(components.field(&at));
+        }
         let mut sum = Vector3::zeros();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
             sum += source.field(&(point - centre))?;
-        }
-        if let Some(core) = self.core() {
-            let (at, components) = core.components::<FIELD>(point)?;
-            sum += components.field(&at);
         }
         Ok(sum)
     }
@@ -189,16 +184,14 @@ impl Assembly {
     /// # Errors
     /// As [`AxialSource::field`].
     pub fn field_gradient(&self, point: &Vector3<f64>) -> Result<(Vector3<f64>, Matrix3<f64>), Error> {
+        if let Some((at, components)) = self.coil_components::<GRADIENT>(point)? {
+            return Ok((components.field(&at), components.gradient(&at)));
+        }
         let mut sum = (Vector3::zeros(), Matrix3::zeros());
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
             let (field, gradient) = source.field_gradient(&(point - centre))?;
             sum.0 += field;
             sum.1 += gradient;
-        }
-        if let Some(core) = self.core() {
-            let (at, components) = core.components::<GRADIENT>(point)?;
-            sum.0 += components.field(&at);
-            sum.1 += components.gradient(&at);
         }
         Ok(sum)
     }
@@ -222,13 +215,12 @@ impl Assembly {
     /// # Errors
     /// As [`AxialSource::field`].
     pub fn jet(&self, point: &Vector3<f64>) -> Result<Jet, Error> {
+        if let Some((at, components)) = self.coil_components::<HESSIAN>(point)? {
+            return Ok(components.jet(&at));
+        }
         let mut sum = Jet::zero();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
             sum += source.jet(&(point - centre))?;
-        }
-        if let Some(core) = self.core() {
-            let (at, components) = core.components::<HESSIAN>(point)?;
-            sum += components.jet(&at);
         }
         Ok(sum)
     }
@@ -301,27 +293,26 @@ impl Assembly {
         self.solid().map(|(source, centre)| (source.outline(), centre))
     }
 
+    /// The components of the field of a coil at a point; `None` for magnets, and where the sources are to be evaluated one by one.
+    fn coil_components<const ORDER: u8>(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<Option<(Meridian, Components)>, Error> {
+        match &self.bodies {
+            Bodies::Magnets(_) => Ok(None),
+            Bodies::Winding(_, winding) => Ok(winding.components::<ORDER>(point)),
+            Bodies::Iron(_, core, _) => core.components::<ORDER>(point).map(Some),
+        }
+    }
+
     /// The sources that serve at all of `points`, each with its centre, m.
     pub(super) fn placed(
         &self,
         points: &[Vector3<f64>],
     ) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         let chosen = match &self.bodies {
-            Bodies::Magnets(_) => &self.sources[..],
-            Bodies::Winding(Coil { core: Some(_), .. }, _) => &[],
-            Bodies::Winding(coil, winding) => {
-                let nearest =
-                    points.iter().map(|point| winding.distance(point)).fold(f64::INFINITY, f64::min);
-                let reach = nearest / (0.5 * (coil.outer_radius - coil.inner_radius));
-                let (mut first, mut count) = (0, 0);
-                for (points, from) in LAYERS {
-                    (first, count) = (first + count, points);
-                    if reach >= from {
-                        break;
-                    }
-                }
-                &self.sources[first..first + count]
-            }
+            Bodies::Magnets(_) | Bodies::Iron(..) => &self.sources[..],
+            Bodies::Winding(_, winding) => winding.solenoids(points),
         };
         chosen.iter().enumerate().map(|(number, source)| (source, self.centre(number)))
     }
@@ -330,7 +321,8 @@ impl Assembly {
     fn solid(&self) -> impl Iterator<Item = (&AxialSource, Vector3<f64>)> {
         let solid = match &self.bodies {
             Bodies::Magnets(_) => &self.sources[..],
-            Bodies::Winding(_, winding) => core::slice::from_ref(&**winding),
+            Bodies::Winding(_, winding) => core::slice::from_ref(&winding.body),
+            Bodies::Iron(_, _, outline) => core::slice::from_ref(&**outline),
         };
         solid.iter().enumerate().map(|(number, source)| (source, self.centre(number)))
     }

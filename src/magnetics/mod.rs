@@ -14,6 +14,7 @@ mod iron_core;
 mod jet;
 mod lanes;
 mod multipole;
+mod mutual;
 mod overlap;
 mod pair_table;
 mod points;
@@ -21,6 +22,7 @@ mod sheet;
 mod sheet_lanes;
 mod sources;
 mod uniform;
+mod winding;
 mod wrench;
 
 pub use assembly::{Assembly, AxialMagnet};

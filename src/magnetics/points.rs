@@ -1,4 +1,4 @@
-//! Field of one magnet at eight points side by side: exact, or by multipoles.
+//! Field of one magnet at eight points side by side, exact or by multipoles, and of nested cylinders at one point.
 //!
 //! The formulas are those of single points, with points instead of edges in the lanes; the functions are compiled for
 //! several processors, and the fastest that runs is chosen. No product is fused with a sum, so that all give the same
@@ -6,7 +6,7 @@
 
 #![expect(clippy::inline_always, reason = "these functions are compiled for several processors")]
 
-use super::edge::{GRADIENT, HESSIAN, Parts, Place};
+use super::edge::{Edges, GRADIENT, HESSIAN, Parts, Place};
 use super::integrals::Integrals;
 use super::lanes::Lanes;
 use super::multipole::Multipole;
@@ -57,6 +57,25 @@ for_each_processor! {
     }
 }
 
+for_each_processor! {
+    /// As [`gradients`] at one point, with eight edges of each group in the lanes, over which the components are to be added up.
+    pub(super) fn nested_gradients(
+        groups: &[Edges<WIDTH>],
+        rho: f64,
+        z: f64,
+        out: &mut [Row; COMPONENTS],
+    ) -> bool {
+        of_groups::<GRADIENT>(groups, rho, z, out)
+    }
+}
+
+for_each_processor! {
+    /// As [`nested_gradients`], with the second derivatives.
+    pub(super) fn nested_jets(groups: &[Edges<WIDTH>], rho: f64, z: f64, out: &mut [Row; COMPONENTS]) -> bool {
+        of_groups::<HESSIAN>(groups, rho, z, out)
+    }
+}
+
 /// The components up to the order `ORDER`, to be called by functions that are compiled for several processors; `apart` is
 /// lowered to a number that is negative or NaN where a lane is too near to an edge.
 #[inline(always)]
@@ -96,19 +115,41 @@ fn of_edges<const ORDER: u8, const STEPS: u32>(
     let mut excess = Lanes(*apart);
     for [radius, position, strength] in edges {
         let place = Place::new(Lanes::all(*radius), Lanes(*z) - *position, Lanes(*rho));
-        let kc = place.complement();
         excess = excess.min(place.excess(least));
-        let ratio = [place.difference * place.inverse_far, place.sum * place.inverse_far];
-        let integrals = Integrals::with_steps::<STEPS>(place.parameter(), kc, ratio);
-        let parts = rows(&place.components::<ORDER, true>(&integrals));
-        let count = if ORDER == HESSIAN { COMPONENTS } else { 4 };
-        for (row, part) in out.iter_mut().zip(parts).take(count) {
-            for (entry, value) in row.iter_mut().zip(part.0) {
-                *entry += strength * value;
-            }
-        }
+        add::<ORDER, STEPS>(&place, &[*strength; WIDTH], out);
     }
     *apart = excess.0;
+}
+
+#[inline(always)]
+fn of_groups<const ORDER: u8>(
+    groups: &[Edges<WIDTH>],
+    rho: f64,
+    z: f64,
+    out: &mut [Row; COMPONENTS],
+) -> bool {
+    *out = [[0.0; WIDTH]; COMPONENTS];
+    let mut excess = Lanes::all(f64::MAX);
+    for group in groups {
+        let place = Place::new(Lanes(group.radius), z - Lanes(group.position), Lanes::all(rho));
+        excess = excess.min(place.excess(EXACT.1));
+        add::<ORDER, { EXACT.0 }>(&place, &group.strength, out);
+    }
+    excess.0.iter().all(|excess| *excess >= 0.0)
+}
+
+/// Adds the components at these places, each weighted with its strength (T).
+#[inline(always)]
+fn add<const ORDER: u8, const STEPS: u32>(place: &Place<WIDTH>, strength: &Row, out: &mut [Row; COMPONENTS]) {
+    let ratio = [place.difference * place.inverse_far, place.sum * place.inverse_far];
+    let integrals = Integrals::with_steps::<STEPS>(place.parameter(), place.complement(), ratio);
+    let parts = rows(&place.components::<ORDER, true>(&integrals));
+    let count = if ORDER == HESSIAN { COMPONENTS } else { 4 };
+    for (row, part) in out.iter_mut().zip(parts).take(count) {
+        for ((entry, value), strength) in row.iter_mut().zip(part.0).zip(strength) {
+            *entry += strength * value;
+        }
+    }
 }
 
 #[inline(always)]

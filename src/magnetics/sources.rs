@@ -5,7 +5,6 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::assembly::Assembly;
-use super::overlap::depth;
 use crate::error::Error;
 use crate::geometry::Pose;
 
@@ -25,6 +24,17 @@ pub enum SourceName {
     Magnet(usize),
     /// A coil.
     Coil(usize),
+}
+
+impl SourceName {
+    /// Its body of this number, counted from 0, in words: magnets have several, a coil is one.
+    #[must_use]
+    pub fn body(&self, number: usize) -> String {
+        match self {
+            Self::Magnet(_) => format!("cylinder {} of {self}", number + 1),
+            Self::Coil(_) => self.to_string(),
+        }
+    }
 }
 
 /// Counted from 1, as in scene files and in the FMU.
@@ -104,13 +114,7 @@ impl Sources {
                     continue;
                 }
                 let seen = there.seen_from(&here);
-                let bodies = first.outlines().flat_map(|(one, place)| {
-                    second.outlines().map(move |(other, at)| {
-                        let other_place = seen.transform(&at) - place;
-                        depth(&one, &other, &Pose { position: other_place, ..seen })
-                    })
-                });
-                let deepest = bodies.fold(0.0, f64::max);
+                let deepest = first.depth_in(second, &seen);
                 if deepest > 0.0 {
                     let (one, other) = (self.name(before), self.name(number));
                     let depth = 1e3 * deepest;

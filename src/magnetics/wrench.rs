@@ -98,11 +98,11 @@ impl Assembly {
     }
 }
 
-fn check_accuracy(accuracy: f64) -> Result<f64, Error> {
+pub(super) fn check_accuracy(accuracy: f64) -> Result<f64, Error> {
     check("accuracy of the wrench", accuracy, |v| (FINEST..=0.1).contains(&v), "from 1e-12 to 0.1")
 }
 
-/// Refines the rule, from one level below the expected one, until the error estimated from two levels is small enough.
+/// The wrench by the charges on the faces of `body`, as accurate as asked for.
 fn adaptive(
     body: &AxialSource,
     pose: &Pose,
@@ -110,17 +110,32 @@ fn adaptive(
     distance: f64,
     field: impl Fn(&Vector3<f64>) -> Result<Vector3<f64>, Error>,
 ) -> Result<Wrench, Error> {
-    let ratio = (body.outer_radius().hypot(0.5 * body.length()) / distance).clamp(1e-6, 0.75);
+    let ratio = body.outer_radius().hypot(0.5 * body.length()) / distance;
+    refined(ratio, body.outer_radius(), accuracy, |rule| on_faces(body, pose, rule, &field))
+}
+
+/// Refines a rule, from one level below the expected one, until the error estimated from two levels is small enough.
+///
+/// `ratio` is the body's extent over the distance from its centre to the other one, and `radius` (m) what torques are compared
+/// with; `by` gives the wrench by a rule of so many nodes along the radius and around, and the sum of the magnitudes of its
+/// terms, N.
+pub(super) fn refined(
+    ratio: f64,
+    radius: f64,
+    accuracy: f64,
+    by: impl Fn((usize, usize)) -> Result<(Wrench, f64), Error>,
+) -> Result<Wrench, Error> {
+    let ratio = ratio.clamp(1e-6, 0.75);
     let expected = |&(_, around): &(usize, usize)| ratio.powi(i32::try_from(around).unwrap_or(i32::MAX));
     let enough = LADDER.iter().position(|rung| expected(rung) <= accuracy).unwrap_or(LADDER.len() - 1);
     let start = enough.saturating_sub(1);
-    let (mut coarse, _) = on_faces(body, pose, LADDER[start], &field)?;
+    let (mut coarse, _) = by(LADDER[start])?;
     let mut reached = f64::INFINITY;
     for step in LADDER[start..].windows(2) {
-        let (fine, size) = on_faces(body, pose, step[1], &field)?;
+        let (fine, size) = by(step[1])?;
         // The difference estimates the error of the coarse rule; the fine one's exponent is larger by the ratio of the
         // nodes around.
-        let difference = relative_difference(&coarse, &fine, size, body.outer_radius());
+        let difference = relative_difference(&coarse, &fine, size, radius);
         let gain = step[1].1 as f64 / step[0].1 as f64;
         reached = difference.min(10.0 * difference.powf(gain));
         if reached <= accuracy.max(FINEST) {

@@ -200,6 +200,29 @@ impl Manipulator {
         &self.outputs
     }
 
+    /// Computes the wrench of the magnets and coils on one another at the last solved inputs and stores it in the outputs, unless it
+    /// is there already.
+    ///
+    /// ```
+    /// use mcm::manipulator::Scene;
+    /// let scene = Scene::parse("[[magnet]]\n[[magnet]]\nposition_mm = [0.0, 150.0, 23.0]", "example")?;
+    /// let mut manipulator = scene.manipulator(2)?;
+    /// manipulator.solve(&scene.inputs)?;
+    /// let [first, second] = manipulator.measure_mutual_wrenches()?.mutual_wrenches[..] else { panic!() };
+    /// assert!((first.force + second.force).norm() < 1e-12 && first.force.norm() > 1.0);
+    /// # Ok::<(), mcm::error::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Sources::mutual_wrenches`]: sources that almost touch.
+    pub fn measure_mutual_wrenches(&mut self) -> Result<&Outputs, Error> {
+        let model = self.hierarchy.present();
+        if let Some(inputs) = model.inputs().filter(|_| self.outputs.mutual_wrenches.is_empty()) {
+            self.outputs.mutual_wrenches = inputs.mutual_wrenches(model.sources())?;
+        }
+        Ok(&self.outputs)
+    }
+
     /// Derivatives of all outputs with respect to all inputs at the last solved shape; see [`Jacobian`].
     ///
     /// The state is not changed, and neither is the next solve. Example: the actuation Jacobian of a magnet held by a robot

@@ -43,6 +43,9 @@ pub struct Outputs {
     pub magnet_reaction_torque: Vector3<f64>,
     /// Wrench on each further magnet and coil about its centre, N and N m, in the order of [`crate::magnetics::Sources::further`].
     pub further_reactions: Vec<Wrench>,
+    /// Wrench of all other magnets and coils on each, the external magnet first, about its centre, N and N m; empty until
+    /// [`super::Manipulator::measure_mutual_wrenches`] computes them.
+    pub mutual_wrenches: Vec<Wrench>,
     /// External field at the tip, T.
     pub tip_field: Vector3<f64>,
     /// Unstrained arc length of the shape points, m; first at the base, last at the tip.
@@ -122,6 +125,7 @@ impl Outputs {
             magnet_reaction_force: zero,
             magnet_reaction_torque: zero,
             further_reactions: Vec::new(),
+            mutual_wrenches: Vec::new(),
             tip_field: zero,
             shape_arc_length,
             shape,
@@ -155,6 +159,7 @@ impl Outputs {
         let base = solution.base_reaction();
         (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
         let magnet = solution.source_reaction(0, inputs);
+        self.mutual_wrenches.clear();
         self.further_reactions.clear();
         let further = (1..=inputs.further.len()).map(|number| solution.source_reaction(number, inputs));
         self.further_reactions.extend(further);

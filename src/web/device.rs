@@ -10,7 +10,7 @@ use crate::fmi::Package;
 use crate::fmi::log::Log;
 use crate::fmi::state::{Ending, Interface, State};
 use crate::fmi::value::Value;
-use crate::fmi::variable::Causality;
+use crate::fmi::variable::{Availability, Causality};
 use crate::manipulator::SceneFile;
 use crate::vessel::{DistanceGrid, Lumen};
 
@@ -152,7 +152,7 @@ impl Device {
     }
 
     /// All outputs, SI; not a number where there is none yet. After a step that failed they are the last good ones. The stability
-    /// margin is an upper bound until [`Device::measure`].
+    /// margin is an upper bound until [`Device::measure`], and the wrench of magnets and coils on one another is not a number.
     #[must_use]
     pub fn outputs(&self) -> Vec<f64> {
         let table = self.package.table();
@@ -160,10 +160,13 @@ impl Device {
         self.outputs.iter().map(|at| value(at).unwrap_or(f64::NAN)).collect()
     }
 
-    /// Computes the stability margin of the last shape, which takes as long as some steps; false where there is no shape.
+    /// Computes what is computed only on request, the stability margin of the last shape above all, which takes as long as some steps;
+    /// false where there is no shape.
     pub fn measure(&mut self) -> bool {
-        let margin = self.package.table().reference("stability.margin");
-        margin.is_some_and(|margin| self.instance.get(&[margin], "Real", Value::real).is_ok())
+        let variables = (0..).zip(self.package.table().variables());
+        let on_request = variables.filter(|(_, row)| matches!(row.availability, Availability::OnRequest(_)));
+        let references: Vec<u32> = on_request.map(|(reference, _)| reference).collect();
+        self.instance.get(&references, "Real", Value::real).is_ok()
     }
 
     /// What the device has said since the last question, a line each: why a call failed, that it snapped, that a fold is near.

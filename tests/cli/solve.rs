@@ -345,3 +345,18 @@ fn a_bent_shape_without_load_is_explained() {
     let answer = json("rest json", "[design]\nsegments = 3", 0);
     assert!(answer.as_object().unwrap().keys().all(|key| !key.contains("note") || key == "jacobian_note"));
 }
+
+#[test]
+fn the_wrench_of_sources_on_one_another_is_told_where_it_is_asked_for() {
+    let scene = "[design]\nsegments = 1\n[[magnet]]\n[[magnet]]\nposition_mm = [0, 150, 3]\n[model]\ninteraction = \"none\"\n";
+    let answer = json("sources", scene, 0);
+    assert!(answer["mutual_forces_n"].is_null() && answer["magnet_reaction_force_n"].is_array());
+    let asked = format!("{scene}mutual_wrenches = true\n");
+    let answer = json("mutual", &asked, 0);
+    let force = |number: usize| answer["mutual_forces_n"][number][1].as_f64().unwrap();
+    // Side by side and parallel, they repel.
+    assert!(force(1) > 0.1 && (force(0) + force(1)).abs() < 1e-12, "{} {}", force(0), force(1));
+    assert_eq!(answer["mutual_torques_nm"].as_array().unwrap().len(), 2);
+    let (_, output) = with_scene("mutual table", &asked, &["solve", "scene.toml"]);
+    assert!(stdout(&output).contains("force on 2 by others"), "{}", stdout(&output));
+}

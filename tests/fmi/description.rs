@@ -132,6 +132,36 @@ fn elements_of_vectors_say_what_they_are_and_in_which_frame() {
     assert!(!described("design.spiral_start[3]").contains("frame"));
 }
 
+#[test]
+fn inputs_have_the_bounds_that_the_fmu_holds_them_to() {
+    let scene = "[design]\nsegments = 1\n[feed]\nmode = \"insertion\"\n[feed.shaft]\nouter_radius_mm = 0.7\n\
+                 inner_radius_mm = 0.3\nshore_a = 40.0\npoisson = 0.4\n[guidewire]\nradius_mm = 0.2\n\
+                 elastic_modulus_mpa = 1000.0\n[[coil]]\nposition_mm = [0, 80, 0]\ninner_radius_mm = 10\n\
+                 outer_radius_mm = 20\nlength_mm = 20\nturns = 100";
+    let package = Package::new(scene, "bounds", 3).unwrap();
+    let table = package.table();
+    for (name, bounds) in [
+        ("magnet.orientation[1]", Some([-1.0, 1.0])),
+        ("base.orientation[4]", Some([-1.0, 1.0])),
+        ("coil[1].orientation[2]", Some([-1.0, 1.0])),
+        ("feed.insertion", Some([0.0, 1.0])),
+        ("guidewire.insertion", Some([0.0, 2.0])),
+        ("magnet.position[1]", None),
+        ("coil[1].current", None),
+    ] {
+        let variable = table.find(table.reference(name).unwrap()).unwrap();
+        assert_eq!(variable.min.zip(variable.max).map(|(min, max)| [min, max]), bounds, "{name}");
+    }
+    let text = package.model_description(None).unwrap();
+    for (name, attributes) in
+        elements(&text).iter().filter(|(name, _)| name == "SimpleType" || name == "Real")
+    {
+        let nominal =
+            attribute(attributes, "nominal").is_some() || attribute(attributes, "declaredType").is_some();
+        assert!(name == "SimpleType" || nominal, "{attributes:?}");
+    }
+}
+
 /// Names of the inputs and parameters on which a variable depends, with the kind of each dependency.
 fn dependencies(scene: &str, output: &str) -> Vec<(String, &'static str)> {
     let package = Package::new(scene, "test scene", 3).unwrap();

@@ -46,6 +46,43 @@ fn further_sources_are_moved_and_answer() {
 }
 
 #[test]
+fn the_wrench_on_one_another_is_told_where_it_is_asked_for() {
+    let (_, table, _) = initialised(SCENE);
+    assert!(table.reference("magnet.mutual_force[1]").is_none(), "not asked for");
+    let (mut instance, table, told) = initialised(&format!("{SCENE}mutual_wrenches = true\n"));
+    let force = |instance: &mut mcm::fmi::Instance| {
+        ["magnet", "magnet[2]", "coil[1]"]
+            .map(|of| [1, 2, 3].map(|axis| get(instance, &table, &format!("{of}.mutual_force[{axis}]"))))
+    };
+    let before = force(&mut instance);
+    for axis in 0..3 {
+        let sum: f64 = before.iter().map(|own| own[axis]).sum();
+        assert!(sum.abs() < 1e-12, "{before:?}");
+    }
+    assert!(before[0][0].abs() > 1e-3, "{before:?}");
+    assert!(get(&mut instance, &table, "coil[1].mutual_torque[1]").abs() > 1e-6);
+    // The force on a coil is proportional to its current, also where nothing has stepped in between.
+    assert_eq!(set(&mut instance, &table, "coil[1].current", 3.0), Ending::Ok);
+    let after = force(&mut instance);
+    for (before, after) in before[2].iter().zip(after[2]) {
+        assert!((after - 2.0 * before).abs() < 1e-9 * before.abs().max(1e-6), "{before} {after}");
+    }
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok, "{}", last(&told));
+    assert_eq!(force(&mut instance), after);
+    // It depends on magnets and coils alone.
+    let output = table.find(reference(&table, "magnet[2].mutual_force[1]")).unwrap();
+    let depends = |name: &str| output.depends_on(table.find(reference(&table, name)).unwrap()).is_some();
+    for name in
+        ["magnet.position[2]", "magnet.strength", "coil[1].current", "magnet.design.cylinder[1].radius"]
+    {
+        assert!(depends(name), "{name}");
+    }
+    for name in ["base.position[1]", "field.uniform[1]", "design.ring.length", "tip.load_force[1]"] {
+        assert!(!depends(name), "{name}");
+    }
+}
+
+#[test]
 fn their_derivatives_are_those_of_solves_beside() {
     for (name, step) in [
         ("magnet[2].position[2]", 1e-4),

@@ -189,3 +189,26 @@ fn where_multipoles_say_nothing_there_is_no_field() {
     assert!(IronCore::new(0.0, &[1e-7]).unwrap_err().to_string().contains("coil reach (m) = 0"));
     assert!(IronCore::new(0.05, &[f64::NAN]).is_err() && IronCore::new(0.05, &[0.0; 3]).is_err());
 }
+
+/// Solenoids side by side are the sum of the same, one by one.
+#[test]
+fn edges_side_by_side_are_those_one_by_one() {
+    let coil = coil();
+    // In the bore, beside the winding, close to its corner, where edges are evaluated one by one, and as far as multipoles serve.
+    for point in [
+        [0.0, 0.0, 0.0],
+        [0.006, -0.009, 0.021],
+        [0.0, 0.05, 0.01],
+        [0.0405, 0.0, 0.0305],
+        [0.06, 0.03, 0.05],
+        [0.15, -0.1, 0.12],
+        [0.3, 0.2, -0.5],
+    ] {
+        let (point, mut several) = (Vector3::from(point), Vec::new());
+        coil.field_gradients(&[point], &mut several).unwrap();
+        let [(field, gradient)] = several[..] else { panic!("one point") };
+        let found = coil.field_gradient(&point).unwrap();
+        assert!((found.0 - field).norm() < 1e-11 * field.norm(), "{point} {field} {}", found.0);
+        assert!((found.1 - gradient).norm() < 1e-10 * gradient.norm().max(field.norm()), "{point}");
+    }
+}

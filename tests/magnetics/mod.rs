@@ -8,6 +8,7 @@ pub(crate) mod face_integral;
 mod field;
 mod material;
 mod multipoles;
+mod mutual;
 mod overlap;
 mod pair_table;
 mod reference;

@@ -17,7 +17,7 @@ SCENES = {
     "cylinder": '[design]\nkind = "cylinder"\nlength_mm = 20.0\nradius_mm = 1.0\nshore_a = 33.0',
     "sources": "[design]\nsegments = 1\n[[magnet]]\n[[magnet]]\nposition_mm = [150.0, 0.0, 0.0]\n"
     "[[coil]]\nposition_mm = [0.0, 90.0, 0.0]\ninner_radius_mm = 20.0\nouter_radius_mm = 40.0\nlength_mm = 60.0\n"
-    "turns = 600\ncurrent_a = 1.0",
+    "turns = 600\ncurrent_a = 1.0\n[model]\nmutual_wrenches = true",
     "backbone": "[design]\nsegments = 2\n[design.backbone]\nouter_radius_mm = 0.7\ninner_radius_mm = 0.25\n"
     "shore_a = 50.0\npoisson = 0.4",
 }

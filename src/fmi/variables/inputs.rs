@@ -2,7 +2,7 @@
 
 use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
-use super::super::units::{FIELD, FORCE, GRADIENT, MOMENT, POSITION, QUATERNION, RATIO};
+use super::super::units::{FIELD, FORCE, GRADIENT, MOMENT, POSITION, RATIO};
 use super::rows::{Draft, Rows};
 use super::{Counts, access};
 use crate::manipulator::Input;
@@ -12,18 +12,21 @@ impl Rows {
         let position = access!(|values, index| values.magnet.position[index.component]);
         let draft =
             Draft::input("magnet.position", POSITION, "Centre of the external magnet assembly", position);
-        self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::MagnetPosition)));
+        let draft = draft.derivative_role(DerivativeRole::Input(Input::MagnetPosition));
+        self.array(3, &draft.known(Known::Source));
 
         let orientation = access!(|values, index| values.magnet.orientation[index.component]);
         let description =
             "Orientation of the external magnet assembly, whose dipole axis is its z, as a unit quaternion";
-        let draft = Draft::input("magnet.orientation", QUATERNION, description, orientation);
-        self.array(4, &draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation)));
+        let draft = Draft::orientation("magnet.orientation", description, orientation);
+        let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation));
+        self.array(4, &draft.known(Known::Source));
 
         let strength = access!(|values| values.magnet_strength);
         let description = "Factor on the external magnet's field; 0 switches it off";
         let draft = Draft::input("magnet.strength", RATIO, description, strength);
-        self.scalar(draft.derivative_role(DerivativeRole::Input(Input::MagnetStrength)));
+        let draft = draft.derivative_role(DerivativeRole::Input(Input::MagnetStrength));
+        self.scalar(draft.known(Known::Source));
 
         let uniform = access!(|values, index| values.uniform_field[index.component]);
         let draft = Draft::input("field.uniform", FIELD, "Uniform background field", uniform);
@@ -46,7 +49,7 @@ impl Rows {
 
         let orientation = access!(|values, index| values.base.orientation[index.component]);
         let description = "Orientation of the clamped base as a unit quaternion";
-        let draft = Draft::input("base.orientation", QUATERNION, description, orientation);
+        let draft = Draft::orientation("base.orientation", description, orientation);
         let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::BaseRotation));
         self.array(4, &draft.known(Known::BaseOrientation));
     }

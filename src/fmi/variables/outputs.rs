@@ -6,7 +6,7 @@ use super::super::units::{
     ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
 };
 use super::super::value::DataType;
-use super::super::variable::{Access, Availability, Index};
+use super::super::variable::{Access, Availability, Index, Request};
 use super::Counts;
 use super::parameters::INTERACTION;
 use super::rows::{Draft, Rows};
@@ -190,7 +190,7 @@ impl Rows {
         let description =
             "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold";
         let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
-        self.scalar(margin.availability(Availability::OnRequest));
+        self.scalar(margin.availability(Availability::OnRequest(Request::Margin)));
         let snaps =
             integer("stability.snaps", "Jumps to another branch since initialisation", |o| count(o.snaps));
         self.scalar(snaps.min(0.0).availability(Availability::Always));

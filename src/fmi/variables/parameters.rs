@@ -1,5 +1,6 @@
 //! Parameters of external magnet, gravity and model.
 
+use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
 use super::super::units::{ACCELERATION, ANGLE, LENGTH, REMANENCE, TIME};
@@ -41,7 +42,7 @@ impl Rows {
         let mut row = |part: &str, quantity, description, min: Option<f64>, access| {
             let name = format!("magnet.design.cylinder[{}].{part}", item + 1);
             let draft = Draft::parameter(name, quantity, description, access);
-            self.scalar_of(item, min.into_iter().fold(draft, Draft::min));
+            self.scalar_of(item, min.into_iter().fold(draft, Draft::min).known(Known::Source));
         };
         let radius = access!(|values, index| values.magnets[index.item].radius);
         row("radius", LENGTH, "Outer radius", Some(0.0), radius);

@@ -2,7 +2,7 @@
 
 use super::super::dependency::{Dependency, Known};
 use super::super::derivative_role::DerivativeRole;
-use super::super::units::Quantity;
+use super::super::units::{QUATERNION, Quantity};
 use super::super::value::{DataType, Value};
 use super::super::variable::{Access, Availability, Causality, Index, Variability, Variable};
 
@@ -54,6 +54,11 @@ impl Draft {
     ) -> Self {
         let row = Self::new(name, quantity.into(), description, access);
         row.tagged(Causality::Input, Variability::Continuous)
+    }
+
+    /// An input that is a component of a unit quaternion.
+    pub(super) fn orientation(name: impl Into<String>, description: &str, access: Access) -> Self {
+        Self::input(name, QUATERNION, description, access).min(-1.0).max(1.0)
     }
 
     /// A fixed parameter.

@@ -1,8 +1,10 @@
-//! Further magnets and coils: their poses and strengths, and the wrenches on them.
+//! Further magnets and coils: their poses and strengths, the wrenches on them, and those of all sources on one another.
 
+use super::super::dependency::{Dependency, Known};
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
-use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, QUATERNION, RATIO};
+use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, RATIO};
+use super::super::variable::{Availability, Request};
 use super::access;
 use super::outputs::real;
 use super::rows::{Draft, Rows};
@@ -20,14 +22,14 @@ impl Rows {
                 position,
             );
             let role = DerivativeRole::Input(Input::SourcePosition(number));
-            self.array_of(number, 3, &draft.derivative_role(role));
+            self.array_of(number, 3, &draft.derivative_role(role).known(Known::Source));
 
             let orientation =
                 access!(|values, index| values.further[index.item].pose.orientation[index.component]);
             let description = format!("Orientation of the {what}, whose axis is its z, as a unit quaternion");
-            let draft = Draft::input(format!("{name}.orientation"), QUATERNION, &description, orientation);
+            let draft = Draft::orientation(format!("{name}.orientation"), &description, orientation);
             let role = DerivativeRole::InputQuaternion(Input::SourceRotation(number));
-            self.array_of(number, 4, &draft.derivative_role(role));
+            self.array_of(number, 4, &draft.derivative_role(role).known(Known::Source));
 
             let strength = access!(|values, index| values.further[index.item].strength);
             let (last, quantity, description) = if is_coil {
@@ -41,7 +43,7 @@ impl Rows {
             };
             let draft = Draft::input(format!("{name}.{last}"), quantity, description, strength);
             let role = DerivativeRole::Input(Input::SourceStrength(number));
-            self.scalar_of(number, draft.derivative_role(role));
+            self.scalar_of(number, draft.derivative_role(role).known(Known::Source));
         }
     }
 
@@ -61,6 +63,28 @@ impl Rows {
             });
             let role = DerivativeRole::Output(Output::SourceReactionTorque(number));
             self.array_of(number, 3, &draft.continuous(role));
+        }
+        if start.settings.mutual_wrenches {
+            self.mutual_wrenches(start);
+        }
+    }
+
+    fn mutual_wrenches(&mut self, start: &HostValues) {
+        let further = start.source_names().map(|(name, _)| name);
+        for (number, name) in std::iter::once("magnet".to_owned()).chain(further).enumerate() {
+            let mut add = |draft: Draft| {
+                let draft = draft.availability(Availability::OnRequest(Request::MutualWrenches));
+                self.array_of(number, 3, &draft.dependency(Dependency::Sources));
+            };
+            let what = if name.starts_with("coil") { "coil" } else { "magnet" };
+            let description = format!("Force of all other magnets and coils on the {what}");
+            add(real(format!("{name}.mutual_force"), FORCE, &description, |o, index| {
+                o.mutual_wrenches.get(index.item).map_or(f64::NAN, |wrench| wrench.force[index.component])
+            }));
+            let description = format!("Torque of all other magnets and coils on the {what} about its centre");
+            add(real(format!("{name}.mutual_torque"), MOMENT, &description, |o, index| {
+                o.mutual_wrenches.get(index.item).map_or(f64::NAN, |wrench| wrench.torque[index.component])
+            }));
         }
     }
 }

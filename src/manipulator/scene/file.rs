@@ -218,6 +218,8 @@ pub(super) struct ModelEntries {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) bending_stop: Option<bool>,
     pub(super) time_budget_s: f64,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(super) mutual_wrenches: bool,
 }
 
 impl Default for ModelEntries {
@@ -227,6 +229,7 @@ impl Default for ModelEntries {
             method: Method::Potential,
             bending_stop: None,
             time_budget_s: Settings::default().time_budget,
+            mutual_wrenches: false,
         }
     }
 }

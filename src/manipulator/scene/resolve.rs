@@ -187,9 +187,10 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Result<Settings, Error> {
-        let ModelEntries { interaction, method: _, bending_stop, time_budget_s } = self.model;
+        let ModelEntries { interaction, method: _, bending_stop, time_budget_s, mutual_wrenches } =
+            self.model;
         let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
-        Ok(Settings { interaction, bending_stop, time_budget, ..Settings::default() })
+        Ok(Settings { interaction, bending_stop, time_budget, mutual_wrenches, ..Settings::default() })
     }
 }
 

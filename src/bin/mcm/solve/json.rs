@@ -1,6 +1,7 @@
 //! The report of a solve as JSON, in SI units.
 
 use mcm::error::Error;
+use mcm::magnetics::Wrench;
 use mcm::manipulator::{Jacobian, Outputs};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
@@ -43,10 +44,18 @@ pub(super) fn as_json(
         ("energy_j", json!(outputs.energy)),
         ("error_estimate_m", json!(outputs.error_estimate)),
     ];
-    let found = shape(outputs).into_iter().chain(judged);
+    let mutual = mutual_wrenches(outputs).into_iter().flatten();
+    let found = shape(outputs).into_iter().chain(mutual).chain(judged);
     let found = found.map(|(key, value)| (key, if converged { value } else { Value::Null }));
     let uncertainty = uncertainty.map(|told| ("uncertainty", told));
     found.chain(search).chain(uncertainty).map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+/// The wrench of magnets and coils on one another, where it is asked for.
+fn mutual_wrenches(outputs: &Outputs) -> Option<[(&'static str, Value); 2]> {
+    let all = Some(&outputs.mutual_wrenches).filter(|all| !all.is_empty())?;
+    let list = |of: fn(&Wrench) -> Vector3<f64>| all.iter().map(|own| json!(of(own).as_slice())).collect();
+    Some([("mutual_forces_n", list(|own| own.force)), ("mutual_torques_nm", list(|own| own.torque))])
 }
 
 /// The shape found and its forces.

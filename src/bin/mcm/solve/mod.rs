@@ -82,7 +82,11 @@ impl Solve {
             doing.then("drawing");
             picture.draw(&self.scene.display().to_string(), &scene, outputs)?;
         }
-        let outputs = outputs.clone();
+        let mut outputs = outputs.clone();
+        if scene.settings.mutual_wrenches {
+            doing.then("the wrench of magnets and coils on one another");
+            outputs.mutual_wrenches = scene.inputs.mutual_wrenches(&scene.sources()?)?;
+        }
         let (told, untold) = match manipulator.manipulator().filter(|_| self.uncertainty) {
             Some(manipulator) => {
                 doing.then("bands of the outputs");

@@ -1,6 +1,7 @@
 //! The report of a solve as a table for people.
 
 use mcm::manipulator::{Outputs, Status};
+use nalgebra::Vector3;
 
 use super::quantities::quantities;
 use super::uncertainty::Told;
@@ -48,6 +49,14 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
         let numbers: Vec<String> =
             quantity.components.iter().map(|number| format!("{number:>12.4}")).collect();
         out += &row(&quantity.name, &numbers.concat(), &unit);
+    }
+    for (number, wrench) in (1..).zip(&outputs.mutual_wrenches) {
+        let mut add = |what: &str, vector: &Vector3<f64>, factor: f64, unit: &str| {
+            let numbers: Vec<String> = vector.iter().map(|v| format!("{:>12.4}", v * factor)).collect();
+            out += &row(&format!("{what} {number} by others"), &numbers.concat(), unit);
+        };
+        add("force on", &wrench.force, 1.0, "N, of the other magnets and coils");
+        add("torque on", &wrench.torque, 1e3, "N.mm, about its centre");
     }
     if let Some(wall) = &outputs.wall {
         out += &row("contacts with the wall", &wall.count.to_string(), "");
