@@ -7,6 +7,7 @@ mod multipoles;
 mod names;
 mod path;
 mod pose;
+mod ranges;
 mod resolve;
 mod sources;
 mod spiral_start;

@@ -6,7 +6,8 @@ use toml::Value;
 use super::file::{
     DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
 };
-use super::pose::{LARGEST_TURN, in_metres, pose, turn, turned};
+use super::pose::{in_metres, pose, turn, turned};
+use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TIME_BUDGET, TURN};
 use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
@@ -133,8 +134,8 @@ impl SceneFile {
             inputs.feed_force = (feed.mode == FeedMode::Force).then(|| feed.force_n.unwrap_or(0.0));
         }
         if let Some(wire) = &self.guidewire {
-            let (key, reach) = ("guidewire.insertion_mm", |v| (0.0..=2000.0).contains(&v));
-            inputs.guidewire_insertion = check(key, wire.insertion_mm, reach, "from 0 to 2000")? / MM_PER_M;
+            let reach = GUIDEWIRE_INSERTION.check("guidewire.insertion_mm", wire.insertion_mm)?;
+            inputs.guidewire_insertion = reach / MM_PER_M;
         }
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
@@ -155,8 +156,7 @@ impl SceneFile {
     /// The shaft that is pushed in: its own table, or the backbone that goes on behind the base.
     fn shaft(&self, specification: &Specification) -> Result<Option<Backbone>, Error> {
         let Some(feed) = &self.feed else { return Ok(None) };
-        let turn = |v: f64| v.abs() <= LARGEST_TURN;
-        check("feed.roll_deg", feed.roll_deg, turn, "from -36000 to 36000")?;
+        TURN.check("feed.roll_deg", feed.roll_deg)?;
         if let Some(force) = feed.force_n.filter(|_| feed.mode != FeedMode::Force) {
             check("feed.force_n", force, |v| v == 0.0, "0 unless feed.mode = \"force\"")?;
         }
@@ -174,7 +174,7 @@ impl SceneFile {
                 None => Ok(None),
             };
         }
-        check("feed.insertion_mm", feed.insertion_mm, |v| (0.0..=1000.0).contains(&v), "from 0 to 1000")?;
+        INSERTION.check("feed.insertion_mm", feed.insertion_mm)?;
         if let Some(shaft) = feed.shaft {
             return Ok(Some(shaft.si("feed.shaft")?));
         }
@@ -188,7 +188,7 @@ impl SceneFile {
 
     fn settings(&self) -> Result<Settings, Error> {
         let ModelEntries { interaction, method: _, bending_stop, time_budget_s } = self.model;
-        let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
+        let time_budget = TIME_BUDGET.check("model.time_budget_s", time_budget_s)?;
         Ok(Settings { interaction, bending_stop, time_budget, ..Settings::default() })
     }
 }
