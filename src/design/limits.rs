@@ -67,7 +67,8 @@ pub const TUBE_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("its o
 pub const ROD_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("its radius");
 
 /// Radius of a guidewire, m.
-pub const GUIDEWIRE_RADIUS: Interval = Interval::above(0.0).less_than("the inner radii of the bodies that it is in");
+pub const GUIDEWIRE_RADIUS: Interval =
+    Interval::above(0.0).less_than("the inner radii of the bodies that it is in");
 
 /// Angle by which a spiral is turned about the axis, rad.
 pub const SPIRAL_START: Interval = Interval::within(TAU);

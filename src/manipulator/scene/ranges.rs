@@ -23,3 +23,19 @@ pub(super) const DEVIATION: Interval = Interval::above(0.0);
 
 /// Correlations of two numbers.
 pub(super) const CORRELATION: Interval = Interval::within(1.0);
+
+/// The keys that these ranges are of.
+#[cfg(test)]
+pub(super) const KEYS: [(&str, Interval); 11] = [
+    ("design.spiral_start_deg", SPIRAL_START),
+    ("field.turn_deg", TURN),
+    ("magnet.turn_deg", TURN),
+    ("base.turn_deg", TURN),
+    ("feed.roll_deg", TURN),
+    ("feed.insertion_mm", INSERTION),
+    ("guidewire.insertion_mm", GUIDEWIRE_INSERTION),
+    ("model.time_budget_s", TIME_BUDGET),
+    ("coil.multipoles", crate::magnetics::limits::COIL_MULTIPOLE),
+    ("uncertainty.*", DEVIATION),
+    ("correlation.*", CORRELATION),
+];
