@@ -40,7 +40,10 @@ fn unit(key: &str) -> &'static str {
 /// The node of an entry of a table, or of each of a list of tables, and whether it must be there.
 fn inside<'a>(node: &'a Value, key: &str) -> Option<(&'a Value, bool)> {
     if let Some(inside) = node["properties"].get(key) {
-        return Some((inside, node["required"].as_array().is_some_and(|keys| keys.iter().any(|own| own == key))));
+        return Some((
+            inside,
+            node["required"].as_array().is_some_and(|keys| keys.iter().any(|own| own == key)),
+        ));
     }
     let alternatives = node["anyOf"].as_array().into_iter().flatten();
     alternatives.chain(node.get("items")).find_map(|one| inside(one, key))
@@ -75,7 +78,8 @@ fn toml(value: &Value) -> String {
 
 /// The interval that a schema states.
 fn interval(node: &Value) -> Interval {
-    let bound = |including: &str, excluding: &str| match (node[including].as_f64(), node[excluding].as_f64()) {
+    let bound = |including: &str, excluding: &str| match (node[including].as_f64(), node[excluding].as_f64())
+    {
         (Some(limit), _) => Bound::Included(limit),
         (None, Some(limit)) => Bound::Excluded(limit),
         (None, None) => Bound::Unbounded,
@@ -134,7 +138,8 @@ fn row(key: &str, node: &Value, required: bool) -> String {
         None if required => "must be given".into(),
         None => String::new(),
     };
-    let mut meaning = node["description"].as_str().unwrap_or_else(|| panic!("no description of {key}")).to_owned();
+    let mut meaning =
+        node["description"].as_str().unwrap_or_else(|| panic!("no description of {key}")).to_owned();
     for choice in node["oneOf"].as_array().into_iter().flatten() {
         let own = choice["description"].as_str().unwrap_or_else(|| panic!("{choice} without description"));
         write!(meaning, "<br>`{}`: {own}", choice["const"].as_str().unwrap()).unwrap();
@@ -175,6 +180,11 @@ fn markdown(root: &Value, printed: &str) -> String {
             out += node["description"].as_str().unwrap_or_else(|| panic!("no description of {name}"));
             out += "\n";
         }
+        match (node["minItems"].as_u64().filter(|_| listed), node["maxItems"].as_u64().filter(|_| listed)) {
+            (Some(0), Some(most)) => writeln!(out, "\nAt most {most}.").unwrap(),
+            (Some(least), Some(most)) => writeln!(out, "\nFrom {least} to {most}.").unwrap(),
+            _ => {}
+        }
         let each = &node["additionalProperties"];
         if each.is_object() {
             writeln!(out, "\nAllowed: {}.", allowed(each)).unwrap();
@@ -198,7 +208,10 @@ fn reference_is_that_of_the_code() {
     if std::env::var_os("MCM_WRITE").is_some() {
         std::fs::write(PAGE, format!("{before}{BEGIN}{made}\n{END}{after}")).unwrap();
     } else {
-        assert!(kept == format!("{made}\n"), "{PAGE} differs: MCM_WRITE=1 cargo test --release --test mcm reference");
+        assert!(
+            kept == format!("{made}\n"),
+            "{PAGE} differs: MCM_WRITE=1 cargo test --release --test mcm reference"
+        );
     }
 }
 
@@ -223,9 +236,7 @@ fn every_key_of_the_schema_has_a_description_and_is_shown() {
     let printed = tables(&stdout(&mcm(&folder("reference_keys"), &["init"])));
     let shown: Vec<String> = printed
         .iter()
-        .flat_map(|(table, keys)| {
-            keys.iter().map(move |key| format!("{table}.{key}")).chain([table.clone()])
-        })
+        .flat_map(|(table, keys)| keys.iter().map(move |key| format!("{table}.{key}")).chain([table.clone()]))
         .collect();
     for key in &all {
         assert!(shown.contains(key), "mcm init does not show {key}");

@@ -10,10 +10,13 @@ use toml::{Table, Value};
 const JUST: f64 = 1e-6;
 
 /// Tables that are in the scene while a key of theirs, or of tables inside, is tried; the first that fits counts.
-const SURROUNDINGS: [(&str, &str); 11] = [
+const SURROUNDINGS: [(&str, &str); 12] = [
     ("design.helix.", ""),
     ("design.ring.", ""),
-    ("design.backbone.", "[design.backbone]\nouter_radius_mm = 0.5\ninner_radius_mm = 0.1\nshore_a = 40.0\npoisson = 0.45"),
+    (
+        "design.backbone.",
+        "[design.backbone]\nouter_radius_mm = 0.5\ninner_radius_mm = 0.1\nshore_a = 40.0\npoisson = 0.45",
+    ),
     ("design.segments", ""),
     ("design.spiral_start_deg", ""),
     ("design.", "[design]\nkind = \"cylinder\"\nlength_mm = 40.0\nradius_mm = 2.0"),
@@ -31,8 +34,12 @@ const SURROUNDINGS: [(&str, &str); 11] = [
         "[magnet]\n[[magnet.cylinders]]\nradius_mm = 20.0\ninner_radius_mm = 1.0\nlength_mm = 30.0\noffset_mm = 0.0\nremanence_t = 1.0",
     ),
     (
-        "coil",
+        "coil.reach_mm",
         "[[coil]]\nposition_mm = [0.0, 200.0, 0.0]\ninner_radius_mm = 20.0\nouter_radius_mm = 40.0\nlength_mm = 60.0\nturns = 100.0\nmultipoles = [1e-7]",
+    ),
+    (
+        "coil.",
+        "[[coil]]\nposition_mm = [0.0, 200.0, 0.0]\ninner_radius_mm = 20.0\nouter_radius_mm = 40.0\nlength_mm = 60.0\nturns = 100.0",
     ),
 ];
 
@@ -76,7 +83,8 @@ fn scene(path: &str, number: &Number<'_>, value: f64) -> String {
             other => other.as_table_mut().unwrap(),
         };
     }
-    let value = if number.node["type"] == "integer" { Value::Integer(value as i64) } else { Value::Float(value) };
+    let value =
+        if number.node["type"] == "integer" { Value::Integer(value as i64) } else { Value::Float(value) };
     let value = if number.in_list { Value::Array(vec![value]) } else { value };
     match path {
         "design.elastic_modulus_mpa" => drop(here.insert("remanence_t".into(), Value::Float(0.1))),

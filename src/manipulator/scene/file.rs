@@ -33,6 +33,8 @@ pub struct SceneFile {
     #[serde(skip_serializing_if = "Magnets::are_none")]
     pub(super) magnet: Magnets,
     /// A coil: a winding about the `z` of its frame, with an iron core or without. One table for each.
+    ///
+    /// The limit is that of coils and further magnets together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) coil: Vec<CoilEntries>,
     /// Where the device is clamped; unloaded it points along the `z` of the base.
@@ -41,7 +43,7 @@ pub struct SceneFile {
     pub(super) base: BaseEntries,
     /// Forces and moments on the device, fixed in the world frame.
     pub(super) load: LoadEntries,
-    /// Gravity.
+    /// Gravity, from which the device has its weight.
     pub(super) gravity: GravityEntries,
     /// What is computed, and how.
     pub(super) model: ModelEntries,
@@ -58,7 +60,7 @@ pub struct SceneFile {
     /// The bodies that it is in need a lumen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) guidewire: Option<GuidewireEntries>,
-    /// Standard deviations of any of these numbers, for `mcm solve --uncertainty`.
+    /// Standard deviations of any numbers of the scene, for `mcm solve --uncertainty`.
     ///
     /// A key in quotes names a number by its table and key, with indices from 1: `"field.uniform_mt[2]"`; the deviation has the unit of that key.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
@@ -118,13 +120,13 @@ pub(super) struct DesignEntries {
     /// Turns the spirals about the axis: one number, or a list with one for each segment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spiral_start_deg: Option<SpiralStartEntry>,
-    /// Length of the rod.
+    /// Length of the rod; no default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) length_mm: Option<f64>,
-    /// Outer radius of the rod.
+    /// Outer radius of the rod; no default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) radius_mm: Option<f64>,
-    /// Radius of the rod's bore.
+    /// Radius of the rod's bore; left out: 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) inner_radius_mm: Option<f64>,
     /// Shore A hardness of the rod's rubber without particles; left out: as of a helix.
@@ -183,7 +185,7 @@ pub(super) struct HelixEntries {
     pub(super) shore_a: f64,
     /// Poisson's ratio.
     pub(super) poisson: f64,
-    /// Volume fraction of magnetic particles; at 1/1.35 they are densest, and infinitely stiff.
+    /// Volume fraction of magnetic particles; at 1/1.35 the stiffness of the mixture diverges.
     pub(super) volume_fraction: f64,
     /// Remanence of the particles.
     pub(super) particle_remanence_t: f64,
@@ -238,7 +240,7 @@ impl Default for RingEntries {
 pub(super) struct FieldEntries {
     /// Uniform field in the world frame.
     pub(super) uniform_mt: [f64; 3],
-    /// Turns the uniform field about `turn_axis`, right-handed.
+    /// Right-handed turn of the uniform field about `turn_axis`.
     pub(super) turn_deg: f64,
     /// Axis of that turn in the world frame; the default takes +z towards +y.
     ///
@@ -264,7 +266,7 @@ pub(super) struct BaseEntries {
     pub(super) position_mm: [f64; 3],
     /// Unit quaternion, scalar first, from its frame to the world's.
     pub(super) orientation_wxyz: [f64; 4],
-    /// Turns the base about its position about `turn_axis`, right-handed.
+    /// Right-handed turn of the base about `turn_axis` through its position.
     pub(super) turn_deg: f64,
     /// Axis of that turn in the world frame; the default takes +z towards +y.
     ///

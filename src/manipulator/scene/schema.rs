@@ -1,6 +1,8 @@
 //! The JSON schema of a scene, `schema.json`: types, descriptions and defaults from the structures that read a scene, ranges from the
 //! constants that check it.
+#![allow(clippy::expect_used, reason = "a test that meets something unexpected must stop")]
 
+use core::ops::Bound::{Excluded, Included, Unbounded};
 use std::borrow::Cow;
 
 use schemars::generate::SchemaSettings;
@@ -13,7 +15,6 @@ use super::spiral_start::SpiralStartEntry;
 use super::{SceneFile, names, ranges};
 use crate::error::Interval;
 use crate::magnetics::{Assembly, IronCore, Sources};
-use core::ops::Bound::{Excluded, Included, Unbounded};
 
 impl JsonSchema for Magnets {
     fn schema_name() -> Cow<'static, str> {
@@ -58,9 +59,12 @@ pub(super) fn schema() -> Value {
     }
     for (key, least, most) in COUNTS {
         let set = visit(&mut root, &parts(key), &mut |node| {
-            if node["type"] == "array" {
+            // Not that of an entry which is a list itself.
+            if node["type"] == "array" && node.get("minItems").is_none() {
                 node["minItems"] = json!(least);
-                most.into_iter().for_each(|most| node["maxItems"] = json!(most));
+                if let Some(most) = most {
+                    node["maxItems"] = json!(most);
+                }
             }
         });
         assert!(set > 0, "no list {key}");
@@ -74,9 +78,8 @@ pub(super) fn schema() -> Value {
         assert!(set > 0, "no table {key}");
     }
     root["title"] = json!("Scene of mcm");
-    root["description"] = json!(
-        "A scene: the device, what acts on it and how it is computed. Units are in the names of the keys."
-    );
+    root["description"] =
+        json!("The device, what acts on it and how it is computed. Units are in the names of the keys.");
     root
 }
 
@@ -112,11 +115,7 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
         ),
         ("design.backbone", "object", one_stiffness.clone()),
         ("feed.shaft", "object", one_stiffness),
-        (
-            "magnet",
-            "array",
-            json!([{ "items": [{}], "additionalItems": { "required": ["position_mm"] } }]),
-        ),
+        ("magnet", "array", json!([{ "items": [{}], "additionalItems": { "required": ["position_mm"] } }])),
         (
             "feed",
             "object",
@@ -159,15 +158,18 @@ fn visit(node: &mut Value, key: &[String], act: &mut impl FnMut(&mut Value)) -> 
         act(node);
         met += 1;
     }
-    for alternative in node["anyOf"].as_array_mut().into_iter().flatten() {
+    for alternative in node.get_mut("anyOf").and_then(Value::as_array_mut).into_iter().flatten() {
         met += visit(alternative, key, act);
     }
-    if node["items"].is_object() {
-        met += visit(&mut node["items"], key, act);
+    if let Some(each) = node.get_mut("items") {
+        met += visit(each, key, act);
     }
     let Some((first, rest)) = key.split_first() else { return met };
-    let inside =
-        if first == "*" { node.get_mut("additionalProperties") } else { node["properties"].get_mut(first) };
+    let inside = if first == "*" {
+        node.get_mut("additionalProperties")
+    } else {
+        node.get_mut("properties").and_then(|keys| keys.get_mut(first))
+    };
     met + inside.map_or(0, |inside| visit(inside, rest, act))
 }
 

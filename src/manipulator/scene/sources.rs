@@ -78,7 +78,7 @@ pub(super) struct MagnetEntries {
     pub(super) position_mm: Option<[f64; 3]>,
     /// Unit quaternion, scalar first, from its frame to the world's.
     pub(super) orientation_wxyz: [f64; 4],
-    /// Turns the magnet about its centre about `turn_axis`, right-handed.
+    /// Right-handed turn of the magnet about `turn_axis` through its centre.
     pub(super) turn_deg: f64,
     /// Axis of that turn in the world frame; the default takes +z towards +y.
     ///
@@ -86,7 +86,9 @@ pub(super) struct MagnetEntries {
     pub(super) turn_axis: [f64; 3],
     /// Factor on its field; 0 switches it off.
     pub(super) strength: f64,
-    /// A cylinder or ring of the magnet, magnetised along the common axis. One table for each; they must not overlap.
+    /// A cylinder or ring of the magnet, magnetised along the common axis. One table for each.
+    ///
+    /// They must not overlap.
     pub(super) cylinders: Vec<MagnetCylinder>,
 }
 

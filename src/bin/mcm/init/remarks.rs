@@ -55,7 +55,8 @@ struct Entry<'a> {
 
 impl<'a> Entry<'a> {
     fn at(root: &'a Value, path: &str) -> Option<Self> {
-        path.split('.').try_fold(Self { node: root, required: false }, |here, key| Self::inside(here.node, key))
+        path.split('.')
+            .try_fold(Self { node: root, required: false }, |here, key| Self::inside(here.node, key))
     }
 
     /// The entry of a table, or of each of a list of tables.
