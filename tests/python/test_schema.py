@@ -165,3 +165,9 @@ def test_what_is_wrong_is_told_in_the_words_of_the_reference(tmp_path: Path) -> 
     path = tmp_path / "scene.toml"
     path.write_text(scene, encoding="utf-8")
     assert run("solve", path).stderr.replace(str(path), path.name) == told[1]
+
+
+def test_the_example_of_the_reference_is_solved(tmp_path: Path) -> None:
+    page = (PACKAGE / "src/manipulator/scene/README.md").read_text(encoding="utf-8")
+    status, told = solve(page.split("```toml\n")[1].split("```")[0], tmp_path)
+    assert status == 0, told
