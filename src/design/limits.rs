@@ -6,7 +6,7 @@ use super::material::DENSEST_PACKING;
 use super::specification::{
     Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
 };
-use crate::error::{Error, check};
+use crate::error::{Error, Interval};
 
 /// Largest number of segments of a manipulator.
 pub const MOST_SEGMENTS: usize = 64;
@@ -18,26 +18,75 @@ pub const MOST_SEGMENTS: usize = 64;
 /// percent.
 pub const MOST_PERMEABLE: f64 = 2.0;
 
+/// Number of segments.
+pub const SEGMENTS: Interval = Interval::at_least(1.0).at_most(MOST_SEGMENTS as f64);
+
+/// Lengths and radii of the device, m; the upper limit detects millimetres given as metres.
+pub const LENGTH: Interval = Interval::above(0.0).at_most(1.0);
+
+/// Boundary angle of a helix, rad.
+pub const BOUNDARY_ANGLE: Interval = Interval::above(0.0).at_most(PI);
+
+/// Windings of a helix.
+pub const WINDINGS: Interval = Interval::at_least(1.0).at_most(100.0);
+
+/// Outer radius of a helix's core, m.
+pub const CORE_OUTER_RADIUS: Interval = Interval::above(0.0).less_than("the helix radius");
+
+/// Inner radius of a helix's core, m.
+pub const CORE_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("the core outer radius");
+
+/// Shore A hardness; Gent's relation diverges at both ends.
+pub const SHORE_A: Interval = Interval::above(0.0).below(100.0);
+
+/// Poisson's ratio.
+pub const POISSON: Interval = Interval::at_least(0.0).below(0.5);
+
+/// Volume fraction of magnetic particles; Eq. (15) diverges at its upper end.
+pub const VOLUME_FRACTION: Interval = Interval::at_least(0.0).below(DENSEST_PACKING);
+
+/// Remanence of rings, particles and rods, T.
+pub const REMANENCE: Interval = Interval::at_least(0.0).at_most(2.0);
+
+/// Recoil permeability of the rings.
+pub const RECOIL_PERMEABILITY: Interval = Interval::at_least(1.0).at_most(MOST_PERMEABLE);
+
+/// Densities, kg/m3.
+pub const DENSITY: Interval = Interval::at_least(0.0).at_most(25_000.0);
+
+/// Young's modulus, Pa.
+pub const ELASTIC_MODULUS: Interval = Interval::above(0.0).at_most(1e12);
+
+/// Outer radius of a backbone, m.
+pub const BACKBONE_OUTER_RADIUS: Interval = Interval::above(0.0).not_above("the core inner radius");
+
+/// Inner radius of a backbone or a shaft, m.
+pub const TUBE_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("its outer radius");
+
+/// Inner radius of a rod, m.
+pub const ROD_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("its radius");
+
+/// Radius of a guidewire, m.
+pub const GUIDEWIRE_RADIUS: Interval =
+    Interval::above(0.0).less_than("the inner radii of the bodies that it is in");
+
+/// Angle by which a spiral is turned about the axis, rad.
+pub const SPIRAL_START: Interval = Interval::within(TAU);
+
 /// Relative excess of one radius over another, into which it has to fit, that counts as rounding of a unit conversion.
 const FIT: f64 = 1e-9;
 
 /// Checks the given quantities of a helix.
 pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
-    length("helix length L (m)", helix.length)?;
-    check("boundary angle Theta (rad)", helix.boundary_angle, |v| v > 0.0 && v <= PI, "> 0 and <= pi")?;
-    length("helix radius R (m)", helix.radius)?;
-    check("windings W", helix.windings, |v| (1.0..=100.0).contains(&v), "from 1 to 100")?;
-    check(
-        "core outer radius r_oc (m)",
-        helix.core_outer_radius,
-        |v| v > 0.0 && v < helix.radius,
-        "> 0 and < the helix radius",
-    )?;
-    check(
+    LENGTH.check("helix length L (m)", helix.length)?;
+    BOUNDARY_ANGLE.check("boundary angle Theta (rad)", helix.boundary_angle)?;
+    LENGTH.check("helix radius R (m)", helix.radius)?;
+    WINDINGS.check("windings W", helix.windings)?;
+    CORE_OUTER_RADIUS.check_beside("core outer radius r_oc (m)", helix.core_outer_radius, helix.radius)?;
+    CORE_INNER_RADIUS.check_beside(
         "core inner radius r_ic (m)",
         helix.core_inner_radius,
-        |v| v >= 0.0 && v < helix.core_outer_radius,
-        ">= 0 and < the core outer radius",
+        helix.core_outer_radius,
     )?;
     composite(helix.shore_a, helix.poisson, helix.volume_fraction, helix.particle_remanence)?;
     helix.density.map_or(Ok(()), density)
@@ -45,31 +94,22 @@ pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
 
 /// Checks the given quantities of the ring magnets.
 pub(super) fn ring(ring: &RingMagnet) -> Result<(), Error> {
-    length("ring length L_mag (m)", ring.length)?;
-    remanence("ring remanence B_r (T)", ring.remanence)?;
-    check(
-        "ring recoil permeability mu_r",
-        ring.recoil_permeability,
-        |v| (1.0..=MOST_PERMEABLE).contains(&v),
-        "from 1 to 2",
-    )?;
+    LENGTH.check("ring length L_mag (m)", ring.length)?;
+    REMANENCE.check("ring remanence B_r (T)", ring.remanence)?;
+    RECOIL_PERMEABILITY.check("ring recoil permeability mu_r", ring.recoil_permeability)?;
     density(ring.density)
 }
 
 /// Checks a backbone that runs through bores of radius `bore` (m).
 pub(super) fn backbone(backbone: &Backbone, bore: f64) -> Result<(), Error> {
-    check(
-        "backbone outer radius (m)",
-        backbone.outer_radius,
-        |v| v > 0.0 && v <= bore * (1.0 + FIT),
-        "> 0 and <= the core inner radius",
-    )?;
+    let widest = bore * (1.0 + FIT);
+    BACKBONE_OUTER_RADIUS.check_beside("backbone outer radius (m)", backbone.outer_radius, widest)?;
     tube("backbone", backbone)
 }
 
 /// Checks the tube behind the base.
 pub(super) fn shaft(shaft: &Backbone) -> Result<(), Error> {
-    length("shaft outer radius (m)", shaft.outer_radius)?;
+    LENGTH.check("shaft outer radius (m)", shaft.outer_radius)?;
     tube("shaft", shaft)
 }
 
@@ -80,24 +120,19 @@ pub(super) fn guidewire(wire: &Guidewire, lumens: &[(&str, f64)]) -> Result<(), 
             let reason = format!("guidewire: the {body} has no lumen for it, its inner radius is 0");
             return Err(Error::Unsupported(reason));
         }
-        check(
-            "guidewire radius (m)",
-            wire.radius,
-            |v| v > 0.0 && v < *radius,
-            &format!("> 0 and < {radius} (inner radius of the {body})"),
-        )?;
+        let quantity = "guidewire radius (m)";
+        GUIDEWIRE_RADIUS.check_beside(quantity, wire.radius, *radius).map_err(|_| {
+            let allowed = format!("> 0 and < {radius} (inner radius of the {body})");
+            Error::range(quantity, wire.radius, allowed)
+        })?;
     }
     elastic(wire.elastic_modulus)
 }
 
 /// Checks bore and material of a tube.
 fn tube(name: &str, backbone: &Backbone) -> Result<(), Error> {
-    check(
-        &format!("{name} inner radius (m)"),
-        backbone.inner_radius,
-        |v| v >= 0.0 && v < backbone.outer_radius,
-        ">= 0 and < its outer radius",
-    )?;
+    let quantity = format!("{name} inner radius (m)");
+    TUBE_INNER_RADIUS.check_beside(&quantity, backbone.inner_radius, backbone.outer_radius)?;
     match backbone.modulus {
         Modulus::ShoreA(hardness) => shore_a(hardness)?,
         Modulus::Elastic(modulus) => elastic(modulus)?,
@@ -108,12 +143,7 @@ fn tube(name: &str, backbone: &Backbone) -> Result<(), Error> {
 
 /// Checks a chain of segments.
 pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
-    check(
-        "number of segments",
-        chain.segments as f64,
-        |v| v >= 1.0 && v <= MOST_SEGMENTS as f64,
-        "from 1 to 64",
-    )?;
+    SEGMENTS.check("number of segments", chain.segments as f64)?;
     helix(&chain.helix)?;
     ring(&chain.ring)?;
     spiral_start(&chain.spiral_start, chain.segments)?;
@@ -123,8 +153,8 @@ pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
 /// Checks the angles by which the spirals of so many segments are turned.
 fn spiral_start(start: &SpiralStart, segments: usize) -> Result<(), Error> {
     let angle = |quantity: &str, value: f64| {
-        let turn = TAU * (1.0 + FIT);
-        check(quantity, value, |v| v.abs() <= turn, "from -2 pi to 2 pi").map(|_| ())
+        let checked = SPIRAL_START.check(quantity, value / (1.0 + FIT));
+        checked.map(|_| ()).map_err(|_| Error::range(quantity, value, SPIRAL_START.to_string()))
     };
     match start {
         SpiralStart::Same(value) => angle("start angle of the spirals (rad)", *value),
@@ -141,14 +171,9 @@ fn spiral_start(start: &SpiralStart, segments: usize) -> Result<(), Error> {
 
 /// Checks a plain magnetised rod.
 pub(super) fn cylinder(rod: &Cylinder) -> Result<(), Error> {
-    length("cylinder length (m)", rod.length)?;
-    length("cylinder radius (m)", rod.radius)?;
-    check(
-        "cylinder inner radius (m)",
-        rod.inner_radius,
-        |v| v >= 0.0 && v < rod.radius,
-        ">= 0 and < its radius",
-    )?;
+    LENGTH.check("cylinder length (m)", rod.length)?;
+    LENGTH.check("cylinder radius (m)", rod.radius)?;
+    ROD_INNER_RADIUS.check_beside("cylinder inner radius (m)", rod.inner_radius, rod.radius)?;
     match rod.material {
         CylinderMaterial::Composite { shore_a, poisson, volume_fraction, particle_remanence } => {
             composite(shore_a, poisson, volume_fraction, particle_remanence)?;
@@ -156,7 +181,7 @@ pub(super) fn cylinder(rod: &Cylinder) -> Result<(), Error> {
         CylinderMaterial::Bulk { elastic_modulus, poisson: ratio, remanence: axial } => {
             elastic(elastic_modulus)?;
             poisson(ratio)?;
-            remanence("cylinder remanence (T)", axial)?;
+            REMANENCE.check("cylinder remanence (T)", axial)?;
         }
     }
     rod.density.map_or(Ok(()), density)
@@ -165,36 +190,22 @@ pub(super) fn cylinder(rod: &Cylinder) -> Result<(), Error> {
 fn composite(hardness: f64, ratio: f64, volume_fraction: f64, particle_remanence: f64) -> Result<(), Error> {
     shore_a(hardness)?;
     poisson(ratio)?;
-    check(
-        "volume fraction Phi",
-        volume_fraction,
-        |v| (0.0..DENSEST_PACKING).contains(&v),
-        ">= 0 and < 1/1.35, where Eq. (15) diverges",
-    )?;
-    remanence("particle remanence B_r (T)", particle_remanence)
-}
-
-/// Checks a length or radius; the upper limit detects millimetres given as metres.
-fn length(quantity: &str, value: f64) -> Result<(), Error> {
-    check(quantity, value, |v| v > 0.0 && v <= 1.0, "> 0 and <= 1").map(|_| ())
-}
-
-fn remanence(quantity: &str, value: f64) -> Result<(), Error> {
-    check(quantity, value, |v| (0.0..=2.0).contains(&v), "from 0 to 2").map(|_| ())
+    VOLUME_FRACTION.check("volume fraction Phi", volume_fraction)?;
+    REMANENCE.check("particle remanence B_r (T)", particle_remanence).map(|_| ())
 }
 
 fn shore_a(value: f64) -> Result<(), Error> {
-    check("Shore A hardness", value, |v| v > 0.0 && v < 100.0, "> 0 and < 100").map(|_| ())
+    SHORE_A.check("Shore A hardness", value).map(|_| ())
 }
 
 fn poisson(value: f64) -> Result<(), Error> {
-    check("Poisson's ratio", value, |v| (0.0..0.5).contains(&v), ">= 0 and < 0.5").map(|_| ())
+    POISSON.check("Poisson's ratio", value).map(|_| ())
 }
 
 fn elastic(value: f64) -> Result<(), Error> {
-    check("Young's modulus (Pa)", value, |v| v > 0.0 && v <= 1e12, "> 0 and <= 1e12").map(|_| ())
+    ELASTIC_MODULUS.check("Young's modulus (Pa)", value).map(|_| ())
 }
 
 fn density(value: f64) -> Result<(), Error> {
-    check("density (kg/m3)", value, |v| (0.0..=25_000.0).contains(&v), "from 0 to 25000").map(|_| ())
+    DENSITY.check("density (kg/m3)", value).map(|_| ())
 }

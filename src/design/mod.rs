@@ -3,7 +3,7 @@
 mod chain;
 mod demagnetisation;
 mod helix;
-mod limits;
+pub mod limits;
 mod material;
 mod moment;
 mod preset;

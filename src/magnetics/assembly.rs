@@ -10,9 +10,10 @@ use super::coil::Coil;
 use super::edge::{FIELD, GRADIENT, HESSIAN};
 use super::iron_core::IronCore;
 use super::jet::Jet;
+use super::limits::MAGNET_OFFSET;
 use super::overlap::{Outline, depth};
 use super::winding::Winding;
-use crate::error::{Error, check};
+use crate::error::Error;
 use crate::geometry::Pose;
 
 /// One axially magnetised cylinder (or ring) of an assembly.
@@ -77,7 +78,7 @@ impl Assembly {
         }
         let mut sources = Vec::with_capacity(magnets.len());
         for magnet in &magnets {
-            check("magnet offset (m)", magnet.offset, |v| v.abs() <= 1e3, "between -1e3 and 1e3")?;
+            MAGNET_OFFSET.check("magnet offset (m)", magnet.offset)?;
             sources.push(AxialSource::new(
                 magnet.inner_radius,
                 magnet.radius,

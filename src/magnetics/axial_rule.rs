@@ -10,6 +10,7 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector2;
 
+use super::limits::{MAGNET_INNER_RADIUS, SIZE};
 use super::multipole::axial_moment;
 use super::sheet::DipoleSheet;
 use crate::error::{Error, check};
@@ -106,9 +107,9 @@ impl AxialRule {
         distance: f64,
         tolerance: f64,
     ) -> Result<Self, Error> {
-        check("body's outer radius (m)", outer, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
-        check("body's inner radius (m)", inner, |v| v >= 0.0 && v < outer, ">= 0 and < the outer radius")?;
-        check("body's length (m)", length, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
+        SIZE.check("body's outer radius (m)", outer)?;
+        MAGNET_INNER_RADIUS.check_beside("body's inner radius (m)", inner, outer)?;
+        SIZE.check("body's length (m)", length)?;
         check("distance from the body to the nearest source (m)", distance, |v| v > 0.0, "> 0")?;
         check("relative tolerance", tolerance, |v| v > 0.0, "> 0")?;
         let mut reached = f64::INFINITY;

@@ -5,11 +5,12 @@ use nalgebra::{Matrix3, Vector3};
 use super::axisymmetric::{Components, Meridian};
 use super::edge::{Edges, FIELD, GRADIENT, HESSIAN};
 use super::jet::Jet;
+use super::limits::{MAGNET_INNER_RADIUS, MAGNET_REMANENCE, SIZE};
 use super::multipole::{Multipole, TERMS};
 use super::overlap::Outline;
 use super::points::Edge;
 use crate::constants::VACUUM_PERMEABILITY;
-use crate::error::{Error, check};
+use crate::error::Error;
 
 /// Distance, relative to the extent `s = sqrt(a^2 + h^2)`, from which the multipoles are used: there the closed form of
 /// `B_z` begins to lose digits (about `eps (r/a)^2 (r/h)`), and the degrees above 17 are below 1e-14.
@@ -66,10 +67,10 @@ impl AxialSource {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn new(inner: f64, outer: f64, length: f64, remanence: f64) -> Result<Self, Error> {
-        check("magnet outer radius (m)", outer, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
-        check("magnet inner radius (m)", inner, |v| v >= 0.0 && v < outer, ">= 0 and < the outer radius")?;
-        check("magnet length (m)", length, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
-        check("magnet remanence (T)", remanence, |v| v.abs() <= 1e3, "between -1e3 and 1e3")?;
+        SIZE.check("magnet outer radius (m)", outer)?;
+        MAGNET_INNER_RADIUS.check_beside("magnet inner radius (m)", inner, outer)?;
+        SIZE.check("magnet length (m)", length)?;
+        MAGNET_REMANENCE.check("magnet remanence (T)", remanence)?;
         let half = 0.5 * length;
         let edges = if inner > 0.0 {
             SourceEdges::Ring(Edges {

@@ -1,7 +1,8 @@
 //! A coil: the dimensions of its winding, and its core.
 
 use super::iron_core::IronCore;
-use crate::error::{Error, check};
+use super::limits::{COIL_INNER_RADIUS, COIL_TURNS, SIZE};
+use crate::error::Error;
 
 /// A thick solenoid: a winding of rectangular section whose turns fill it evenly, about its frame's `z`, centred at
 /// the origin. A positive current makes a field along `+z` in its bore.
@@ -28,15 +29,10 @@ impl Coil {
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let Self { inner_radius, outer_radius, length, turns, core } = self;
-        check("coil outer radius (m)", outer_radius, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
-        check(
-            "coil inner radius (m)",
-            inner_radius,
-            |v| v > 0.0 && v < outer_radius,
-            "> 0 and < the outer radius",
-        )?;
-        check("coil length (m)", length, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
-        check("coil turns", turns, |v| v > 0.0 && v <= 1e6, "> 0 and <= 1e6")?;
+        SIZE.check("coil outer radius (m)", outer_radius)?;
+        COIL_INNER_RADIUS.check_beside("coil inner radius (m)", inner_radius, outer_radius)?;
+        SIZE.check("coil length (m)", length)?;
+        COIL_TURNS.check("coil turns", turns)?;
         core.map_or(Ok(self), |core| core.checked().map(|_| self))
     }
 }

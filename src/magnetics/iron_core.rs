@@ -3,9 +3,10 @@
 use nalgebra::Vector3;
 
 use super::axisymmetric::{Components, Meridian};
+use super::limits::{COIL_MULTIPOLE, SIZE};
 use super::multipole::{MOST_DEGREES, of_coefficients};
 use crate::constants::VACUUM_PERMEABILITY;
-use crate::error::{Error, check};
+use crate::error::Error;
 
 /// An iron core that no other source magnetises, by what it and its winding make together of one ampere: axial multipoles about
 /// the coil's centre, as they are fitted to a measured or computed field.
@@ -51,9 +52,9 @@ impl IronCore {
 
     /// Checks the numbers.
     pub(super) fn checked(self) -> Result<Self, Error> {
-        check("coil reach (m)", self.reach, |v| v > 1e-9 && v <= 1e3, "> 1e-9 and <= 1e3")?;
+        SIZE.check("coil reach (m)", self.reach)?;
         for coefficient in self.multipoles {
-            check("coil multipole (T m^(l+2)/A)", coefficient, |v| v.abs() <= 1e3, "between -1e3 and 1e3")?;
+            COIL_MULTIPOLE.check("coil multipole (T m^(l+2)/A)", coefficient)?;
         }
         if self.multipoles.iter().all(|coefficient| *coefficient == 0.0) {
             return Err(Error::Unsupported(

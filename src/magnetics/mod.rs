@@ -13,6 +13,7 @@ mod integrals;
 mod iron_core;
 mod jet;
 mod lanes;
+pub mod limits;
 mod multipole;
 mod mutual;
 mod overlap;

@@ -1,20 +1,20 @@
 //! Coulomb's law of friction, smoothed where it changes from sticking to sliding.
 
-use crate::error::{Error, check};
+use crate::error::{Error, Interval};
 
 /// Tangential displacement (m) over which friction builds up: sticking contacts give way by up to this much. It is well below what
 /// matters of a device of millimetres, and above what the solver leaves undetermined of its shape.
 pub const GIVE: f64 = 10e-6;
 
-/// Largest coefficient of friction.
-const LARGEST: f64 = 10.0;
+/// Allowed coefficients of friction.
+pub const COEFFICIENT: Interval = Interval::at_least(0.0).at_most(10.0);
 
 /// Checks a coefficient of friction and returns it.
 ///
 /// # Errors
 /// [`Error::Range`] unless it is from 0 to 10.
 pub fn checked(coefficient: f64) -> Result<f64, Error> {
-    check("vessel friction", coefficient, |v| (0.0..=LARGEST).contains(&v), "from 0 to 10")
+    COEFFICIENT.check("vessel friction", coefficient)
 }
 
 /// Energy (m) of friction for a unit friction force at this slip `y` (m), its slope over `y` (1/m), and its second derivative

@@ -3,7 +3,7 @@
 use core::f64::consts::SQRT_2;
 
 use super::friction;
-use crate::error::{Error, check};
+use crate::error::{Error, Interval};
 use crate::numerics::onset::onset;
 
 /// Poisson's ratio of the wall: soft tissue and silicone keep their volume.
@@ -39,13 +39,15 @@ pub struct Wall {
 }
 
 impl Wall {
+    /// Allowed Young's moduli, Pa.
+    pub const MODULUS: Interval = Interval::at_least(1e3).at_most(1e12);
+
     /// A wall with this Young's modulus, Pa.
     ///
     /// # Errors
     /// [`Error::Range`] unless it is from 1e3 to 1e12 Pa.
     pub fn new(modulus: f64) -> Result<Self, Error> {
-        let allowed = "from 1000 to 1000000000000";
-        let modulus = check("vessel wall modulus (Pa)", modulus, |v| (1e3..=1e12).contains(&v), allowed)?;
+        let modulus = Self::MODULUS.check("vessel wall modulus (Pa)", modulus)?;
         Ok(Self { modulus, friction: 0.0 })
     }
 

@@ -5,6 +5,9 @@ use toml::{Table, Value};
 
 use super::{assert_status, folder, mcm, stderr, stdout};
 
+/// Largest number of characters of a line.
+const WIDEST: usize = 140;
+
 /// Paths of all keys that hold no table, those of all entries of a list of tables alike.
 fn keys(value: &Value, path: &str, out: &mut Vec<String>) {
     match value {
@@ -49,18 +52,17 @@ fn the_scene_to_begin_with_is_the_default_with_every_key() {
     let (told, known) = (keys_of(&whole), keys_of(&shown.to_toml().unwrap()));
     let missing: Vec<&String> = known.iter().filter(|key| !told.contains(key)).collect();
     assert!(missing.is_empty(), "not shown: {missing:?}");
-    let rod = printed.split_once("and none of those above:").unwrap().1;
-    for material in ["shore_a", "elastic_modulus_mpa"] {
-        let kept = |line: &&str| {
-            material == "shore_a" && !line.starts_with("elastic") && !line.starts_with("remanence")
-                || material != "shore_a" && !line.starts_with("shore_a")
-        };
-        let text: Vec<&str> = rod
-            .lines()
-            .map(|line| line.trim_start_matches("# ").split('#').next().unwrap())
-            .filter(kept)
-            .collect();
-        SceneFile::parse(&format!("[design]\n{}", text.join("\n")), material).unwrap();
+    let table = |text: &str| SceneFile::parse(text, "magnet").unwrap().to_toml().unwrap();
+    let magnet = |text: &str| table(text).parse::<Table>().unwrap()["magnet"]["cylinders"].clone();
+    assert_eq!(magnet(&whole), magnet("[magnet]"), "an empty table is the magnet that is shown");
+    let (_, rod) = printed.split_once("and none of those above:\n").unwrap();
+    let of_rubber: Vec<&str> = rod.lines().filter_map(|line| line.strip_prefix("# ")).collect();
+    let other =
+        |line: &&str| !["shore_a", "volume_", "particle_"].iter().any(|key| line[2..].starts_with(key));
+    let of_bulk: Vec<&str> = rod.lines().filter(other).map(|line| line[2..].trim_start()).collect();
+    for (lines, key) in [(of_rubber, "volume_fraction"), (of_bulk, "remanence_t")] {
+        assert!(lines.iter().any(|line| line.starts_with(key)), "{lines:?}");
+        SceneFile::parse(&lines.join("\n"), "rod").unwrap();
     }
     assert_status(&mcm(&here, &["init", "--out", "scene.toml"]), 0);
     assert_eq!(std::fs::read_to_string(here.join("scene.toml")).unwrap(), printed);
@@ -85,4 +87,37 @@ fn a_scene_in_an_aorta_can_be_solved() {
     let answer: serde_json::Value = serde_json::from_str(&stdout(&solved)).unwrap();
     assert_eq!(answer["feed_length_m"], 0.0);
     assert!(answer["contact_count"].is_number() && answer["largest_indentation_m"].as_f64().unwrap() < 1e-3);
+}
+
+#[test]
+fn every_line_of_the_scene_to_begin_with_says_what_it_is() {
+    let printed = stdout(&mcm(&folder("init_remarks"), &["init"]));
+    let mut told = Vec::new();
+    let mut table = "";
+    for line in printed.lines() {
+        assert!(line.chars().count() <= WIDEST, "{line}");
+        let bare = line.trim_start_matches("#|").trim_start_matches('#').trim_start();
+        let key = bare.split(" = ").next().unwrap();
+        let is_table = bare.starts_with('[');
+        if is_table {
+            table = key.split(' ').next().unwrap();
+        }
+        if is_table || bare.contains(" = ") && !key.starts_with('"') {
+            let name = format!("{table} {}", if is_table { "" } else { key });
+            assert!(bare.contains(" # ") || told.contains(&name), "no remark: {line}");
+            told.push(name);
+        }
+    }
+    assert!(told.len() > 100, "only {} lines with a key or a table", told.len());
+}
+
+#[test]
+fn the_schema_is_written_for_editors() {
+    let here = folder("init_schema");
+    assert_status(&mcm(&here, &["init", "--schema", "--out", "scene.schema.json"]), 0);
+    let text = std::fs::read_to_string(here.join("scene.schema.json")).unwrap();
+    assert_eq!(text, SceneFile::SCHEMA);
+    let schema: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(schema["properties"]["design"]["properties"]["segments"]["default"], 9);
+    assert_status(&mcm(&here, &["init", "--schema", "--vessel", "aorta"]), 1);
 }

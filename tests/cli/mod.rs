@@ -9,6 +9,7 @@ mod init;
 mod mesh;
 mod multipoles;
 mod pack;
+mod reference;
 mod solve;
 mod steer;
 mod study;

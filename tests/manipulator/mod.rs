@@ -7,6 +7,7 @@ mod estimate;
 
 mod jacobian;
 
+mod ranges;
 mod refusals;
 mod scene;
 

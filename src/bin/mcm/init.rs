@@ -1,15 +1,18 @@
 //! `mcm init`: a scene with every key, to begin with.
 
+mod remarks;
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use mcm::manipulator::SceneFile;
 use mcm::vessel::Aorta;
 
 use super::failure::Failure;
 use super::output::{Output, print};
 
-/// Every key with its default and a remark.
-const SCENE: &str = include_str!("init.toml");
+/// Every key; those without a value have their default, and all get a remark.
+const TEMPLATE: &str = include_str!("init/template.txt");
 
 /// The nine-segment device on a silicone tube of 40 Shore A, in a vessel that follows.
 const IN_VESSEL: &str = "\
@@ -49,23 +52,27 @@ enum VesselName {
     AortaSpatial,
 }
 
-/// Prints a scene with every key and its default, as a beginning of one's own.
+/// Prints a scene with every key, its default and a remark, as a beginning of one's own.
 #[derive(clap::Args)]
-#[command(after_help = "Example: mcm init --out scene.toml")]
+#[command(after_help = "Examples: mcm init --out scene.toml; mcm init --schema --out scene.schema.json")]
 pub(crate) struct Init {
     /// File to write instead of printing; must not exist yet
-    #[arg(long, value_name = "SCENE.toml")]
+    #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// A device on a shaft in this vessel instead of every key
     #[arg(long, value_enum, value_name = "NAME")]
     vessel: Option<VesselName>,
+    /// The JSON schema of scenes instead, from which editors complete and check keys
+    #[arg(long, conflicts_with = "vessel")]
+    schema: bool,
 }
 
 impl Init {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let scene = match self.vessel {
-            None => SCENE.to_owned(),
+            None if self.schema => SceneFile::SCHEMA.to_owned(),
+            None => remarks::completed(TEMPLATE)?,
             Some(VesselName::Aorta) => IN_VESSEL.to_owned() + &Aorta::planar().scene_text()?,
             Some(VesselName::AortaSpatial) => IN_VESSEL.to_owned() + &Aorta::spatial().scene_text()?,
         };

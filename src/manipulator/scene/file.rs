@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
+use super::choices;
 use super::pose::TURN_AXIS;
 use super::sources::{CoilEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
@@ -18,28 +18,56 @@ use crate::vessel::Lumen;
 ///
 /// Its numbers are those of the file, not in SI units: writing it and reading it back changes no bit.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct SceneFile {
+    /// The device: what is built.
+    ///
+    /// A chain of segments, each a soft magnetic helix and the ring magnet at its end, or a plain magnetised rod.
     pub(super) design: DesignEntries,
+    /// A background field: uniform, and changing linearly about the origin.
     pub(super) field: FieldEntries,
+    /// A magnet outside: coaxial cylinders, magnetised along the `z` of its frame. Left out: no magnet.
+    ///
+    /// An empty table is the pair of the paper, 120 mm below the middle of the device. Several magnets are several tables `[[magnet]]`.
     #[serde(skip_serializing_if = "Magnets::are_none")]
     pub(super) magnet: Magnets,
+    /// A coil: a winding about the `z` of its frame, with an iron core or without. One table for each.
+    ///
+    /// The limit is that of coils and further magnets together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) coil: Vec<CoilEntries>,
+    /// Where the device is clamped; unloaded it points along the `z` of the base.
+    ///
+    /// With a shaft (table `[feed]`) it is the pose of the port.
     pub(super) base: BaseEntries,
+    /// Forces and moments on the device, fixed in the world frame.
     pub(super) load: LoadEntries,
+    /// Gravity, from which the device has its weight.
     pub(super) gravity: GravityEntries,
+    /// What is computed, and how.
     pub(super) model: ModelEntries,
+    /// A vessel around the device. Left out: none.
+    ///
+    /// Either `mesh_stl` or at least one `[[vessel.branch]]`; `mcm init --vessel aorta` prints an aorta.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) vessel: Option<VesselEntries>,
+    /// A shaft that is pushed in through the base, which then is the port. Left out: the base holds the first body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) feed: Option<FeedEntries>,
+    /// A wire inside, straight when unloaded, that slides and turns freely. Left out: none.
+    ///
+    /// The bodies that it is in need a lumen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) guidewire: Option<GuidewireEntries>,
-    /// Standard deviations by key.
+    /// Standard deviations of any numbers of the scene, for `mcm solve --uncertainty`.
+    ///
+    /// A key in quotes names a number by its table and key, with indices from 1: `"field.uniform_mt[2]"`; the deviation has the unit of that key.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) uncertainty: BTreeMap<String, f64>,
-    /// Correlations by two keys.
+    /// Correlations of two of these deviations; left out: 0.
+    ///
+    /// The key names both numbers: `"design.helix.shore_a, design.ring.remanence_t"`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) correlation: BTreeMap<String, f64>,
     /// The lumen of the mesh that the vessel names, or why there is none.
@@ -48,77 +76,120 @@ pub struct SceneFile {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum DesignKind {
+    /// Helices with ring magnets between them.
     #[default]
     Segments,
+    /// A plain magnetised rod.
     Cylinder,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum SpiralName {
+    /// All right-handed, as built.
     Helical,
+    /// Spread evenly over the circle.
     Axisymmetric,
+    /// Every second one mirrored.
     Alternating,
 }
 
 /// Table `[design]`: which keys may be present depends on `kind`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct DesignEntries {
+    /// Kind of the device.
     pub(super) kind: DesignKind,
+    /// Number of segments, each a helix and the ring at its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) segments: Option<usize>,
+    /// Whether there is a ring at the base.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) base_magnet: Option<bool>,
+    /// Whether there is a ring at the tip.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) tip_magnet: Option<bool>,
+    /// How the spirals are wound.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spiral: Option<SpiralName>,
+    /// Turns the spirals about the axis: one number, or a list with one for each segment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) spiral_start_deg: Option<SpiralStartEntry>,
+    /// Length of the rod; no default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) length_mm: Option<f64>,
+    /// Outer radius of the rod; no default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) radius_mm: Option<f64>,
+    /// Radius of the rod's bore; left out: 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) inner_radius_mm: Option<f64>,
+    /// Shore A hardness of the rod's rubber without particles; left out: as of a helix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) shore_a: Option<f64>,
+    /// Young's modulus of the rod.
+    ///
+    /// Together with `remanence_t` it takes the place of `shore_a`, `volume_fraction` and `particle_remanence_t`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) elastic_modulus_mpa: Option<f64>,
+    /// Poisson's ratio of the rod; left out: as of a helix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) poisson: Option<f64>,
+    /// Volume fraction of magnetic particles in the rod; left out: as of a helix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) volume_fraction: Option<f64>,
+    /// Remanence of these particles; left out: as of a helix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) particle_remanence_t: Option<f64>,
+    /// Remanence of the rod along its axis, with `elastic_modulus_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) remanence_t: Option<f64>,
+    /// Density of the rod; left out: that of the mixture, or 1000.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) density_kg_m3: Option<f64>,
+    /// The helix of every segment; the defaults are those of Table 1 of the paper.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) helix: Option<HelixEntries>,
+    /// The ring magnets; their radii are those of the helix.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) ring: Option<RingEntries>,
+    /// A tube through the bores of all bodies. Left out: none.
+    ///
+    /// Its stiffness is either `shore_a` or `elastic_modulus_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) backbone: Option<BackboneEntries>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct HelixEntries {
+    /// Length of the helix.
     pub(super) length_mm: f64,
+    /// Bending of a segment at which adjacent windings touch.
     pub(super) boundary_angle_deg: f64,
+    /// Outer radius, of the rings too.
     pub(super) radius_mm: f64,
+    /// Number of windings.
     pub(super) windings: f64,
+    /// Outer radius of the tube about which the spiral is wound.
     pub(super) core_outer_radius_mm: f64,
+    /// Radius of that tube's bore, and of the rings'.
     pub(super) core_inner_radius_mm: f64,
+    /// Shore A hardness of the rubber without particles.
     pub(super) shore_a: f64,
+    /// Poisson's ratio.
     pub(super) poisson: f64,
+    /// Volume fraction of magnetic particles; at 1/1.35 the stiffness of the mixture diverges.
     pub(super) volume_fraction: f64,
+    /// Remanence of the particles.
     pub(super) particle_remanence_t: f64,
+    /// Density; left out: that of the mixture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) density_kg_m3: Option<f64>,
 }
@@ -143,11 +214,16 @@ impl Default for HelixEntries {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct RingEntries {
+    /// Length along the axis.
     pub(super) length_mm: f64,
+    /// Remanence along the axis.
     pub(super) remanence_t: f64,
+    /// Relative recoil permeability: 1.05 for sintered `NdFeB`, which its own field weakens.
     pub(super) recoil_permeability: f64,
+    /// Density.
     pub(super) density_kg_m3: f64,
 }
 
@@ -159,11 +235,20 @@ impl Default for RingEntries {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct FieldEntries {
+    /// Uniform field in the world frame.
     pub(super) uniform_mt: [f64; 3],
+    /// Right-handed turn of the uniform field about `turn_axis`.
     pub(super) turn_deg: f64,
+    /// Axis of that turn in the world frame; the default takes +z towards +y.
+    ///
+    /// It may have any length but 0.
     pub(super) turn_axis: [f64; 3],
+    /// Gradient of the linear field: dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz.
+    ///
+    /// The other four follow, as such a field has neither sources nor currents.
     pub(super) gradient_t_per_m: [f64; 5],
 }
 
@@ -174,11 +259,18 @@ impl Default for FieldEntries {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct BaseEntries {
+    /// Position of the clamped end.
     pub(super) position_mm: [f64; 3],
+    /// Unit quaternion, scalar first, from its frame to the world's.
     pub(super) orientation_wxyz: [f64; 4],
+    /// Right-handed turn of the base about `turn_axis` through its position.
     pub(super) turn_deg: f64,
+    /// Axis of that turn in the world frame; the default takes +z towards +y.
+    ///
+    /// It may have any length but 0.
     pub(super) turn_axis: [f64; 3],
 }
 
@@ -194,30 +286,44 @@ impl Default for BaseEntries {
 }
 
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct LoadEntries {
+    /// Force on the tip.
     pub(super) tip_force_n: [f64; 3],
+    /// Moment on the tip.
     pub(super) tip_moment_nm: [f64; 3],
+    /// Forces on the centres of the rings, one for each ring from the base; left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) ring_force_n: Option<Vec<[f64; 3]>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct GravityEntries {
+    /// Acceleration in the world frame; on Earth [0.0, 0.0, -9.81] where z is up.
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelEntries {
-    #[serde(serialize_with = "write_level", deserialize_with = "read_level")]
+    /// Level of interaction: which magnetic parts act on which.
+    #[serde(serialize_with = "choices::write_level", deserialize_with = "choices::read_level")]
+    #[cfg_attr(test, schemars(schema_with = "choices::levels"))]
     pub(super) interaction: Interaction,
-    #[serde(serialize_with = "write_method", deserialize_with = "read_method")]
+    /// How the equilibrium is found: `potential`, or one of the others to compare with.
+    #[serde(serialize_with = "choices::write_method", deserialize_with = "choices::read_method")]
+    #[cfg_attr(test, schemars(schema_with = "choices::methods"))]
     pub(super) method: Method,
+    /// Whether windings that touch stop the bending; left out: the level decides, `auto` has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) bending_stop: Option<bool>,
+    /// Processor time that one solve may take.
     pub(super) time_budget_s: f64,
+    /// Whether the wrench of magnets and coils on one another is computed as well.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub(super) mutual_wrenches: bool,
 }
@@ -232,31 +338,4 @@ impl Default for ModelEntries {
             mutual_wrenches: false,
         }
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
-fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::Error> {
-    out.serialize_str(level.name())
-}
-
-fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
-    let name = String::deserialize(input)?;
-    let known = Interaction::ALL.iter().map(|row| row.1);
-    Interaction::named(&name).ok_or_else(|| unknown(&name, "not a level", known))
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
-fn write_method<S: Serializer>(method: &Method, out: S) -> Result<S::Ok, S::Error> {
-    out.serialize_str(method.name())
-}
-
-fn read_method<'de, D: Deserializer<'de>>(input: D) -> Result<Method, D::Error> {
-    let name = String::deserialize(input)?;
-    let known = Method::ALL.iter().map(|row| row.1);
-    Method::named(&name).ok_or_else(|| unknown(&name, "not available in this version", known))
-}
-
-fn unknown<E: Error>(name: &str, is: &str, known: impl Iterator<Item = &'static str>) -> E {
-    let known: Vec<&str> = known.collect();
-    E::custom(format!("\"{name}\" is {is}: choose one of {}", known.join(", ")))
 }

@@ -1,5 +1,6 @@
 //! A scene as text (TOML, units in the names): the design, its inputs and the model.
 
+mod choices;
 mod faults;
 mod file;
 mod mesh;
@@ -7,7 +8,10 @@ mod multipoles;
 mod names;
 mod path;
 mod pose;
+mod ranges;
 mod resolve;
+#[cfg(test)]
+mod schema;
 mod sources;
 mod spiral_start;
 mod text;

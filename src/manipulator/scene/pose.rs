@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::ranges::TURN;
 use super::units::MM_PER_M;
 use crate::error::{Error, check};
 use crate::geometry::{Pose, RotationVector};
@@ -9,16 +10,12 @@ use crate::geometry::{Pose, RotationVector};
 /// Default axis of rotation: a right-handed rotation about it takes +z to +y.
 pub(super) const TURN_AXIS: [f64; 3] = [-1.0, 0.0, 0.0];
 
-/// Largest turn, deg: a hundred times round. Of a larger one too few digits would be left.
-pub(super) const LARGEST_TURN: f64 = 36_000.0;
-
 /// Right-handed rotation by `degrees` about an axis of any positive length, of the table of this name.
 pub(super) fn turn(table: &str, axis: [f64; 3], degrees: f64) -> Result<Matrix3<f64>, Error> {
     let axis = Vector3::from(axis);
     let length = axis.norm();
     check(&format!("length of {table}.turn_axis"), length, |v| v > 0.0, "> 0")?;
-    let key = format!("{table}.turn_deg");
-    check(&key, degrees, |v| v.abs() <= LARGEST_TURN, "from -36000 to 36000")?;
+    TURN.check(&format!("{table}.turn_deg"), degrees)?;
     Ok(RotationVector::new(axis * (degrees.to_radians() / length)).matrix())
 }
 

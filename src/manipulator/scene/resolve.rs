@@ -1,13 +1,15 @@
 //! Conversion of a scene file to SI units and to the quantities that its names stand for.
 
 use nalgebra::Vector3;
-use toml::Value;
+use toml::{Table, Value};
 
 use super::file::{
     DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
 };
-use super::pose::{LARGEST_TURN, in_metres, pose, turn, turned};
+use super::pose::{in_metres, pose, turn, turned};
+use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TIME_BUDGET, TURN};
 use super::spiral_start::SpiralStartEntry;
+use super::text::unwritable;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
 use super::vessel::FeedMode;
@@ -133,8 +135,8 @@ impl SceneFile {
             inputs.feed_force = (feed.mode == FeedMode::Force).then(|| feed.force_n.unwrap_or(0.0));
         }
         if let Some(wire) = &self.guidewire {
-            let (key, reach) = ("guidewire.insertion_mm", |v| (0.0..=2000.0).contains(&v));
-            inputs.guidewire_insertion = check(key, wire.insertion_mm, reach, "from 0 to 2000")? / MM_PER_M;
+            let reach = GUIDEWIRE_INSERTION.check("guidewire.insertion_mm", wire.insertion_mm)?;
+            inputs.guidewire_insertion = reach / MM_PER_M;
         }
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
@@ -155,8 +157,7 @@ impl SceneFile {
     /// The shaft that is pushed in: its own table, or the backbone that goes on behind the base.
     fn shaft(&self, specification: &Specification) -> Result<Option<Backbone>, Error> {
         let Some(feed) = &self.feed else { return Ok(None) };
-        let turn = |v: f64| v.abs() <= LARGEST_TURN;
-        check("feed.roll_deg", feed.roll_deg, turn, "from -36000 to 36000")?;
+        TURN.check("feed.roll_deg", feed.roll_deg)?;
         if let Some(force) = feed.force_n.filter(|_| feed.mode != FeedMode::Force) {
             check("feed.force_n", force, |v| v == 0.0, "0 unless feed.mode = \"force\"")?;
         }
@@ -174,7 +175,7 @@ impl SceneFile {
                 None => Ok(None),
             };
         }
-        check("feed.insertion_mm", feed.insertion_mm, |v| (0.0..=1000.0).contains(&v), "from 0 to 1000")?;
+        INSERTION.check("feed.insertion_mm", feed.insertion_mm)?;
         if let Some(shaft) = feed.shaft {
             return Ok(Some(shaft.si("feed.shaft")?));
         }
@@ -189,7 +190,7 @@ impl SceneFile {
     fn settings(&self) -> Result<Settings, Error> {
         let ModelEntries { interaction, method: _, bending_stop, time_budget_s, mutual_wrenches } =
             self.model;
-        let time_budget = check("model.time_budget_s", time_budget_s, |v| v > 0.0, "> 0")?;
+        let time_budget = TIME_BUDGET.check("model.time_budget_s", time_budget_s)?;
         Ok(Settings { interaction, bending_stop, time_budget, mutual_wrenches, ..Settings::default() })
     }
 }
@@ -255,13 +256,8 @@ impl DesignEntries {
                 particle_remanence: self.particle_remanence_t.unwrap_or(table_1.particle_remanence_t),
             });
         }
-        let composite = [
-            ("shore_a", self.shore_a.is_some()),
-            ("volume_fraction", self.volume_fraction.is_some()),
-            ("particle_remanence_t", self.particle_remanence_t.is_some()),
-        ];
-        refuse(
-            &composite,
+        self.refuse(
+            &Self::OF_COMPOSITE,
             "has no meaning beside elastic_modulus_mpa and remanence_t: give one or the other",
         )?;
         Ok(CylinderMaterial::Bulk {
@@ -271,35 +267,43 @@ impl DesignEntries {
         })
     }
 
+    /// Keys of a chain of segments.
+    pub(super) const OF_SEGMENTS: [&str; 8] =
+        ["segments", "base_magnet", "tip_magnet", "spiral", "spiral_start_deg", "helix", "ring", "backbone"];
+
+    /// Keys of a plain rod.
+    pub(super) const OF_CYLINDER: [&str; 10] = [
+        "length_mm",
+        "radius_mm",
+        "inner_radius_mm",
+        "shore_a",
+        "elastic_modulus_mpa",
+        "poisson",
+        "volume_fraction",
+        "particle_remanence_t",
+        "remanence_t",
+        "density_kg_m3",
+    ];
+
+    /// Keys of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
+    pub(super) const OF_COMPOSITE: [&str; 3] = ["shore_a", "volume_fraction", "particle_remanence_t"];
+
     fn refuse_keys_of_other_kind(&self) -> Result<(), Error> {
-        let of_segments = [
-            ("segments", self.segments.is_some()),
-            ("base_magnet", self.base_magnet.is_some()),
-            ("tip_magnet", self.tip_magnet.is_some()),
-            ("spiral", self.spiral.is_some()),
-            ("spiral_start_deg", self.spiral_start_deg.is_some()),
-            ("helix", self.helix.is_some()),
-            ("ring", self.ring.is_some()),
-            ("backbone", self.backbone.is_some()),
-        ];
-        let of_cylinder = [
-            ("length_mm", self.length_mm.is_some()),
-            ("radius_mm", self.radius_mm.is_some()),
-            ("inner_radius_mm", self.inner_radius_mm.is_some()),
-            ("shore_a", self.shore_a.is_some()),
-            ("elastic_modulus_mpa", self.elastic_modulus_mpa.is_some()),
-            ("poisson", self.poisson.is_some()),
-            ("volume_fraction", self.volume_fraction.is_some()),
-            ("particle_remanence_t", self.particle_remanence_t.is_some()),
-            ("remanence_t", self.remanence_t.is_some()),
-            ("density_kg_m3", self.density_kg_m3.is_some()),
-        ];
         match self.kind {
-            DesignKind::Segments => refuse(
-                &of_cylinder,
+            DesignKind::Segments => self.refuse(
+                &Self::OF_CYLINDER,
                 "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
             ),
-            DesignKind::Cylinder => refuse(&of_segments, "belongs to kind = \"segments\""),
+            DesignKind::Cylinder => self.refuse(&Self::OF_SEGMENTS, "belongs to kind = \"segments\""),
+        }
+    }
+
+    /// Refuses the first of these keys that is there.
+    fn refuse(&self, keys: &[&str], reason: &str) -> Result<(), Error> {
+        let there = Table::try_from(self).map_err(|error| unwritable(&error))?;
+        match keys.iter().find(|key| there.contains_key(**key)) {
+            Some(key) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
+            None => Ok(()),
         }
     }
 }
@@ -327,13 +331,6 @@ fn fits(design: &Design, vessel: &Vessel, inputs: &Inputs) -> Result<(), Error> 
         &allowed,
     )?;
     Ok(())
-}
-
-fn refuse(keys: &[(&str, bool)], reason: &str) -> Result<(), Error> {
-    match keys.iter().find(|(_, present)| *present) {
-        Some((key, _)) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
-        None => Ok(()),
-    }
 }
 
 fn required(key: &str, value: Option<f64>) -> Result<f64, Error> {

@@ -68,14 +68,27 @@ impl<'de> Visitor<'de> for TableOrTables {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct MagnetEntries {
+    /// Position of its centre; left out: 120 mm below the middle of the device.
+    ///
+    /// Only the first magnet may leave it out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) position_mm: Option<[f64; 3]>,
+    /// Unit quaternion, scalar first, from its frame to the world's.
     pub(super) orientation_wxyz: [f64; 4],
+    /// Right-handed turn of the magnet about `turn_axis` through its centre.
     pub(super) turn_deg: f64,
+    /// Axis of that turn in the world frame; the default takes +z towards +y.
+    ///
+    /// It may have any length but 0.
     pub(super) turn_axis: [f64; 3],
+    /// Factor on its field; 0 switches it off.
     pub(super) strength: f64,
+    /// A cylinder or ring of the magnet, magnetised along the common axis. One table for each.
+    ///
+    /// They must not overlap.
     pub(super) cylinders: Vec<MagnetCylinder>,
 }
 
@@ -101,14 +114,20 @@ impl Default for MagnetEntries {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct MagnetCylinder {
+    /// Outer radius.
     pub(super) radius_mm: f64,
+    /// Inner radius of a ring; 0: a solid cylinder.
     #[serde(default)]
     pub(super) inner_radius_mm: f64,
+    /// Length along the axis.
     pub(super) length_mm: f64,
+    /// Position of its centre along the axis.
     #[serde(default)]
     pub(super) offset_mm: f64,
+    /// Remanence along the axis; negative: against it.
     pub(super) remanence_t: f64,
 }
 
@@ -126,24 +145,35 @@ impl MagnetCylinder {
 
 /// Table `[[coil]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct CoilEntries {
+    /// Position of its centre.
     #[serde(default)]
     pub(super) position_mm: [f64; 3],
+    /// Unit quaternion, scalar first, from its frame to the world's.
     #[serde(default = "upright")]
     pub(super) orientation_wxyz: [f64; 4],
+    /// Inner radius of the winding.
     pub(super) inner_radius_mm: f64,
+    /// Outer radius of the winding.
     pub(super) outer_radius_mm: f64,
+    /// Length of the winding along its axis.
     pub(super) length_mm: f64,
+    /// Number of turns.
     pub(super) turns: f64,
+    /// Current through every turn; positive: the field in the bore is along +z.
     #[serde(default)]
     pub(super) current_a: f64,
-    /// A table of multipoles, see [`super::multipoles`], until it is read.
+    /// For an iron core: CSV file with the columns `degree` and `t_m_per_a`; its path is relative to the scene.
+    ///
+    /// It takes the place of `multipoles`. The field is then that of the multipoles alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) multipoles_csv: Option<String>,
-    /// T m^(l + 2) / A for the degrees `l` = 1, 2, ....
+    /// For an iron core: axial multipoles of one ampere, T m^(degree + 2) / A, from degree 1 on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) multipoles: Option<Vec<f64>>,
+    /// Radius of the sphere outside which the multipoles hold; left out: about the winding.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reach_mm: Option<f64>,
 }

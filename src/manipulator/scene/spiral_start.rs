@@ -5,13 +5,11 @@ use core::fmt;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::ranges::SPIRAL_START;
 use crate::design::SpiralStart;
-use crate::error::{Error, check};
+use crate::error::Error;
 
 const KEY: &str = "design.spiral_start_deg";
-
-/// Largest angle in either direction, deg.
-const WHOLE_TURN: f64 = 360.0;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum SpiralStartEntry {
@@ -22,9 +20,7 @@ pub(super) enum SpiralStartEntry {
 impl SpiralStartEntry {
     /// The angles in rad, checked for so many segments.
     pub(super) fn si(&self, segments: usize) -> Result<SpiralStart, Error> {
-        let angle = |key: &str, degrees: f64| {
-            check(key, degrees, |v| v.abs() <= WHOLE_TURN, "from -360 to 360").map(f64::to_radians)
-        };
+        let angle = |key: &str, degrees: f64| SPIRAL_START.check(key, degrees).map(f64::to_radians);
         Ok(match self {
             Self::Same(degrees) => SpiralStart::Same(angle(KEY, *degrees)?),
             Self::Each(list) if list.len() != segments => {

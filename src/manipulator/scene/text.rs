@@ -9,6 +9,11 @@ use crate::error::Error;
 use crate::vessel::Lumen;
 
 impl SceneFile {
+    /// The JSON schema of a scene (draft 7): types, defaults, ranges and descriptions of all tables and keys.
+    ///
+    /// It is made from the code; relations between numbers, such as that of an inner to an outer radius, are in its `$comment`s.
+    pub const SCHEMA: &str = include_str!("schema.json");
+
     /// Reads a scene file's text; `what` names it in error messages.
     ///
     /// # Errors
@@ -96,7 +101,7 @@ impl SceneFile {
     }
 }
 
-fn unwritable(error: &toml::ser::Error) -> Error {
+pub(super) fn unwritable(error: &toml::ser::Error) -> Error {
     Error::Syntax { what: "scene".into(), reason: error.to_string() }
 }
 

@@ -7,15 +7,22 @@ use crate::design::{Backbone, Guidewire, Modulus};
 use crate::error::Error;
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct BackboneEntries {
+    /// Outer radius of the tube.
     pub(super) outer_radius_mm: f64,
+    /// Inner radius of the tube.
     pub(super) inner_radius_mm: f64,
+    /// Shore A hardness; either this or `elastic_modulus_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) shore_a: Option<f64>,
+    /// Young's modulus; either this or `shore_a`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) elastic_modulus_mpa: Option<f64>,
+    /// Poisson's ratio.
     pub(super) poisson: f64,
+    /// Density.
     #[serde(default = "water")]
     pub(super) density_kg_m3: f64,
 }
@@ -48,10 +55,14 @@ impl BackboneEntries {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct GuidewireEntries {
+    /// Radius of the wire.
     pub(super) radius_mm: f64,
+    /// Young's modulus.
     pub(super) elastic_modulus_mpa: f64,
+    /// Arc length from the port, or from the base, that the wire reaches.
     #[serde(default)]
     pub(super) insertion_mm: f64,
 }

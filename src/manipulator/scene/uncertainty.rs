@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Cholesky, DMatrix};
 
 use super::SceneFile;
-use crate::error::{Error, check};
+use super::ranges::{CORRELATION, DEVIATION};
+use crate::error::Error;
 
 /// Between the two keys of a correlation.
 const SEPARATOR: &str = ", ";
@@ -50,12 +51,12 @@ impl Uncertainty {
             }
         }
         for (key, deviation) in keys.iter().zip(deviations) {
-            check(&format!("`{key}`"), *deviation, |v| v > 0.0, "> 0")?;
+            DEVIATION.check(&format!("`{key}`"), *deviation)?;
         }
         for (index, value) in correlation.iter().enumerate() {
             let [row, column] = [index % count, index / count].map(|at| &keys[at]);
             let name = format!("`{row}{SEPARATOR}{column}`");
-            check(&name, *value, |v| v.abs() <= 1.0, "from -1 to 1")?;
+            CORRELATION.check(&name, *value)?;
         }
         if Cholesky::new(correlation.clone()).is_none() {
             return Err(Error::Unsupported(

@@ -9,12 +9,17 @@ use crate::error::Error;
 use crate::vessel::{Branch, Lumen, Vessel, Wall};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct VesselEntries {
+    /// Young's modulus of the wall.
     pub(super) wall_modulus_mpa: f64,
+    /// Coefficient of Coulomb friction: about 0.04 oiled or wet, 1 dry silicone.
     pub(super) friction: f64,
+    /// Closed STL file in mm instead of branches; its path is relative to the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) mesh_stl: Option<String>,
+    /// A tube about a centreline. One table for each; where they overlap they are open to each other.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) branch: Vec<BranchEntries>,
 }
@@ -27,15 +32,20 @@ impl Default for VesselEntries {
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub(super) struct BranchEntries {
+    /// Name for messages; each branch has its own.
     pub(super) name: String,
+    /// Points of its centreline, at least two.
     pub(super) points_mm: Vec<[f64; 3]>,
+    /// Radius: one number, or a list with one for each point.
     pub(super) radius_mm: RadiusEntry,
 }
 
 /// One radius for all points, or one for each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(untagged, expecting = "a number, or a list with one number for each point")]
 pub(super) enum RadiusEntry {
     Same(f64),
@@ -44,6 +54,7 @@ pub(super) enum RadiusEntry {
 
 /// How a device is held at its base. Its number is that of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum FeedMode {
     /// The base holds the first body.
@@ -56,13 +67,21 @@ pub enum FeedMode {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct FeedEntries {
+    /// How the device is held at its base.
     pub(super) mode: FeedMode,
+    /// Length of shaft inside the port; in mode `force` where the search begins.
     pub(super) insertion_mm: f64,
+    /// Turn of the shaft about its axis.
     pub(super) roll_deg: f64,
+    /// Push on the shaft in mode `force`; left out: 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) force_n: Option<f64>,
+    /// The shaft. Left out: the backbone goes on behind the base.
+    ///
+    /// Its stiffness is either `shore_a` or `elastic_modulus_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) shaft: Option<BackboneEntries>,
 }

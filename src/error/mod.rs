@@ -1,5 +1,9 @@
 //! The one public error: what was wrong, with which value, and what is allowed.
 
+mod interval;
+
+pub use interval::Interval;
+
 /// Everything that this crate refuses.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -65,13 +69,13 @@ impl Error {
     }
 }
 
-/// Returns `value` when it is finite and `holds`, else an [`Error::Range`].
+/// Returns `value` when it is finite and `holds`, else an [`Error::Range`]; for an interval see [`Interval::check`].
 ///
 /// ```
 /// use mcm::error::check;
-/// assert_eq!(check("length (m)", 0.004, |v| v > 0.0, "> 0"), Ok(0.004));
-/// let refused = check("length (m)", f64::NAN, |v| v > 0.0, "> 0").unwrap_err();
-/// assert_eq!(refused.to_string(), "length (m) = NaN is not allowed: it must be > 0");
+/// assert_eq!(check("count", 4.0, |v| v.fract() == 0.0, "a whole number"), Ok(4.0));
+/// let refused = check("count", f64::NAN, |v| v.fract() == 0.0, "a whole number").unwrap_err();
+/// assert_eq!(refused.to_string(), "count = NaN is not allowed: it must be a whole number");
 /// ```
 ///
 /// # Errors

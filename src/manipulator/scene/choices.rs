@@ -1,0 +1,48 @@
+//! Keys whose value is one of a list of names: the level of interaction and the method.
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serializer};
+
+use crate::equilibrium::Interaction;
+use crate::methods::Method;
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+pub(super) fn write_level<S: Serializer>(level: &Interaction, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(level.name())
+}
+
+pub(super) fn read_level<'de, D: Deserializer<'de>>(input: D) -> Result<Interaction, D::Error> {
+    let name = String::deserialize(input)?;
+    let known = Interaction::ALL.iter().map(|row| row.1);
+    Interaction::named(&name).ok_or_else(|| unknown(&name, "not a level", known))
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference")]
+pub(super) fn write_method<S: Serializer>(method: &Method, out: S) -> Result<S::Ok, S::Error> {
+    out.serialize_str(method.name())
+}
+
+pub(super) fn read_method<'de, D: Deserializer<'de>>(input: D) -> Result<Method, D::Error> {
+    let name = String::deserialize(input)?;
+    let known = Method::ALL.iter().map(|row| row.1);
+    Method::named(&name).ok_or_else(|| unknown(&name, "not available in this version", known))
+}
+
+fn unknown<E: Error>(name: &str, is: &str, known: impl Iterator<Item = &'static str>) -> E {
+    let known: Vec<&str> = known.collect();
+    E::custom(format!("\"{name}\" is {is}: choose one of {}", known.join(", ")))
+}
+
+/// The levels in the schema of a scene.
+#[cfg(test)]
+pub(super) fn levels(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let level = |(_, name, is): &(Interaction, &str, &str)| serde_json::json!({ "const": name, "type": "string", "description": format!("{is}.") });
+    schemars::json_schema!({ "oneOf": Interaction::ALL.iter().map(level).collect::<Vec<_>>() })
+}
+
+/// The methods in the schema of a scene.
+#[cfg(test)]
+pub(super) fn methods(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    let names: Vec<&str> = Method::ALL.iter().map(|row| row.1).collect();
+    schemars::json_schema!({ "type": "string", "enum": names })
+}
