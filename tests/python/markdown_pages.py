@@ -108,3 +108,11 @@ def commands(page: Path) -> list[Command]:
     """All commands of a page."""
     in_blocks = [command for block in blocks(page) if block.language == "bash" for command in lines_of(block)]
     return in_blocks + between_backticks(page)
+
+
+def table(page: Path, header: str) -> list[list[str]]:
+    """The cells of the only table of a page whose header begins so, without that header."""
+    tables = re.findall(r"^(\|.*\n)\|[ |-]*\n((?:\|.*\n)+)", page.read_text(), re.MULTILINE)
+    found = [rows for head, rows in tables if head.startswith(header)]
+    assert len(found) == 1, f"{page}: {len(found)} tables begin with {header}"
+    return [[cell.strip() for cell in row.strip("|").split(" | ")] for row in found[0].splitlines()]
