@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from conftest import PACKAGE, run
+from conftest import PACKAGE, program, run
 from markdown_pages import table
 
 LEVELS = ["none", "preceding", "rings", "full"]
@@ -68,6 +68,45 @@ def test_three_segments_with_bending_stop(level: str, angles: Angles) -> None:
         assert_printed(cell, tip, f"{level}, {turn} deg")
     for number, core in zip(cells[4].split(", "), cores, strict=True):
         assert_printed(number, core, f"{level}, core")
+    if level == "none":  # the others end on the way
+        tip, _ = angles(turned.replace("bending_stop = true", "") + "turn_deg = 170\n")
+        assert cells[5].endswith(" at 170")
+        assert_printed(cells[5].split()[0], tip, "without stop")
+
+
+# What pages repeat of the comparison with the paper, and how that says it.
+REPEATED = [
+    ("README.md", "(31 %) is met within 1 %", "| 0.31 | 0.252 | 0.312 | +0.6 % |"),
+    ("src/README.md", "a dipole errs by 28 %", "a dipole +28 %"),
+    (
+        "src/magnetics/README.md",
+        "11.3 mT in the worst direction and 19.5 mT in the best",
+        "| 11.31 to 19.54 |",
+    ),
+    ("src/magnetics/README.md", "0.15 to 0.33 T/m without a field", "| 0.15 to 0.33 |"),
+    ("src/manipulator/README.md", "ends at 117.9 |", "`rings` ends at 117.9 deg, `full` at 88.1"),
+    ("src/manipulator/README.md", "ends at 88.1 |", "`rings` ends at 117.9 deg, `full` at 88.1"),
+    ("src/uncertainty/README.md", "(0.31; 0.245 to 0.379)", "the band is 0.245 to 0.379"),
+    ("src/uncertainty/README.md", "(119 deg; 125.8 to 128.6", "the band is 125.8 to 128.6"),
+    ("src/uncertainty/README.md", "(16 deg; 8.3 to 9.9)", "the band is 8.3 to 9.9"),
+    ("src/uncertainty/README.md", "(0.09 N; 0.100 to 0.106)", "the band is 0.1000 to 0.1055"),
+]
+
+
+@pytest.mark.parametrize(("page", "repeated", "said"), REPEATED)
+def test_other_pages_repeat_the_comparison(page: str, repeated: str, said: str) -> None:
+    # `tests/cli/study.rs` holds that the comparison is what `mcm study all` writes.
+    assert said in (PACKAGE / "src" / "studies" / "README.md").read_text()
+    assert repeated in " ".join((PACKAGE / page).read_text().split())
+
+
+def test_size_of_the_library() -> None:
+    [cells] = [
+        row for row in table(PACKAGE / "fmu" / "README.md", "| build |") if row[0].startswith("`cargo")
+    ]
+    size = program().with_name("libmcm.so").stat().st_size / 1e6
+    # Compilers differ by some percent.
+    assert abs(float(cells[2].removesuffix(" MB")) / size - 1.0) < 0.05, f"{size} MB"
 
 
 @pytest.mark.parametrize(("row", "segments", "stop"), [(0, 1, 40), (1, 3, 20), (2, 3, 170)])
