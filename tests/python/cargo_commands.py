@@ -41,24 +41,22 @@ def targets() -> dict[str, dict[str, Path]]:
 
 
 @functools.cache
-def test_program(option: str) -> str:
-    """What the test program prints with an option; it is built as `tests/check` builds it."""
-    command = ["cargo", "test", "--quiet", "--locked", "--release", "--test", "mcm", "--", option]
-    done = subprocess.run(command, cwd=PACKAGE, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+def listed(*options: str) -> subprocess.CompletedProcess[str]:
+    """The test program's list of tests, asked for with these options too; it is built as `tests/check` builds it."""
+    command = ["cargo", "test", "--quiet", "--locked", "--release", "--test", "mcm", "--", "--list", *options]
+    return subprocess.run(command, cwd=PACKAGE, capture_output=True, text=True, check=False)
 
 
 def names_of_tests() -> list[str]:
     """All tests of the test program."""
-    names = re.findall(r"^(\S+): test$", test_program("--list"), re.MULTILINE)
-    assert len(names) > 100
+    names = re.findall(r"^(\S+): test$", listed().stdout, re.MULTILINE)
+    assert len(names) > 100, listed().stderr
     return names
 
 
 def without_values(words: list[str], help_: str) -> list[str]:
     """The words that are neither options nor their values."""
-    takes_value = {word for word in words if re.search(rf"{re.escape(word)} <", help_)}
+    takes_value = {word for word in words if re.search(rf"{re.escape(word)} \[?<", help_)}
     return [
         word
         for before, word in zip(["", *words], words, strict=False)
@@ -68,9 +66,9 @@ def without_values(words: list[str], help_: str) -> list[str]:
 
 def unknown_to(target: Path, words: list[str]) -> Iterator[str]:
     """Words that an example or a bench does not know: arguments, and parts of names of benches. Numbers are free."""
-    text = target.read_text()
+    said = " ".join(re.findall(r'"([^"\n]*)"', target.read_text()))
     for word in " ".join(words).split():
-        if not re.fullmatch(r"[\d.]+", word) and word not in text:
+        if not re.fullmatch(r"[\d.]+", word) and word not in said:
             yield f"{target.relative_to(PACKAGE)} does not know {word}"
 
 
@@ -99,7 +97,9 @@ def cargo_faults(words: list[str]) -> Iterator[str]:
     yield from lost
     filters = without_values(own, help_) + [word for word in handed_on if not word.startswith("-")]
     if subcommand == "test":
-        yield from unknown(handed_on, test_program("--help") if handed_on else "", "a test program")
+        for option in (word for word in handed_on if word.startswith("-")):
+            if listed(option).returncode != 0:
+                yield f"a test program has no option {option}"
         for part in filters:
             if not any(part in test for test in names_of_tests()):
                 yield f"no test has {part} in its name"

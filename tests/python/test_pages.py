@@ -116,7 +116,7 @@ def test_every_reason_not_to_run_a_line_is_needed() -> None:
         "mcm init --vessel vein",
         "cargo tests",
         "cargo test --release --test mcm no_such_test",
-        "cargo test --test mcm -- --no-capture",
+        "cargo test --test mcm -- --capture-none",
         "cargo run --release --example shapes",
         "cargo run --release --example fit coverages 1000",
         "cargo bench --bench solve -- targets",
