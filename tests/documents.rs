@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 const LONGEST_FIRST_PAGE: (usize, usize) = (200, 15_000); // lines, bytes
 
-fn package() -> &'static Path {
+pub(crate) fn package() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
@@ -24,7 +24,7 @@ fn files(folder: &Path, ending: &str, found: &mut Vec<PathBuf>) {
 }
 
 /// A page without what stands between fences.
-fn prose(text: &str) -> String {
+pub(crate) fn prose(text: &str) -> String {
     text.split("\n```").step_by(2).collect::<Vec<_>>().join("\n")
 }
 
@@ -78,7 +78,7 @@ fn followed(page: &Path) -> (Vec<String>, BTreeSet<PathBuf>) {
     (dead, met)
 }
 
-fn pages() -> Vec<PathBuf> {
+pub(crate) fn pages() -> Vec<PathBuf> {
     let mut pages = vec![package().join("README.md")];
     for folder in ["src", "fmu", "tests"] {
         files(&package().join(folder), "md", &mut pages);

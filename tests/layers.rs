@@ -35,7 +35,8 @@ const EMPTY_NAMES: [&str; 7] = ["util", "utils", "common", "helper", "helpers", 
 const GENERATED: [&str; 1] = ["src/fmi/bindings.rs"];
 
 /// What may lie at the top level, beside what the scripts leave there.
-const TOP_LEVEL: [&str; 9] = [
+const TOP_LEVEL: [&str; 10] = [
+    "CITATION.cff", // where GitHub looks for it
     "Cargo.toml",
     "Cargo.lock",
     "LICENSE",

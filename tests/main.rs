@@ -54,6 +54,7 @@ mod hostile;
 mod cli;
 
 mod documents;
+mod provenance;
 
 mod layers;
 

@@ -156,20 +156,6 @@ fn bad_numbers_are_refused_with_quantity_and_range() {
 }
 
 #[test]
-fn scene_of_the_readme_is_solved() {
-    let readme = include_str!("../../README.md");
-    let scene = readme.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
-    let shown = readme.split("```text\n").nth(1).unwrap().split("```").next().unwrap();
-    let (_, output) = with_scene("readme table", scene, &["solve", "scene.toml"]);
-    for line in shown.lines() {
-        assert!(stdout(&output).contains(line), "the README shows\n{line}\ninstead of\n{}", stdout(&output));
-    }
-    let answer = json("readme", scene, 0);
-    assert_eq!(answer["ring_positions_m"].as_array().unwrap().len(), 4);
-    assert_eq!(answer["stable"], true);
-}
-
-#[test]
 fn past_the_last_fold_no_shape_is_shown_but_why() {
     // The attraction of rings and helix pulls one segment shut at 35.86 mT: there is no shape at 60 mT.
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
