@@ -34,11 +34,14 @@ const MOST_WALKS: usize = 101;
 const BUDGET: Duration = Duration::from_millis(20);
 
 /// Degree and pair accuracy of the reference, and of a coarser solution: their difference is the uncertainty.
-const REFERENCE: (usize, f64) = (8, 1e-9);
-const COARSER: (usize, f64) = (7, 1e-8);
+const REFERENCE: (usize, f64) = (8, 1e-10);
+const COARSER: (usize, f64) = (7, 5e-10);
+
+/// Processor time of a reference, s.
+const TIME_BUDGET: f64 = 60.0;
 
 /// Residual of the collocation that checks the reference, at the interaction levels that it supports.
-const CONFIRMING_RESIDUAL: f64 = 1e-6;
+const CONFIRMING_RESIDUAL: f64 = 1e-8;
 
 /// Tip distance over the length from which two shapes are different equilibria; collocation ignores stability and may
 /// find either.
@@ -51,6 +54,8 @@ pub struct Point {
     pub field: &'static str,
     /// Number of segments.
     pub segments: usize,
+    /// Length of the manipulator, mm.
+    pub length_mm: f64,
     /// Level of interaction of the reference.
     pub interaction: &'static str,
     /// `cold` from the straight shape or `warm` after a small step of the inputs.
@@ -153,7 +158,8 @@ impl Case {
 
     fn points(&self) -> Result<Vec<Point>, Error> {
         let base = self.scene.settings;
-        let fine = |(degree, pair_accuracy)| Settings { degree, pair_accuracy, ..base };
+        let fine =
+            |(degree, pair_accuracy)| Settings { degree, pair_accuracy, time_budget: TIME_BUDGET, ..base };
         let (Some(reference), Some(coarser)) =
             (self.reference(fine(REFERENCE))?, self.reference(fine(COARSER))?)
         else {
@@ -198,6 +204,7 @@ impl Case {
         Point {
             field: self.field,
             segments: self.segments,
+            length_mm: 1e3 * self.length,
             interaction: self.scene.settings.interaction.name(),
             start,
             name,

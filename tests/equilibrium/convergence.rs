@@ -8,7 +8,8 @@ use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
 use crate::tolerance::{
-    ANGLE_BY_ACCURACY, DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS, PAIRS_BY_DEFAULT,
+    ANGLE_BY_ACCURACY, BETWEEN_REFERENCES, DEGREE_NONE, DEGREE_RINGS, FULL_BY_DEFAULT, PAIRS,
+    PAIRS_BY_DEFAULT,
 };
 
 const RICHEST: usize = 8;
@@ -163,5 +164,21 @@ fn sections_are_as_coarse_as_the_accuracy_allows() {
         println!("accuracy {accuracy:.0e}: {error:.1e}");
         assert!(error <= accuracy);
         assert_eq!(error > 1e-5, coarse);
+    }
+}
+
+#[test]
+fn references_beside_the_magnet_pair_agree() {
+    for level in ["none", "rings"] {
+        let text = format!("[magnet]\n[model]\ninteraction = \"{level}\"\ntime_budget_s = 60.0");
+        let scene = Scene::parse(&text, level).unwrap();
+        let tip = |degree, pair_accuracy| {
+            let settings = Settings { degree, pair_accuracy, ..scene.settings.as_discretised() };
+            let mut manipulator = Scene { settings, ..scene.clone() }.manipulator(2).unwrap();
+            manipulator.solve(&scene.inputs).unwrap().tip.position
+        };
+        let apart = (tip(8, 1e-10) - tip(7, 5e-10)).norm() / scene.design().unwrap().length();
+        println!("{level}: {apart:.1e} of the length");
+        assert!(apart <= BETWEEN_REFERENCES, "{level}: {apart:e} of the length");
     }
 }

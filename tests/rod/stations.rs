@@ -9,7 +9,7 @@ use nalgebra::{Matrix2, Vector2};
 use crate::tolerance::{BRUTE_FORCE, FIRST_MOMENT, LAW, assert_close};
 
 /// Cubic modes without rings close by.
-const PLAIN: Resolution = Resolution { degree: 3, nearest: None, bending_stop: false };
+const PLAIN: Resolution = Resolution { degree: 3, nearest: None, bending_stop: false, fine: false };
 
 fn spans(spiral: SpiralKind) -> Vec<Span> {
     let Specification::Segmented(paper) = Specification::paper(1) else { unreachable!() };
