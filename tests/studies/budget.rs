@@ -236,7 +236,10 @@ fn rows_of_a_kind_are_sorted_by_their_size_in_the_first_scene() {
     let first = |row: &&Contribution| row.scene.is_none_or(|scene| scene == BUDGET_SCENES[0].name);
     let rows: Vec<&Contribution> = ROWS.iter().filter(first).collect();
     let kinds: Vec<BudgetKind> = rows.iter().map(|row| row.kind).collect();
-    assert!(kinds.is_sorted() && kinds.windows(2).filter(|pair| pair[0] != pair[1]).count() == 3, "{kinds:?}");
+    assert!(
+        kinds.is_sorted() && kinds.windows(2).filter(|pair| pair[0] != pair[1]).count() == 3,
+        "{kinds:?}"
+    );
     for pair in rows.windows(2).filter(|pair| pair[0].kind == pair[1].kind) {
         let [before, after] = [pair[0], pair[1]];
         assert!(before.size() >= after.size(), "{} before {}", before.quantity, after.quantity);

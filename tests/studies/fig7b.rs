@@ -20,10 +20,7 @@ fn branches_end_where_the_independent_model_loses_them() {
     let (full, rings) = (end("across", "full").unwrap(), end("turned", "rings").unwrap());
     assert!((full[0] - 17.82).abs() <= COLLAPSE_MT, "full, across: {full:?} mT");
     let expected = rows::list(&rows::row("c2_S3_rings_B20_th170").outputs["fold_theta_deg"]);
-    assert!(
-        (rings[0] - expected[0]).abs() <= FOLD_ANGLE_DEG,
-        "rings, turned: {rings:?}, {expected:?} deg"
-    );
+    assert!((rings[0] - expected[0]).abs() <= FOLD_ANGLE_DEG, "rings, turned: {rings:?}, {expected:?} deg");
     for (way, place, name, end) in
         [("across", "field_mt", "full", full), ("turned", "turn_deg", "rings", rings[0])]
     {
