@@ -18,6 +18,7 @@ mod numbers;
 mod output;
 mod pack;
 mod picture;
+mod plot;
 mod progress;
 mod solve;
 mod stability;
@@ -73,9 +74,11 @@ enum Command {
     Steer(Box<steer::Steer>),
     /// Finds numbers of the scene from measured rows, and how sure they are
     Fit(fit::Fit),
+    /// Draws columns of a table as curves, to look at them
+    Plot(plot::Plot),
     /// Packs a design as an FMI 2.0 FMU for co-simulation and model exchange
     Pack(pack::Pack),
-    /// Computes the paper's figures: tables, pictures, and a comparison with the paper
+    /// Computes the paper's figures: tables, and a comparison with the paper
     Study(study::Study),
 }
 
@@ -101,6 +104,7 @@ fn main() -> ExitCode {
         Some(Command::Follow(command)) => command.run(),
         Some(Command::Steer(command)) => command.run(),
         Some(Command::Fit(command)) => command.run(),
+        Some(Command::Plot(command)) => command.run(),
         Some(Command::Pack(command)) => command.run(),
         Some(Command::Study(command)) => command.run(),
         // Clap prints the help where nothing is given.

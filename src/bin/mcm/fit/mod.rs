@@ -1,8 +1,9 @@
 //! `mcm fit`: numbers of the scene from measured rows.
 
+mod chart;
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
 
@@ -13,6 +14,7 @@ use super::doing::Doing;
 use super::failure::{Failure, NOT_CONVERGED};
 use super::files::{bad_table, is_scene, open_table, read_scene, refuse_over};
 use super::output::{Output, print, warn};
+use super::picture::SvgFile;
 
 /// Finds numbers of the scene from measured rows, and how sure they are.
 #[derive(clap::Args)]
@@ -46,6 +48,9 @@ pub(crate) struct Fit {
     /// Let outliers count little: the Huber loss instead of squares
     #[arg(long)]
     robust: bool,
+    /// Draw measured against computed values, and residuals
+    #[arg(long, value_name = "OUT.svg")]
+    picture: Option<PathBuf>,
 }
 
 /// A standard deviation of an output.
@@ -70,7 +75,9 @@ impl FromStr for Deviation {
 impl Fit {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
-        refuse_over(&[&self.scene, &self.measured], &[&self.out])?;
+        let written: Vec<&Path> =
+            [Some(&self.out), self.picture.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
+        refuse_over(&[&self.scene, &self.measured], &written)?;
         if !is_scene(&self.out) {
             return Err(Failure(format!("--out {} must end in .toml: it is a scene", self.out.display())));
         }
@@ -79,6 +86,7 @@ impl Fit {
                 "--vary takes a key alone here, --vary {key}: the fit starts at the scene's value"
             )));
         }
+        let picture = self.picture.as_deref().map(|path| SvgFile::at("--picture", path)).transpose()?;
         let file = read_scene(&self.scene)?;
         let measured = self.measurements(&file)?;
         let out = Output::at(&self.out)?;
@@ -86,6 +94,10 @@ impl Fit {
         let loss = if self.robust { Loss::Huber } else { Loss::Squares };
         let settings = Settings { loss, ..Settings::default() };
         let fit = mcm::fit::Fit::new(&file, &self.vary, &measured, &settings)?;
+        if let Some(picture) = picture {
+            doing.then("drawing");
+            picture.fill(&chart::of(&fit).draw())?;
+        }
         drop(doing);
         out.fill(fit.scene()?.to_toml()?.as_bytes())?;
         print(report::of(&fit))?;

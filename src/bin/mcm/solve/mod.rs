@@ -19,7 +19,7 @@ use super::doing::Doing;
 use super::failure::Failure;
 use super::files::{read_scene, refuse_same};
 use super::output::{print, warn};
-use super::picture::ShapeFile;
+use super::picture::{SvgFile, shape};
 use super::verdict;
 
 /// Solves one equilibrium, starting from the unloaded shape.
@@ -45,8 +45,8 @@ pub(crate) struct Solve {
     /// Number of centreline points in the shape
     #[arg(long, value_name = "N", default_value_t = 101)]
     shape_points: usize,
-    /// Draw the shape to scale, with rings, vessel, magnet and forces of the wall, in the plane in which it spreads most
-    #[arg(long, value_name = "OUT.svg|OUT.png")]
+    /// Draw the shape to scale, with rings, vessel, magnets, coils and forces of the wall, in the plane in which it spreads most
+    #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
     /// Bands of 95 % of all outputs, from the standard deviations in the scene's table [uncertainty]
     #[arg(long)]
@@ -64,7 +64,7 @@ impl Solve {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let written: Vec<&Path> = self.picture.iter().map(PathBuf::as_path).collect();
         refuse_same(&[&self.scene], &written)?;
-        let picture = self.picture.as_deref().map(ShapeFile::at).transpose()?;
+        let picture = self.picture.as_deref().map(|path| SvgFile::at("--picture", path)).transpose()?;
         let file = read_scene(&self.scene)?;
         let scene = file.scene()?;
         let level = scene.settings.interaction.name();
@@ -80,7 +80,7 @@ impl Solve {
         let outputs = manipulator.measure_margin();
         if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
             doing.then("drawing");
-            picture.draw(&self.scene.display().to_string(), &scene, outputs)?;
+            picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, outputs)?)?;
         }
         let mut outputs = outputs.clone();
         if scene.settings.mutual_wrenches {

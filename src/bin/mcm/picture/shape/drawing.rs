@@ -1,227 +1,199 @@
 //! Drawing of what is in the picture of a scene.
 
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use svg::Document;
+use svg::node::element::{Group, Path, Rectangle, SVG};
 
-use super::outline::{LumenOutline, Outline};
+use super::outline::Outline;
 use super::{INSIDE, Picture};
-use crate::picture::{Drawn, GRID, INK, LINE, PAPER, TITLE, colour, pen, scaled, text, tick, use_font};
+use crate::picture::frame::Frame;
+use crate::picture::style::{
+    COLOURS, GREY, GRID, INK, LINE, TITLE, document, line, path, pixels, text, width,
+};
+use crate::picture::ticks::round_below;
+
+/// Room at the left of the axes, above them and below them, pixels.
+const LEFT: f64 = 86.0;
+const TOP: f64 = 72.0;
+const BELOW: f64 = 60.0;
 
 /// Length of the longest arrow of a force, relative to the shorter side, and least force that is drawn, relative to the largest.
 const ARROW: f64 = 0.16;
 const LEAST: f64 = 0.02;
 
-/// Length and half width of an arrow's head and height of letters in the legend, pixels.
+/// Length and half width of an arrow's head, and length of the arrow of the field, pixels.
 const HEAD: [f64; 2] = [11.0, 4.5];
-const LEGEND: f64 = 18.0;
+const FIELD_ARROW: f64 = 52.0;
 
-/// Colours by number.
-const DEVICE: usize = 0;
-const FORCE: usize = 1;
-const FIELD: usize = 2;
-const VESSEL: usize = 3;
-const COIL: usize = 4;
+/// Most of the width that the scale takes.
+const SCALE: f64 = 0.15;
 
-type Plane<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+const DEVICE: &str = COLOURS[0];
+const FORCE: &str = COLOURS[1];
+const FIELD: &str = COLOURS[2];
+const VESSEL: &str = COLOURS[3];
+const COIL: &str = COLOURS[4];
+
+/// Colour and opacity of an area.
+type Fill = (&'static str, f64);
+
+const BODY: Fill = (DEVICE, 0.3);
+const CORE: Fill = (DEVICE, 0.8);
+const RING: Fill = (INK, 1.0);
+const SHAFT: Fill = (GRID, 1.0);
+const LUMEN: Fill = (VESSEL, 0.13);
+const SOUTH: Fill = (GRID, 0.8);
+const NORTH: Fill = (GREY, 0.55);
+const WINDINGS: Fill = (COIL, 0.35);
 
 impl Picture {
-    pub(super) fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        use_font()?;
-        area.fill(&WHITE)?;
-        let area = area.margin(scaled(8.0), scaled(14.0), scaled(8.0), scaled(8.0));
-        let (heading, body) = area.split_vertically(scaled(68.0));
-        heading.draw_text(&self.title, &text(TITLE), (0, scaled(14.0)))?;
-        let [(left, low), (right, high)] = self.corners;
-        let mut chart = ChartBuilder::on(&body)
-            .margin_top(scaled(8.0))
-            .margin_right(scaled(10.0))
-            .x_label_area_size(scaled(62.0))
-            .y_label_area_size(scaled(84.0))
-            .build_cartesian_2d(left..right, low..high)?;
+    pub(super) fn draw(&self) -> Document {
+        let frame = self.frame();
+        let per_newton = self.pixels_per_newton(&frame);
+        let mut inside = self.draw_bodies(&frame);
+        for [at, (x, y)] in &self.forces {
+            let (end, length) = (frame.at(*at), per_newton * x.hypot(*y));
+            if length >= LEAST * ARROW * frame.width.min(frame.height) {
+                inside = inside.add(arrow((end.0 - per_newton * x, end.1 + per_newton * y), end, FORCE));
+            }
+        }
+        if let Some(((x, y), magnitude)) = self.field {
+            // As long as it seems in the plane, in the corner at the upper right.
+            let half = [x, y].map(|part| 0.5 * FIELD_ARROW * part / magnitude);
+            let centre = (frame.right() - 40.0, frame.top + 40.0);
+            if half[0].hypot(half[1]) > 1.0 {
+                let ends = [-1.0, 1.0].map(|sign| (centre.0 + sign * half[0], centre.1 - sign * half[1]));
+                inside = inside.add(arrow(ends[0], ends[1], FIELD));
+            }
+        }
         let [x, y] = self.view.labels();
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .x_desc(x)
-            .y_desc(y)
-            .x_labels(9)
-            .y_labels(7)
-            .axis_style(pen(INK, 1.0))
-            .label_style(text(LEGEND))
-            .axis_desc_style(text(LEGEND))
-            .set_all_tick_mark_size(scaled(6.0))
-            .x_label_formatter(&|value| tick(*value))
-            .y_label_formatter(&|value| tick(*value))
-            .draw()?;
-        self.draw_vessel(&mut chart)?;
-        self.draw_bodies(&mut chart)?;
-        let mut scale = None;
-        let largest = self.forces.iter().map(|[_, force]| force.0.hypot(force.1)).fold(0.0, f64::max);
-        if largest > 0.0 {
-            let [across, up] = self.sides();
-            let per_newton = ARROW * across.min(up) / largest;
-            for [at, force] in &self.forces {
-                let length = (force.0 * per_newton, force.1 * per_newton);
-                if force.0.hypot(force.1) >= LEAST * largest {
-                    self.draw_arrow(&mut chart, (at.0 - length.0, at.1 - length.1), *at, FORCE)?;
-                }
-            }
-            let round = rounded(largest);
-            scale = Some((round, round * per_newton * INSIDE / across));
-        }
-        self.draw_field(&mut chart)?;
-        self.draw_legend(&heading, scale)
+        document((frame.bottom() + BELOW).round(), &self.title)
+            .add(inside.add(scale_of(&frame)))
+            .add(frame.axes(Some(&x), &y))
+            .add(self.draw_legend(per_newton))
     }
 
-    fn draw_vessel<B: DrawingBackend>(&self, chart: &mut Plane<B>) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        let LumenOutline { parts, holes } = &self.vessel;
-        let lumen = parts.iter().map(|ring| Polygon::new(ring.clone(), colour(VESSEL).mix(0.13)));
-        chart.draw_series(lumen)?;
-        chart.draw_series(holes.iter().map(|ring| Polygon::new(ring.clone(), WHITE.filled())))?;
+    /// The axes, with the same scale along both.
+    fn frame(&self) -> Frame {
         let [low, high] = self.corners;
-        let edge = 0.01 * (high.0 - low.0) / INSIDE;
-        let inside = |at: &(f64, f64)| {
-            at.0 > low.0 + edge && at.0 < high.0 - edge && at.1 > low.1 + edge && at.1 < high.1 - edge
-        };
-        for ring in parts.iter().chain(holes) {
-            for run in ring.split(|at| !inside(at)).filter(|run| run.len() > 1) {
-                chart.draw_series([PathElement::new(run.to_vec(), pen(colour(VESSEL), 1.6))])?;
-            }
-        }
-        Ok(())
+        let height = INSIDE * (high.1 - low.1) / (high.0 - low.0);
+        Frame { left: LEFT, top: TOP, width: INSIDE, height, x: [low.0, high.0], y: [low.1, high.1] }
     }
 
-    fn draw_bodies<B: DrawingBackend>(&self, chart: &mut Plane<B>) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        let mut fill = |outline: &Outline, inner: RGBAColor, edge: RGBColor| -> Drawn {
-            chart.draw_series([Polygon::new(outline.clone(), inner)])?;
-            let closed = outline.iter().chain(outline.first()).copied().collect::<Vec<_>>();
-            chart.draw_series([PathElement::new(closed, pen(edge, 1.2))])?;
-            Ok(())
+    fn largest_force(&self) -> f64 {
+        self.forces.iter().map(|[_, force]| force.0.hypot(force.1)).fold(0.0, f64::max)
+    }
+
+    fn pixels_per_newton(&self, frame: &Frame) -> f64 {
+        ARROW * frame.width.min(frame.height) / self.largest_force().max(f64::MIN_POSITIVE)
+    }
+
+    fn draw_bodies(&self, frame: &Frame) -> SVG {
+        let closed = |outline: &Outline| path(outline.iter().map(|point| frame.at(*point))) + "Z";
+        let area = |class: &str, outlines: &[&Outline], (fill, opacity): Fill, edge: &str| {
+            Path::new()
+                .set("class", class)
+                .set("d", outlines.iter().map(|outline| closed(outline)).collect::<String>())
+                .set("fill", fill)
+                .set("fill-opacity", opacity)
+                .set("fill-rule", "evenodd")
+                .set("stroke", edge)
+                .set("stroke-width", 1.2)
         };
+        let mut out = frame.inside();
+        if !self.vessel.is_empty() {
+            out = out.add(area("vessel", &self.vessel.iter().collect::<Vec<_>>(), LUMEN, VESSEL));
+        }
         for coil in &self.coils {
-            fill(coil, colour(COIL).mix(0.35), colour(COIL))?;
+            out = out.add(area("coil", &[coil], WINDINGS, COIL));
         }
         for (whole, north, _) in &self.magnet {
-            fill(whole, GRID.mix(0.8), PAPER)?;
-            fill(north, PAPER.mix(0.55), PAPER)?;
+            out = out.add(area("magnet", &[whole], SOUTH, GREY)).add(area("north", &[north], NORTH, GREY));
         }
         for shaft in &self.shaft {
-            fill(shaft, GRID.mix(1.0), PAPER)?;
+            out = out.add(area("shaft", &[shaft], SHAFT, GREY));
         }
         let [body, core] = &self.device;
-        fill(body, colour(DEVICE).mix(0.3), colour(DEVICE))?;
+        out = out.add(area("device", &[body], BODY, DEVICE));
         if !self.rings.is_empty() {
-            fill(core, colour(DEVICE).mix(0.8), colour(DEVICE))?;
+            out = out.add(area("core", &[core], CORE, DEVICE));
         }
         for ring in &self.rings {
-            fill(ring, INK.mix(1.0), INK)?;
+            out = out.add(area("ring", &[ring], RING, INK));
         }
         for (.., letter) in &self.magnet {
-            let style = text(TITLE).pos(Pos::new(HPos::Center, VPos::Center));
-            chart.draw_series([Text::new("N", *letter, style)])?;
+            let letter = text("N", frame.at(*letter), "middle").set("font-size", TITLE);
+            out = out.add(letter.set("dominant-baseline", "central"));
         }
-        Ok(())
+        out
     }
 
-    fn draw_arrow<B: DrawingBackend>(
-        &self,
-        chart: &mut Plane<B>,
-        from: (f64, f64),
-        to: (f64, f64),
-        number: usize,
-    ) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        let length = (to.0 - from.0).hypot(to.1 - from.1);
-        let pixel = self.sides()[0] / INSIDE;
-        let shrink = (length / (HEAD[0] * pixel)).min(1.0);
-        let (x, y) = ((to.0 - from.0) / length, (to.1 - from.1) / length);
-        let [back, side] = HEAD.map(|size| size * pixel * shrink);
-        let neck = (to.0 - back * x, to.1 - back * y);
-        let head = [to, (neck.0 - side * y, neck.1 + side * x), (neck.0 + side * y, neck.1 - side * x)];
-        chart.draw_series([PathElement::new(vec![from, neck], pen(colour(number), LINE))])?;
-        chart.draw_series([Polygon::new(head, colour(number).filled())])?;
-        Ok(())
-    }
-
-    /// Draws the direction of a uniform field in the corner at the upper right.
-    fn draw_field<B: DrawingBackend>(&self, chart: &mut Plane<B>) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        let Some(((x, y), magnitude)) = self.field else { return Ok(()) };
-        let pixel = self.sides()[0] / INSIDE;
-        // As long as it seems in the plane.
-        let length = 26.0 * pixel / magnitude;
-        let [_, high] = self.corners;
-        let centre = (high.0 - 40.0 * pixel, high.1 - 40.0 * pixel);
-        let half = (x * length, y * length);
-        if half.0.hypot(half.1) > pixel {
-            let ends = [-1.0, 1.0].map(|sign| (centre.0 + sign * half.0, centre.1 + sign * half.1));
-            self.draw_arrow(chart, ends[0], ends[1], FIELD)?;
-        }
-        Ok(())
-    }
-
-    fn draw_legend<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>, scale: Option<(f64, f64)>) -> Drawn
-    where
-        B::ErrorType: 'static,
-    {
-        let body = if self.rings.is_empty() { "rod" } else { "spirals" };
+    fn draw_legend(&self, per_newton: f64) -> Group {
+        let segmented = !self.rings.is_empty();
         let entries = [
-            (body, colour(DEVICE).mix(0.3), true),
-            ("core", colour(DEVICE).mix(0.8), !self.rings.is_empty()),
-            ("rings", INK.mix(1.0), !self.rings.is_empty()),
-            ("shaft", GRID.mix(1.0), !self.shaft.is_empty()),
-            ("vessel", colour(VESSEL).mix(0.3), !self.vessel.parts.is_empty()),
-            ("magnet", PAPER.mix(0.55), !self.magnet.is_empty()),
-            ("coils", colour(COIL).mix(0.35), !self.coils.is_empty()),
+            (if segmented { "spirals" } else { "rod" }, BODY, true),
+            ("core", CORE, segmented),
+            ("rings", RING, segmented),
+            ("shaft", SHAFT, !self.shaft.is_empty()),
+            ("vessel", LUMEN, !self.vessel.is_empty()),
+            ("magnet", NORTH, !self.magnet.is_empty()),
+            ("coils", WINDINGS, !self.coils.is_empty()),
         ];
-        let style = text(LEGEND);
-        let (mut x, y) = (0, scaled(48.0));
-        for (label, fill, _) in entries.into_iter().filter(|(.., shown)| *shown) {
-            let box_around = [(x, y - scaled(7.0)), (x + scaled(22.0), y + scaled(7.0))];
-            area.draw(&Rectangle::new(box_around, fill.filled()))?;
-            area.draw_text(label, &style, (x + scaled(28.0), y))?;
-            x += scaled(46.0) + i32::try_from(area.estimate_text_size(label, &style)?.0)?;
+        let (mut x, y) = (16.0, 52.0);
+        let mut out = Group::new();
+        let name = |words: &str, x: f64| text(words, (x, y), "start").set("dominant-baseline", "central");
+        for (label, (fill, opacity), _) in entries.into_iter().filter(|(.., shown)| *shown) {
+            let sample = Rectangle::new()
+                .set("x", pixels(x))
+                .set("y", y - 7.0)
+                .set("width", 22)
+                .set("height", 14)
+                .set("fill", fill)
+                .set("fill-opacity", opacity)
+                .set("stroke", GREY)
+                .set("stroke-width", 0.5);
+            out = out.add(sample).add(name(label, x + 28.0));
+            x += 46.0 + width(label);
         }
-        let arrow = |from: i32, length: f64, number: usize| -> Drawn {
-            let to = from + scaled(length);
-            let neck = to - scaled(HEAD[0]);
-            area.draw(&PathElement::new(vec![(from, y), (neck, y)], pen(colour(number), LINE)))?;
-            let side = scaled(HEAD[1]);
-            area.draw(&Polygon::new([(to, y), (neck, y - side), (neck, y + side)], colour(number).filled()))?;
-            Ok(())
-        };
-        if let Some((force, length)) = scale {
-            arrow(x, length, FORCE)?;
-            let label = format!("wall, {} mN", tick(1e3 * force));
-            area.draw_text(&label, &style, (x + scaled(length + 8.0), y))?;
-            x += scaled(length + 26.0) + i32::try_from(area.estimate_text_size(&label, &style)?.0)?;
+        let mut arrows = Vec::new();
+        if self.largest_force() > 0.0 {
+            let round = round_below(self.largest_force());
+            arrows.push((FORCE, round * per_newton, format!("wall, {} mN", short(1e3 * round))));
         }
         if let Some((_, magnitude)) = self.field {
-            arrow(x, 26.0, FIELD)?;
-            let label = format!("field, {} mT", tick((magnitude * 1e2).round() / 1e2));
-            area.draw_text(&label, &style, (x + scaled(34.0), y))?;
+            arrows.push((FIELD, 26.0, format!("field, {} mT", short(magnitude))));
         }
-        Ok(())
+        for (colour, length, label) in arrows {
+            out = out.add(arrow((x, y), (x + length, y), colour)).add(name(&label, x + length + 8.0));
+            x += length + 26.0 + width(&label);
+        }
+        out
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above this.
-fn rounded(value: f64) -> f64 {
-    let power = 10_f64.powf(value.log10().floor());
-    [5.0, 2.0, 1.0].into_iter().map(|digit| digit * power).find(|round| *round <= value).unwrap_or(power)
+/// A bar of a round length, in the corner at the lower right.
+fn scale_of(frame: &Frame) -> Group {
+    let per_mm = frame.width / (frame.x[1] - frame.x[0]);
+    let length = round_below(SCALE * frame.width / per_mm);
+    let (end, y) = (frame.right() - 16.0, frame.bottom() - 14.0);
+    let start = end - length * per_mm;
+    let label = text(&format!("{length} mm"), (0.5 * (start + end), y - 7.0), "middle");
+    Group::new()
+        .add(line([(start, y), (end, y)], INK, 3.0).set("class", "scale"))
+        .add(label.set("paint-order", "stroke").set("stroke", "white").set("stroke-width", 3))
+}
+
+/// An arrow from one place to another, pixels.
+fn arrow(from: (f64, f64), to: (f64, f64), colour: &str) -> Group {
+    let length = (to.0 - from.0).hypot(to.1 - from.1);
+    let (x, y) = ((to.0 - from.0) / length, (to.1 - from.1) / length);
+    let [back, side] = HEAD.map(|size| size * (length / HEAD[0]).min(1.0));
+    let neck = (to.0 - back * x, to.1 - back * y);
+    let head = [to, (neck.0 - side * y, neck.1 + side * x), (neck.0 + side * y, neck.1 - side * x)];
+    let head = Path::new().set("d", path(head) + "Z").set("fill", colour);
+    Group::new().set("class", "arrow").add(line([from, neck], colour, LINE)).add(head)
+}
+
+/// A number with at most two decimals.
+fn short(value: f64) -> String {
+    ((value * 1e2).round() / 1e2).to_string()
 }

@@ -1,10 +1,9 @@
 //! A solved scene to scale: device, shaft, vessel, magnet, and what the wall does.
 
+mod contour;
 mod drawing;
 mod outline;
 mod view;
-
-use std::path::{Path, PathBuf};
 
 use mcm::design::Specification;
 use mcm::error::Error;
@@ -12,20 +11,16 @@ use mcm::geometry::Pose;
 use mcm::magnetics::Assembly;
 use mcm::manipulator::{Outputs, PlacedSource, Scene};
 use mcm::nalgebra::Vector3;
-use plotters::prelude::{BitMapBackend, IntoDrawingArea, SVGBackend};
+use svg::Document;
 
-use super::{OVERSAMPLING, WIDTH, write_png};
 use crate::failure::Failure;
-use crate::output::Output;
-use outline::{LumenOutline, Outline};
+use contour::closed_lines;
+use outline::{Grid, Outline};
 use view::View;
 
 /// Size of the plot's inside: its width, and the least and largest height, pixels.
 const INSIDE: f64 = 790.0;
 const HEIGHTS: [f64; 2] = [240.0, 900.0];
-
-/// Height of all that is above and below it, pixels.
-const AROUND: f64 = 168.0;
 
 /// Space around what is drawn: relative to its size, at least this much (mm), and this much of a vessel (mm).
 const AIR: f64 = 0.07;
@@ -35,55 +30,9 @@ const VESSEL_AIR: f64 = 15.0;
 /// Length of shaft that is drawn before its port, m.
 const OUTSIDE: f64 = 0.01;
 
-/// The kind of picture that a file's name asks for.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Svg,
-    Png,
-}
-
-/// A file for the picture of a scene, which can be written.
-pub(crate) struct ShapeFile {
-    path: PathBuf,
-    kind: Kind,
-    output: Output,
-}
-
-impl ShapeFile {
-    /// Begins the file.
-    pub(crate) fn at(path: &Path) -> Result<Self, Failure> {
-        let ending = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
-        let kind = match ending.as_ref().and_then(|ending| ending.to_str()) {
-            Some("svg") => Kind::Svg,
-            Some("png") => Kind::Png,
-            _ => {
-                return Err(Failure(format!("--picture {} must end in .svg or .png", path.display())));
-            }
-        };
-        Ok(Self { path: path.to_owned(), kind, output: Output::at(path)? })
-    }
-
-    /// Draws the shape found for a scene with this name.
-    pub(crate) fn draw(self, name: &str, scene: &Scene, outputs: &Outputs) -> Result<(), Failure> {
-        let failure = |reason: String| Failure(format!("cannot draw {}: {reason}", self.path.display()));
-        let picture = Picture::new(name, scene, outputs).map_err(|error| failure(error.to_string()))?;
-        let [width, height] = [WIDTH, picture.height()];
-        let large = (width * OVERSAMPLING, height * OVERSAMPLING);
-        if self.kind == Kind::Png {
-            let mut pixels = vec![255; (large.0 * large.1 * 3) as usize];
-            picture
-                .draw(&BitMapBackend::with_buffer(&mut pixels, large).into_drawing_area())
-                .map_err(|error| failure(error.to_string()))?;
-            return write_png(self.output, &pixels, (width, height));
-        }
-        let mut drawn = String::new();
-        picture
-            .draw(&SVGBackend::with_string(&mut drawn, large).into_drawing_area())
-            .map_err(|error| failure(error.to_string()))?;
-        // The coordinates stay fine, the picture gets the size of the other one.
-        let sizes = |(width, height): (u32, u32)| format!("width=\"{width}\" height=\"{height}\"");
-        self.output.fill(drawn.replacen(&sizes(large), &sizes((width, height)), 1).as_bytes())
-    }
+/// The picture of the shape found for a scene with this name.
+pub(crate) fn draw(name: &str, scene: &Scene, outputs: &Outputs) -> Result<Document, Failure> {
+    Ok(Picture::new(name, scene, outputs)?.draw())
 }
 
 /// All that is drawn, in the plane, mm.
@@ -92,7 +41,8 @@ struct Picture {
     view: View,
     /// Corners of the plot.
     corners: [(f64, f64); 2],
-    vessel: LumenOutline,
+    /// Outlines of the vessel and of what it leaves free.
+    vessel: Vec<Outline>,
     /// Each cylinder of the magnets, its northern half, and where that ends.
     magnet: Vec<(Outline, Outline, (f64, f64))>,
     /// The coils that carry a current.
@@ -155,7 +105,7 @@ impl Picture {
         let mut out = Self {
             title: format!("{name}: tip angle {:.2} deg", outputs.tip_angle.to_degrees()),
             corners: [(0.0, 0.0); 2],
-            vessel: LumenOutline::default(),
+            vessel: Vec::new(),
             magnet: magnet.collect(),
             coils: coils.collect(),
             shaft,
@@ -167,8 +117,11 @@ impl Picture {
         };
         out.corners = out.corners_around(lumen.is_some());
         if let Some(lumen) = lumen {
-            out.vessel = outline::of_lumen(lumen, &out.view, out.corners)
-                .map_err(|error| Error::Unsupported(format!("the vessel's outline: {error}")))?;
+            let Grid { first, step, columns, values } =
+                outline::depth_in_lumen(lumen, &out.view, out.corners);
+            let place = |(x, y): (f64, f64)| (first.0 + step * x, first.1 + step * y);
+            let lines = closed_lines(&values, columns).into_iter();
+            out.vessel = lines.map(|line| line.into_iter().map(place).collect()).collect();
         }
         Ok(out)
     }
@@ -196,17 +149,5 @@ impl Picture {
         up = up.max(across * HEIGHTS[0] / INSIDE);
         let middle = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1));
         [-0.5, 0.5].map(|share| (middle.0 + share * across, middle.1 + share * up))
-    }
-
-    fn sides(&self) -> [f64; 2] {
-        let [low, high] = self.corners;
-        [high.0 - low.0, high.1 - low.1]
-    }
-
-    /// Height of the picture, pixels.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundred")]
-    fn height(&self) -> u32 {
-        let [across, up] = self.sides();
-        (AROUND + INSIDE * up / across).round() as u32
     }
 }

@@ -1,6 +1,5 @@
 //! Outlines in a plane: of a vessel, and of cylinders.
 
-use contour::ContourBuilder;
 use mcm::geometry::Pose;
 use mcm::nalgebra::Vector3;
 use mcm::vessel::Lumen;
@@ -17,31 +16,38 @@ const AROUND: usize = 40;
 /// Number of places along a branch at which its size is looked at.
 const ALONG: u32 = 200;
 
+/// A value outside a lumen, m.
+const OUTSIDE: f64 = -1.0;
+
 /// A closed line in the plane, mm.
 pub(super) type Outline = Vec<(f64, f64)>;
 
-/// What can be seen of a lumen.
-#[derive(Default)]
-pub(super) struct LumenOutline {
-    pub(super) parts: Vec<Outline>,
-    /// Between vessels that part and meet again.
-    pub(super) holes: Vec<Outline>,
+/// Numbers on a grid in the plane.
+pub(super) struct Grid {
+    /// Coordinates of the first node, and distance of two nodes, mm.
+    pub(super) first: (f64, f64),
+    pub(super) step: f64,
+    /// Number of nodes in a row.
+    pub(super) columns: usize,
+    /// Row by row.
+    pub(super) values: Vec<f64>,
 }
 
-/// The outline of a lumen between two corners (mm).
-pub(super) fn of_lumen(
-    lumen: &Lumen,
-    view: &View,
-    [low, high]: [(f64, f64); 2],
-) -> Result<LumenOutline, Box<dyn std::error::Error>> {
+/// How far inside a lumen the lines of sight come (m) that go through the places between two corners (mm), and two nodes more on
+/// each side: negative outside the lumen, and on the border of the grid.
+pub(super) fn depth_in_lumen(lumen: &Lumen, view: &View, [low, high]: [(f64, f64); 2]) -> Grid {
     let step = (high.0 - low.0).max(high.1 - low.1) / COLUMNS;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most some hundred")]
-    let [columns, rows] = [high.0 - low.0, high.1 - low.1].map(|side| (side / step).round() as usize + 1);
+    let [columns, rows] = [high.0 - low.0, high.1 - low.1].map(|side| (side / step).round() as usize + 5);
+    let first = (low.0 - 2.0 * step, low.1 - 2.0 * step);
     let depths = depths(lumen, view);
     let rows_of_values = (0..rows).into_par_iter().map(|row| {
+        if row == 0 || row + 1 == rows {
+            return vec![OUTSIDE; columns];
+        }
         let mut values: Vec<f64> = Vec::with_capacity(columns);
         while values.len() < columns {
-            let place = (low.0 + step * values.len() as f64, low.1 + step * row as f64);
+            let place = (first.0 + step * values.len() as f64, first.1 + step * row as f64);
             let deepest = deepest(lumen, view, place, depths, 1e-3 * step);
             values.push(deepest);
             // Beside it the clearance can differ by no more than the distance; between two places along the line of sight it
@@ -52,20 +58,10 @@ pub(super) fn of_lumen(
                 left -= step;
             }
         }
+        (values[0], values[columns - 1]) = (OUTSIDE, OUTSIDE);
         values
     });
-    let values: Vec<f64> = rows_of_values.flatten_iter().collect();
-    // The library's coordinates are those of the borders of cells, in whose middle the values are.
-    let found = ContourBuilder::new(columns, rows, true).contours(&values, &[0.0])?;
-    let place = |x: f64, y: f64| (low.0 + step * (x - 0.5), low.1 + step * (y - 0.5));
-    let mut out = LumenOutline::default();
-    for polygon in found.iter().flat_map(|contour| contour.geometry().iter()) {
-        for (number, ring) in std::iter::once(polygon.exterior()).chain(polygon.interiors()).enumerate() {
-            let list = if number == 0 { &mut out.parts } else { &mut out.holes };
-            list.push(ring.coords().map(|at| place(at.x, at.y)).collect());
-        }
-    }
-    Ok(out)
+    Grid { first, step, columns, values: rows_of_values.flatten_iter().collect() }
 }
 
 /// Largest clearance (m) along the line of sight through a place, as far as it matters for an outline at this resolution (m).
