@@ -77,12 +77,12 @@ pub(crate) const SYMMETRY: f64 = 1e-9;
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;
 
+/// The same with ring pairs.
+pub(crate) const DEGREE_RINGS: f64 = 1e-5;
+
 /// Tip over length between two references of different degrees, nine segments beside the magnet pair; 4.7e-10 measured, 4e-7
 /// with the stations of other solves.
 pub(crate) const BETWEEN_REFERENCES: f64 = 1e-9;
-
-/// The same with ring pairs.
-pub(crate) const DEGREE_RINGS: f64 = 1e-5;
 
 /// Tip over the length under `full` by default, where rings and spans are seen by few points (reached: 2e-5, S = 9).
 pub(crate) const FULL_BY_DEFAULT: f64 = 3e-5;
