@@ -19,8 +19,6 @@ NOT_RUN = {
     "cargo install": "compiles everything once more",
     "fmu/demo": "a minute; tests/python/test_pass.py has its parts",
     "tests/check": "runs these tests",
-    "fmu/live": "tests/check runs it before these tests",
-    "fmu/navigate": "four minutes; tests/python/test_navigate.py goes the first part of the way",
     "mcm study": "half a minute; tests/cli/study.rs runs it",
     ".venv/bin/python fmu/examples/pack_arm.py": "compiles the partner; tests/python/test_examples.py runs it",
     ".venv/bin/python fmu/examples/coupled_": "needs the partner; tests/python/test_examples.py runs it",
