@@ -5,7 +5,7 @@ import importlib
 import sys
 from pathlib import Path
 
-import table
+import study_table
 
 HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parents[1] / "fmu"))
@@ -47,7 +47,7 @@ def main() -> None:
         )
     for name in asked.names or found:
         module = importlib.import_module(f"figures.{module_of(name)}")
-        written = look.save(module.draw(table.Table.read(asked.folder / f"{name}.csv")), out / name)
+        written = look.save(module.draw(study_table.Table.read(asked.folder / f"{name}.csv")), out / name)
         print(*written)
 
 

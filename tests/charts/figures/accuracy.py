@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.pyplot import figure as new_figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
-from table import Table
+from study_table import Table
 
 FIELD = "pair"
 LEVELS = ("none", "rings", "full")

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 WAY = {"color": "#f6dd8b", "lw": 6, "zorder": 1}  # of slow loading
 JUMP = 15.0  # degrees between two shapes of slow loading that a snap lies between

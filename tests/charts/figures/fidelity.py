@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 from matplotlib.ticker import FuncFormatter, NullLocator
-from table import Table
+from study_table import Table
 
 WIDE = 1e-3  # the times of tolerances from here on are told together
 LEAST = 1e-7  # errors below are off the picture

@@ -4,7 +4,7 @@ import look
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
 from matplotlib.ticker import FixedLocator
-from table import Table
+from study_table import Table
 
 CURVES = (
     ("closed", "closed cores", look.GREY),

@@ -4,7 +4,7 @@ import look
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 BOTH, TIP = {"ls": "-"}, {"ls": "--", "lw": 1.5}
 ANGLES = (

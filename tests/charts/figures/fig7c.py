@@ -3,7 +3,7 @@
 import look
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 DEVICES = (("manipulator", "nine segments", look.EXACT), ("cylinder", "solid cylinder", look.CYLINDER))
 

@@ -4,7 +4,7 @@ import look
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 COUNTS = dict(zip((2, 3, 4, 5), look.shades(look.EXACT, 4), strict=True))
 DEFLECTION, TORQUE = "deflection of adjacent rings (°)", "torque (µN m)"

@@ -4,7 +4,7 @@ import look
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 DARK, MIDDLE, LIGHT = look.shades(look.LEVEL["rings"], 3)
 FRICTIONS = (

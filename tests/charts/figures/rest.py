@@ -3,7 +3,7 @@
 import look
 from matplotlib.figure import Figure
 from matplotlib.pyplot import subplots
-from table import Table
+from study_table import Table
 
 DARK, LIGHT = look.shades(look.LEVEL["full"], 3)[::2]
 ARRANGEMENTS = (

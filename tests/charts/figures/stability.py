@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.pyplot import figure as new_figure
 from matplotlib.ticker import PercentFormatter
-from table import Table
+from study_table import Table
 
 # Verdicts from best to worst for who does not check the result: words and colour.
 VERDICTS = {
