@@ -52,7 +52,7 @@ pub struct SceneFile {
     /// Either `mesh_stl` or at least one `[[vessel.branch]]`; `mcm init --vessel aorta` prints an aorta.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) vessel: Option<VesselEntries>,
-    /// A shaft that is pushed in through the base, which then is the port. Left out: the base holds the first body.
+    /// A shaft that is pushed in through the base, which then is the port. Left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) feed: Option<FeedEntries>,
     /// A wire inside, straight when unloaded, that slides and turns freely. Left out: none.
@@ -293,7 +293,7 @@ pub(super) struct LoadEntries {
     pub(super) tip_force_n: [f64; 3],
     /// Moment on the tip.
     pub(super) tip_moment_nm: [f64; 3],
-    /// Forces on the centres of the rings, one for each ring from the base; left out: none.
+    /// Forces on the centres of the rings, from the base on; left out: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) ring_force_n: Option<Vec<[f64; 3]>>,
 }

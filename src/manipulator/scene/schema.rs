@@ -173,6 +173,12 @@ fn visit(node: &mut Value, key: &[String], act: &mut impl FnMut(&mut Value)) -> 
     met + inside.map_or(0, |inside| visit(inside, rest, act))
 }
 
+/// A limit without what the change of its unit left in its last digits.
+fn unrounded(limit: f64) -> f64 {
+    let short: f64 = format!("{limit:.12e}").parse().expect("a number");
+    if (short - limit).abs() <= 4.0 * f64::EPSILON * limit.abs() { short } else { limit }
+}
+
 /// States the range of a key.
 fn set_range(root: &mut Value, key: &str, range: Interval) {
     let mut set = 0;
@@ -183,11 +189,9 @@ fn set_range(root: &mut Value, key: &str, range: Interval) {
         for (bound, including, excluding) in
             [(range.low, "minimum", "exclusiveMinimum"), (range.high, "maximum", "exclusiveMaximum")]
         {
-            // Without the rounding of the change of units.
-            let number = |limit: f64| -> f64 { format!("{limit:.12e}").parse().expect("a number") };
             match bound {
-                Included(limit) => node[including] = json!(number(limit)),
-                Excluded(limit) => node[excluding] = json!(number(limit)),
+                Included(limit) => node[including] = json!(unrounded(limit)),
+                Excluded(limit) => node[excluding] = json!(unrounded(limit)),
                 Unbounded => {}
             }
         }

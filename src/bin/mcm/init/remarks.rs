@@ -83,7 +83,7 @@ impl<'a> Entry<'a> {
             out += &aside(begin, &format!("  {}: {meaning}", choice["const"]));
         }
         if let Some(names) = self.node["enum"].as_array() {
-            let names: Vec<String> = names.iter().map(Value::to_string).collect();
+            let names: Vec<&str> = names.iter().filter_map(Value::as_str).collect();
             out += &aside(begin, &format!("  {}", names.join(", ")));
         }
         out
