@@ -9,9 +9,11 @@ mod init;
 mod mesh;
 mod multipoles;
 mod pack;
+mod plot;
 mod solve;
 mod steer;
 mod study;
+mod svg;
 mod sweep;
 mod uncertainty;
 
