@@ -61,7 +61,10 @@ fn continuation_bisection_and_closed_forms_agree_and_snaps_are_seen_coming() {
         };
         assert!(marks.iter().any(|mark| marked(&mark)), "{row:?} has no mark");
     }
-    assert!(marks.iter().any(|mark| mark["mark"] == "windings touch, gap" && mark["y"] == "40"), "{marks:?}");
+    assert!(
+        marks.iter().any(|mark| mark["mark"] == "windings touch, gap" && mark["y"] == "40.0"),
+        "{marks:?}"
+    );
     for row in predictions {
         let errors: Vec<f64> =
             row[1..].iter().map(|cell| cell.trim_end_matches(" %").parse().unwrap_or(f64::NAN)).collect();

@@ -6,6 +6,7 @@ use std::process::Output;
 
 use mcm::manipulator::SceneFile;
 
+use super::svg::{Axes, elements};
 use super::{assert_status, folder, mcm, stderr, stdout, table};
 
 const SCENE: &str =
@@ -36,7 +37,7 @@ fn run(test: &str, data: impl Fn(&std::path::Path) -> String, more: &[&str]) -> 
 
 #[test]
 fn the_scene_written_has_the_fitted_values_and_how_sure_they_are() {
-    let (here, output) = run("fit", |here| measured(here, ",sd_alpha_deg"), &[]);
+    let (here, output) = run("fit", |here| measured(here, ",sd_alpha_deg"), &["--picture", "fit.svg"]);
     assert_status(&output, 0);
     let text = std::fs::read_to_string(here.join("fit.toml")).unwrap();
     let file = SceneFile::parse(&text, "fit").unwrap();
@@ -47,6 +48,22 @@ fn the_scene_written_has_the_fitted_values_and_how_sure_they_are() {
     let told = stdout(&output);
     assert!(told.contains(KEY) && told.contains("95 % interval") && told.contains("residuals"), "{told}");
     assert_status(&mcm(&here, &["solve", "fit.toml", "--uncertainty"]), 0);
+    // What was measured stands where the line of equal values is, and the residuals are within their band.
+    let elements = elements(&here.join("fit.svg"));
+    let [compared, residuals] = &Axes::of(&elements)[..] else { panic!("two pairs of axes") };
+    let points = |axes: &Axes, curve: usize| -> Vec<[f64; 2]> {
+        axes.curves()[curve].iter().flat_map(|part| part.places()).collect()
+    };
+    let angles: Vec<[f64; 2]> = table(&here.join("data.csv"))
+        .iter()
+        .map(|row| row["alpha_deg"].parse::<f64>().unwrap())
+        .map(|angle| [angle, angle])
+        .collect();
+    compared.assert_at(&points(compared, 1), &angles);
+    compared.assert_at(&points(compared, 0), &[angles[0], angles[2]]);
+    let lines: Vec<[f64; 2]> = (2..5).map(|line| [f64::from(line), 0.0]).collect();
+    residuals.assert_at(&points(residuals, 0), &lines);
+    assert_eq!(residuals.inside.iter().filter(|element| element.get("class") == "band").count(), 1);
 }
 
 #[test]
@@ -87,6 +104,7 @@ fn bad_input_is_refused_before_anything_is_written() {
         ("fit_zero", "alpha_deg\n5\n", &["--sigma", "alpha_deg=0"], "standard deviation of alpha_deg = 0"),
         ("fit_key", "alpha_deg\n5\n6\n", &["--vary", "design.helix.shore_b"], "did you mean `shore_a`?"),
         ("fit_twice", "alpha_deg\n5\n6\n", &["--vary", KEY], "is named twice"),
+        ("fit_png", "alpha_deg\n5\n", &["--picture", "fit.png"], "--picture fit.png must end in .svg"),
         ("fit_range", "alpha_deg\n5\n", &["--vary", "design.ring.remanence_t=1:2:3"], "takes a key alone"),
     ] {
         let (here, output) = run(test, |_| data.to_owned(), more);

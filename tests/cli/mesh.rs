@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use serde_json::Value;
 use zip::ZipArchive;
 
+use super::svg::{Axes, Element, elements};
 use super::{assert_status, folder, mcm, stderr, stdout, table, with_scene};
 use crate::vessel::tube::{shifted, stl, straight, tube};
 
@@ -106,7 +107,7 @@ fn other_sweeps_have_no_such_columns() {
 }
 
 #[test]
-fn a_picture_shows_the_scene() {
+fn a_picture_shows_the_scene_to_scale() {
     let place = meshed("picture");
     fs::write(place.join("free.toml"), "[design]\nsegments = 1\n[magnet]\n[model]\ninteraction = \"none\"")
         .unwrap();
@@ -114,18 +115,45 @@ fn a_picture_shows_the_scene() {
         let output = mcm(&place, &["solve", scene, "--picture", out]);
         assert_status(&output, 0);
         assert!(stdout(&output).contains("tip angle"));
-        fs::read(place.join(out)).unwrap()
+        elements(&place.join(out))
     };
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    let pressed = text(picture("scenes/mesh.toml", "mesh.svg"));
-    assert!(pressed.starts_with("<svg width=\"900\" height="), "{}", &pressed[..80]);
-    for label in ["tip angle", "z (mm)", "y (mm)", "rings", "vessel", "wall, ", "mN", "field, 12 mT"] {
-        assert!(pressed.contains(label), "{label}");
+    let shown = |elements: &[Element], label: &str| elements.iter().any(|own| own.text.contains(label));
+    let pressed = picture("scenes/mesh.toml", "mesh.svg");
+    for label in ["tip angle", "z (mm)", "y (mm)", "rings", "vessel", "wall, ", "mN", "field, 12 mT", " mm"] {
+        assert!(shown(&pressed, label), "{label}");
     }
-    let free = text(picture("free.toml", "free.svg"));
-    assert!(free.contains("magnet") && !free.contains("vessel") && !free.contains("wall, "));
-    assert!(picture("free.toml", "free.PNG").starts_with(b"\x89PNG"));
-    let refused = mcm(&place, &["solve", "free.toml", "--picture", "free.jpg"]);
-    assert_status(&refused, 1);
-    assert!(stderr(&refused).contains("--picture free.jpg must end in .svg or .png"), "{}", stderr(&refused));
+    let drawn = |elements: &[Element], class: &str| -> Vec<Element> {
+        elements.iter().filter(|element| element.get("class") == class).cloned().collect()
+    };
+    assert!(drawn(&pressed, "arrow").len() > 2, "arrows of the wall and of the field, and their legend");
+    assert_eq!(drawn(&pressed, "vessel").len(), 1);
+    let free = picture("free.toml", "free.SVG");
+    assert!(shown(&free, "magnet") && !shown(&free, "vessel") && !shown(&free, "wall, "));
+    // Two cylinders of 45 mm by 30 mm with a gap of 10 mm, and two rings of 4 mm by 1 mm, 5 mm apart.
+    let axes = &Axes::of(&free)[0];
+    for (class, size, apart) in [("magnet", [30.0, 45.0], 40.0), ("ring", [1.0, 4.0], 5.0)] {
+        let [first, second] = &drawn(&axes.inside, class)[..] else { panic!("two of {class}") };
+        let [first, second] = [first, second].map(|element| axes.bounds(element));
+        for [left, low, right, high] in [first, second] {
+            let scale = crate::tolerance::DRAWN * axes.ranges()[1];
+            let errors = [right - left - size[0], high - low - size[1], (first[0] - second[0]).abs() - apart];
+            assert!(errors.iter().all(|error| error.abs() <= scale), "{class}: {errors:?} mm");
+        }
+    }
+    let scale = &drawn(&axes.inside, "scale")[0];
+    let [left, _, right, _] = axes.bounds(scale);
+    assert!(shown(&free, &format!("{:.0} mm", right - left)), "a scale of {} mm", right - left);
+}
+
+#[test]
+fn pictures_are_svg() {
+    let place = meshed("pixels");
+    for name in ["free.png", "free.jpg", "free"] {
+        let refused = mcm(&place, &["solve", "scenes/mesh.toml", "--picture", name]);
+        assert_status(&refused, 1);
+        let expected = format!("--picture {name} must end in .svg");
+        assert!(stderr(&refused).contains(&expected), "{}", stderr(&refused));
+        assert!(stderr(&refused).contains("rsvg-convert free.svg"), "{}", stderr(&refused));
+        assert!(!place.join(name).exists());
+    }
 }

@@ -9,10 +9,12 @@ mod init;
 mod mesh;
 mod multipoles;
 mod pack;
+mod plot;
 mod reference;
 mod solve;
 mod steer;
 mod study;
+mod svg;
 mod sweep;
 mod uncertainty;
 

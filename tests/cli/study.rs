@@ -26,7 +26,7 @@ const MARKS: [(&str, usize); 8] = [
     ("fig4", 1),
     ("fig5", 1),
     ("fig7a", 1),
-    ("fig7b", 5),
+    ("fig7b", 7),
     ("fig7c", 2),
     ("fig7d", 4),
     ("hysteresis", 4),

@@ -22,7 +22,7 @@ fn branches_end_where_the_independent_model_loses_them() {
     let expected = rows::list(&rows::row("c2_S3_rings_B20_th170").outputs["fold_theta_deg"]);
     assert!((rings[0] - expected[0]).abs() <= FOLD_ANGLE_DEG, "rings, turned: {rings:?}, {expected:?} deg");
     for (way, place, name, end) in
-        [("across", "field_mt", "full", full), ("turned", "turn_deg", "rings", rings[0])]
+        [("across", "field_mt", "full", full), ("turned", "turn_deg", "rings", rings)]
     {
         let angles = column(&study, &format!("alpha_{way}_{name}_deg"));
         for (place, angle) in column(&study, place).iter().zip(angles) {

@@ -66,3 +66,7 @@ pub(crate) const REAL_PART_OF_FEW: f64 = 1e-8;
 
 /// Single precision, of numbers below 1.
 pub(crate) const SINGLE: f64 = 6e-8;
+
+/// Places in a picture, which are written to a thousandth of a pixel, relative to the range of an axis's numbers: the numbers'
+/// own places, from which a place is read, are rounded as well, and span a hundred pixels at least.
+pub(crate) const DRAWN: f64 = 3e-5;

@@ -3,6 +3,7 @@
 use mcm::fit::{Cell, Fit, Measurable};
 
 use crate::picture::chart::{Chart, Curve, Panel, Run, Stroke, colour};
+use crate::picture::units::label;
 
 /// Most outputs that have axes of their own.
 const OUTPUTS: usize = 3;
@@ -36,8 +37,7 @@ pub(super) fn of(fit: &Fit) -> Chart {
         };
         let measured = cells.iter().map(|cell| (cell.computed, cell.measured)).collect();
         Panel {
-            labels: ["computed", "measured"]
-                .map(|what| format!("{what} {} ({})", output.name(), output.unit())),
+            labels: ["computed", "measured"].map(|what| format!("{what} {}", label(output.name()))),
             curves: vec![equal, points(number, "", measured)],
             band: None,
         }

@@ -119,9 +119,9 @@ impl Chart {
             (false, true) => "dotted: unstable or not converged",
             (true, _) => "snap; dotted: a jump, unstable or not converged",
         };
-        let (right, y) = (WIDTH - RIGHT, 26.0);
-        let key = Group::new().add(text(words, (right, y), "end"));
-        Some(if snapped { key.add(ring((right - width(words) - 2.0 * RING, y - 5.0))) } else { key })
+        let (left, y) = (WIDTH - RIGHT - width(words), 26.0);
+        let key = Group::new().add(text(words, (left, y), "start"));
+        Some(if snapped { key.add(ring((left - 2.0 * RING, y - 5.0))) } else { key })
     }
 
     fn abscissa(&self, panel: &Panel) -> [f64; 2] {

@@ -6,7 +6,7 @@ use super::style::{GRID, INK, line, pixels, text};
 use super::ticks::ticks;
 
 /// Pixels from one number to the next on an axis, about.
-const BETWEEN: [f64; 2] = [90.0, 45.0];
+const BETWEEN: [f64; 2] = [90.0, 36.0];
 
 /// Length of the mark of a number, pixels.
 const TICK: f64 = 5.0;

@@ -9,5 +9,6 @@ mod labels;
 pub(crate) mod shape;
 mod style;
 mod ticks;
+pub(crate) mod units;
 
 pub(crate) use file::SvgFile;

@@ -1,9 +1,9 @@
 //! Which rows of a table belong to one curve, and how its parts are drawn.
 
 use super::sheet::Sheet;
-use super::units::value;
 use crate::failure::Failure;
 use crate::picture::chart::{Curve, Run, Stroke, colour};
+use crate::picture::units::value;
 
 /// Most curves that can still be told apart.
 const MOST: usize = 40;
@@ -61,7 +61,7 @@ impl Curves {
                 if way && first > 0 && rows.contains(&(first - 1)) {
                     own.insert(0, first - 1);
                 }
-                let way_name = there_and_back.then(|| if way { "back" } else { "forth" }.to_owned());
+                let way_name = there_and_back.then(|| if way { "back (dashed)" } else { "forth" }.to_owned());
                 let name = values.clone().chain(way_name).collect::<Vec<_>>().join(", ");
                 groups.push(Branch { name, colour, back: way, rows: own });
             }

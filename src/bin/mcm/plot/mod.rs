@@ -2,19 +2,18 @@
 
 mod curves;
 mod sheet;
-mod units;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use self::curves::Curves;
 use self::sheet::Sheet;
-use self::units::label;
 use super::failure::Failure;
 use super::files::refuse_same;
 use super::output::print;
 use super::picture::SvgFile;
 use super::picture::chart::{Chart, Panel};
+use super::picture::units::label;
 
 /// The ordinate unless another is asked for, which also ends the columns of what was varied.
 const ANGLE: &str = "alpha_deg";

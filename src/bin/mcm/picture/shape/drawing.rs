@@ -157,10 +157,10 @@ impl Picture {
         let mut arrows = Vec::new();
         if self.largest_force() > 0.0 {
             let round = round_below(self.largest_force());
-            arrows.push((FORCE, round * per_newton, format!("wall, {} mN", short(1e3 * round))));
+            arrows.push((FORCE, round * per_newton, format!("wall, {} mN", decimals(1e3 * round, 6))));
         }
         if let Some((_, magnitude)) = self.field {
-            arrows.push((FIELD, 26.0, format!("field, {} mT", short(magnitude))));
+            arrows.push((FIELD, 26.0, format!("field, {} mT", decimals(magnitude, 2))));
         }
         for (colour, length, label) in arrows {
             out = out.add(arrow((x, y), (x + length, y), colour)).add(name(&label, x + length + 8.0));
@@ -193,7 +193,8 @@ fn arrow(from: (f64, f64), to: (f64, f64), colour: &str) -> Group {
     Group::new().set("class", "arrow").add(line([from, neck], colour, LINE)).add(head)
 }
 
-/// A number with at most two decimals.
-fn short(value: f64) -> String {
-    ((value * 1e2).round() / 1e2).to_string()
+/// A number with at most so many decimals.
+fn decimals(value: f64, most: i32) -> String {
+    let unit = 10_f64.powi(most);
+    ((value * unit).round() / unit).to_string()
 }

@@ -45,15 +45,16 @@ fn parts(column: &str) -> (String, &'static str) {
 }
 
 /// The label of an axis.
-pub(super) fn label(column: &str) -> String {
+pub(crate) fn label(column: &str) -> String {
     let (name, unit) = parts(column);
     if unit.is_empty() { name } else { format!("{name} ({unit})") }
 }
 
 /// A value of a key, which is called by the last part of its name, in words.
-pub(super) fn value(column: &str, value: &str) -> String {
+pub(crate) fn value(column: &str, value: &str) -> String {
     let (name, unit) = parts(column);
     let name = name.rsplit('.').next().unwrap_or_default();
+    let value = value.parse().map_or_else(|_| value.to_owned(), |number: f64| number.to_string());
     format!("{name} = {value} {unit}").trim_end().to_owned()
 }
 
@@ -79,6 +80,6 @@ mod tests {
             assert_eq!(label(column), expected);
         }
         assert_eq!(value("design.helix.length_mm", "3.5"), "length = 3.5 mm");
-        assert_eq!(value("design.segments", "3"), "segments = 3");
+        assert_eq!(value("design.segments", "3.0"), "segments = 3");
     }
 }
