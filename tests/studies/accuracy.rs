@@ -7,6 +7,7 @@ fn point(name: &'static str, time: f64, error: f64) -> Point {
     Point {
         field: "pair",
         segments: 9,
+        length_mm: 46.0,
         interaction: "rings",
         start: "warm",
         name,
