@@ -56,7 +56,7 @@ class Scratch:
         """Writes a file that the page takes for granted."""
         (self.folder / name).write_text(text)
 
-    def run(self, line: str, timeout: float = 60.0) -> subprocess.CompletedProcess[str]:
+    def run(self, line: str, timeout: float = 300.0) -> subprocess.CompletedProcess[str]:
         """Runs a command line of the page as a shell does."""
         path = f"{self.folder / 'bin'}{os.pathsep}{os.environ['PATH']}"
         return subprocess.run(
