@@ -129,9 +129,14 @@ fn a_picture_shows_the_scene_to_scale() {
     assert_eq!(drawn(&pressed, "vessel").len(), 1);
     let free = picture("free.toml", "free.SVG");
     assert!(shown(&free, "magnet") && !shown(&free, "vessel") && !shown(&free, "wall, "));
-    // Two cylinders of 45 mm by 30 mm with a gap of 10 mm, and two rings of 4 mm by 1 mm, 5 mm apart.
-    let axes = &Axes::of(&free)[0];
-    for (class, size, apart) in [("magnet", [30.0, 45.0], 40.0), ("ring", [1.0, 4.0], 5.0)] {
+    // Two cylinders of 45 mm by 30 mm with a gap of 10 mm; without a load, two rings of 4 mm by 1 mm, 5 mm apart.
+    fs::write(place.join("straight.toml"), "[design]\nsegments = 1\n[model]\ninteraction = \"none\"")
+        .unwrap();
+    let straight = picture("straight.toml", "straight.svg");
+    for (elements, class, size, apart) in
+        [(&free, "magnet", [30.0, 45.0], 40.0), (&straight, "ring", [1.0, 4.0], 5.0)]
+    {
+        let axes = &Axes::of(elements)[0];
         let [first, second] = &drawn(&axes.inside, class)[..] else { panic!("two of {class}") };
         let [first, second] = [first, second].map(|element| axes.bounds(element));
         for [left, low, right, high] in [first, second] {
@@ -140,6 +145,7 @@ fn a_picture_shows_the_scene_to_scale() {
             assert!(errors.iter().all(|error| error.abs() <= scale), "{class}: {errors:?} mm");
         }
     }
+    let axes = &Axes::of(&free)[0];
     let scale = &drawn(&axes.inside, "scale")[0];
     let [left, _, right, _] = axes.bounds(scale);
     assert!(shown(&free, &format!("{:.0} mm", right - left)), "a scale of {} mm", right - left);

@@ -108,10 +108,12 @@ impl Axes {
             };
             out.push(Self { inside: inside.to_vec(), x: numbers("x", "x"), y: numbers("y", "y") });
         }
-        for number in (0..out.len().saturating_sub(1)).rev() {
-            if out[number].x.is_empty() {
-                out[number].x = out[number + 1].x.clone();
+        let mut below = Vec::new();
+        for axes in out.iter_mut().rev() {
+            if axes.x.is_empty() {
+                axes.x.clone_from(&below);
             }
+            below.clone_from(&axes.x);
         }
         out
     }
