@@ -5,7 +5,7 @@ fmu/venv tests/bench/requirements.txt
 .venv/bin/python tests/bench/table.py solve      only the solves beside scipy and PyElastica
 .venv/bin/python tests/bench/table.py field      only the fields beside magba and magpylib
 
-Each part leaves its rows in tests/charts/peers.csv, which `tests/charts/draw` draws.
+Each part leaves its rows in tests/charts/peers.csv, which `mcm study accuracy --peers` draws.
 """
 
 import csv
