@@ -6,7 +6,8 @@ use std::fs;
 use crate::documents::{package, pages, prose};
 
 /// Headers of tables that define, describe or count what is given, and measure nothing, by how they begin.
-const DEFINITIONS: [&str; 3] = ["| page | answers |", "| symbol | code name |", "| file | rows | content |"];
+const DEFINITIONS: [&str; 4] =
+    ["| page | answers |", "| symbol | code name |", "| file | rows | content |", "| key | unit | default |"];
 
 /// Units of measured numbers, after a blank.
 const UNITS: [&str; 22] = [
