@@ -34,8 +34,8 @@ const MOST_WALKS: usize = 101;
 const BUDGET: Duration = Duration::from_millis(20);
 
 /// Degree and pair accuracy of the reference, and of a coarser solution: their difference is the uncertainty.
-const REFERENCE: (usize, f64) = (8, 1e-10);
-const COARSER: (usize, f64) = (7, 5e-10);
+const REFERENCE: (usize, f64) = (8, 1e-11);
+const COARSER: (usize, f64) = (7, 5e-11);
 
 /// Processor time of a reference, s.
 const TIME_BUDGET: f64 = 60.0;

@@ -4,7 +4,7 @@ use mcm::equilibrium::{Interaction, Settings};
 use mcm::manipulator::{Input, Manipulator, Neighbours, Output, Outputs, SceneFile, Status};
 
 use super::jacobian::differences;
-use crate::tolerance::{JACOBIAN, SENSITIVITY};
+use crate::tolerance::{JACOBIAN, PAIRS, SENSITIVITY};
 
 /// Centreline points.
 const POINTS: usize = 5;
@@ -78,8 +78,7 @@ fn file(text: &str) -> SceneFile {
 /// The solved device of a scene, with quadratures so fine that differences of solves are smooth.
 fn solved(file: &SceneFile, interaction: Interaction) -> Manipulator {
     let scene = file.scene().unwrap();
-    let settings =
-        Settings { interaction, pair_accuracy: Settings::FINE_PAIRS, tolerance: 1e-13, ..scene.settings };
+    let settings = Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-13, ..scene.settings };
     let (design, magnet) = (scene.design().unwrap(), scene.assembly().unwrap());
     let mut out = Manipulator::new(&design, magnet.as_ref(), settings, POINTS).unwrap();
     if let Some(vessel) = &scene.vessel {
