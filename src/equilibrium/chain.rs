@@ -95,7 +95,7 @@ impl Chain {
                 accuracy: SPAN_SHARE * settings.pair_accuracy,
             }),
             bending_stop: settings.has_bending_stop(),
-            fine: settings.pair_accuracy < Settings::FINE_PAIRS,
+            fine: settings.fine_stations,
         };
         let (mut elements, mut cores, mut chains): (Vec<Element>, _, Vec<Vec<Piece<'_>>>) =
             (Vec::new(), Vec::new(), Vec::new());

@@ -23,8 +23,7 @@ const TORSION: usize = 2;
 /// beyond the number of modes.
 const POINTS: (usize, usize) = (2, 1);
 
-/// The same for references. What limits the others is the spiral, whose third moments four points a section leave out. Nine
-/// segments beside the magnet pair: the tip is within 4e-7 of the length with the points above, within 5e-10 with these.
+/// The same for references. What limits the others is the spiral, whose third moments four points a section leave out.
 const FINE_POINTS: (usize, usize) = (6, 12);
 
 /// Size below which a coefficient of the projection between elements is dropped as rounding.

@@ -159,12 +159,13 @@ def test_both_refuse(schema: Draft7Validator, name: str, tmp_path: Path) -> None
 
 def test_what_is_wrong_is_told_in_the_words_of_the_reference(tmp_path: Path) -> None:
     page = (PACKAGE / "src/manipulator/scene/README.md").read_text(encoding="utf-8")
-    told = re.search(r"```text\n(.*?)```", page, re.DOTALL)
+    told = re.findall(r"^- line (\d+): (`+)(.*)\2$", page, re.MULTILINE)
     assert told
     scene = "[design]\nsegments = 99\n[design.helix]\nlenght_mm = 4.0\npoisson = 0.5\n"
     path = tmp_path / "scene.toml"
     path.write_text(scene, encoding="utf-8")
-    assert run("solve", path).stderr.replace(str(path), path.name) == told[1]
+    expected = "".join(f"error: scene.toml, line {line}: {words}\n" for line, _, words in told)
+    assert run("solve", path).stderr.replace(str(path), path.name) == expected
 
 
 def test_the_example_of_the_reference_is_solved(tmp_path: Path) -> None:
