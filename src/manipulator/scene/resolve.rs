@@ -1,7 +1,7 @@
 //! Conversion of a scene file to SI units and to the quantities that its names stand for.
 
 use nalgebra::Vector3;
-use toml::{Table, Value};
+use toml::Value;
 
 use super::file::{
     DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
@@ -9,7 +9,6 @@ use super::file::{
 use super::pose::{in_metres, pose, turn, turned};
 use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TIME_BUDGET, TURN};
 use super::spiral_start::SpiralStartEntry;
-use super::text::unwritable;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
 use super::vessel::FeedMode;
@@ -195,6 +194,9 @@ impl SceneFile {
     }
 }
 
+/// A key of the table `[design]`, and whether it is there.
+pub(super) type DesignKey = (&'static str, fn(&DesignEntries) -> bool);
+
 impl DesignEntries {
     const SEGMENTS: usize = 9;
 
@@ -267,26 +269,38 @@ impl DesignEntries {
         })
     }
 
-    /// Keys of a chain of segments.
-    pub(super) const OF_SEGMENTS: [&str; 8] =
-        ["segments", "base_magnet", "tip_magnet", "spiral", "spiral_start_deg", "helix", "ring", "backbone"];
-
-    /// Keys of a plain rod.
-    pub(super) const OF_CYLINDER: [&str; 10] = [
-        "length_mm",
-        "radius_mm",
-        "inner_radius_mm",
-        "shore_a",
-        "elastic_modulus_mpa",
-        "poisson",
-        "volume_fraction",
-        "particle_remanence_t",
-        "remanence_t",
-        "density_kg_m3",
+    /// Keys of a chain of segments, and whether they are there.
+    pub(super) const OF_SEGMENTS: [DesignKey; 8] = [
+        ("segments", |design| design.segments.is_some()),
+        ("base_magnet", |design| design.base_magnet.is_some()),
+        ("tip_magnet", |design| design.tip_magnet.is_some()),
+        ("spiral", |design| design.spiral.is_some()),
+        ("spiral_start_deg", |design| design.spiral_start_deg.is_some()),
+        ("helix", |design| design.helix.is_some()),
+        ("ring", |design| design.ring.is_some()),
+        ("backbone", |design| design.backbone.is_some()),
     ];
 
-    /// Keys of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
-    pub(super) const OF_COMPOSITE: [&str; 3] = ["shore_a", "volume_fraction", "particle_remanence_t"];
+    /// The same of a plain rod.
+    pub(super) const OF_CYLINDER: [DesignKey; 10] = [
+        ("length_mm", |design| design.length_mm.is_some()),
+        ("radius_mm", |design| design.radius_mm.is_some()),
+        ("inner_radius_mm", |design| design.inner_radius_mm.is_some()),
+        ("shore_a", |design| design.shore_a.is_some()),
+        ("elastic_modulus_mpa", |design| design.elastic_modulus_mpa.is_some()),
+        ("poisson", |design| design.poisson.is_some()),
+        ("volume_fraction", |design| design.volume_fraction.is_some()),
+        ("particle_remanence_t", |design| design.particle_remanence_t.is_some()),
+        ("remanence_t", |design| design.remanence_t.is_some()),
+        ("density_kg_m3", |design| design.density_kg_m3.is_some()),
+    ];
+
+    /// The same of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
+    pub(super) const OF_COMPOSITE: [DesignKey; 3] = [
+        ("shore_a", |design| design.shore_a.is_some()),
+        ("volume_fraction", |design| design.volume_fraction.is_some()),
+        ("particle_remanence_t", |design| design.particle_remanence_t.is_some()),
+    ];
 
     fn refuse_keys_of_other_kind(&self) -> Result<(), Error> {
         match self.kind {
@@ -299,10 +313,9 @@ impl DesignEntries {
     }
 
     /// Refuses the first of these keys that is there.
-    fn refuse(&self, keys: &[&str], reason: &str) -> Result<(), Error> {
-        let there = Table::try_from(self).map_err(|error| unwritable(&error))?;
-        match keys.iter().find(|key| there.contains_key(**key)) {
-            Some(key) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
+    fn refuse(&self, keys: &[DesignKey], reason: &str) -> Result<(), Error> {
+        match keys.iter().find(|(_, is_there)| is_there(self)) {
+            Some((key, _)) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
             None => Ok(()),
         }
     }

@@ -10,6 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
 use super::file::DesignEntries;
+use super::resolve::DesignKey;
 use super::sources::{MagnetEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
 use super::{SceneFile, names, ranges};
@@ -85,7 +86,8 @@ pub(super) fn schema() -> Value {
 
 /// What one key says of others: the table or list, whether it is one or the other, and what holds there.
 fn conditions() -> Vec<(&'static str, &'static str, Value)> {
-    let none_of = |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Value>();
+    let none_of =
+        |keys: &[DesignKey]| keys.iter().map(|(key, _)| ((*key).to_owned(), json!(false))).collect::<Value>();
     let has = |key: &str, value: Value| json!({ "properties": { key: value }, "required": [key] });
     let one_stiffness =
         json!([{ "oneOf": [{ "required": ["shore_a"] }, { "required": ["elastic_modulus_mpa"] }] }]);

@@ -101,7 +101,7 @@ impl SceneFile {
     }
 }
 
-pub(super) fn unwritable(error: &toml::ser::Error) -> Error {
+fn unwritable(error: &toml::ser::Error) -> Error {
     Error::Syntax { what: "scene".into(), reason: error.to_string() }
 }
 
