@@ -14,7 +14,7 @@
 //! # Ok::<(), mcm::error::Error>(())
 //! ```
 //!
-//! The rooms, in the order in which they may use one another:
+//! The modules, in the order in which they may use one another:
 
 pub mod constants; // physical constants with their source
 pub mod error; // the one public error

@@ -1,11 +1,11 @@
-//! A room of `src` uses only the rooms that the house plan allows, files stay short, and names say what is inside.
+//! A module of `src` uses only the modules that the table below allows, files stay short, and names say what is inside.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The rooms in order, and what each may use; what those may use is allowed too.
-const ROOMS: [(&str, &[&str]); 18] = [
+/// The modules in order, and what each may use; what those may use is allowed too.
+const MODULES: [(&str, &[&str]); 18] = [
     ("constants", &[]),
     ("error", &[]),
     ("numerics", &["constants", "error"]),
@@ -50,8 +50,8 @@ const TOP_LEVEL: [&str; 10] = [
 const LEFT_BY_SCRIPTS: [&str; 6] =
     ["target", "mcm_demo.csv", "mcm_demo.gif", "mcm_demo.png", "mcm_live.html", "logs"];
 
-fn allowed(room: &str) -> BTreeSet<&'static str> {
-    let direct = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, direct)| direct);
+fn allowed(module: &str) -> BTreeSet<&'static str> {
+    let direct = MODULES.iter().find(|(name, _)| *name == module).map_or(&[][..], |(_, direct)| direct);
     direct.iter().flat_map(|&other| allowed(other).into_iter().chain([other])).collect()
 }
 
@@ -71,15 +71,15 @@ fn violations(path: &Path, text: &str) -> Vec<String> {
     }
     let modules = modules(path);
     if path.starts_with("src") && path != Path::new("src/lib.rs") {
-        let room = modules[0].as_str();
-        if !ROOMS.iter().any(|(known, _)| *known == room) {
-            found.push(format!("{name}: the house has no room `{room}`"));
+        let module = modules[0].as_str();
+        if !MODULES.iter().any(|(known, _)| *known == module) {
+            found.push(format!("{name}: `src` has no module `{module}`"));
         }
-        let may_use = allowed(room);
-        for used in rooms_used(text, modules.len()) {
-            let is_room = ROOMS.iter().any(|(known, _)| *known == used);
-            if is_room && used != room && !may_use.contains(used.as_str()) {
-                found.push(format!("{name}: `{room}` must not use `{used}`"));
+        let may_use = allowed(module);
+        for used in modules_used(text, modules.len()) {
+            let is_module = MODULES.iter().any(|(known, _)| *known == used);
+            if is_module && used != module && !may_use.contains(used.as_str()) {
+                found.push(format!("{name}: `{module}` must not use `{used}`"));
             }
         }
     }
@@ -94,7 +94,7 @@ fn modules(path: &Path) -> Vec<String> {
 }
 
 /// Every name directly under the crate that the code (not its comments) mentions; the file is `depth` modules deep.
-fn rooms_used(text: &str, depth: usize) -> BTreeSet<String> {
+fn modules_used(text: &str, depth: usize) -> BTreeSet<String> {
     names_below(text, &["crate::".into(), "super::".repeat(depth)])
 }
 
@@ -216,8 +216,8 @@ fn no_files_of_a_folder_need_one_another() {
 
 #[test]
 fn a_circle_is_seen() {
-    let room = ["rod".to_owned()];
-    let file = |path: &str, text: &str| neighbours_used(Path::new(path), text, &room);
+    let module = ["rod".to_owned()];
+    let file = |path: &str, text: &str| neighbours_used(Path::new(path), text, &module);
     let a = file("src/rod/a.rs", "use super::b::B;");
     let b = file("src/rod/b.rs", "use super::{c, d::{D, a}};");
     let d = file("src/rod/d/mod.rs", "use crate::design::a; // not super::a\nuse super::super::a::A;");
@@ -245,18 +245,18 @@ fn top_level_holds_nothing_else() {
 }
 
 #[test]
-fn every_room_exists() {
-    let house = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for (room, _) in ROOMS {
-        let exists = house.join(room).is_dir() || house.join(format!("{room}.rs")).is_file();
-        assert!(exists, "src has no room `{room}`");
+fn every_module_exists() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for (module, _) in MODULES {
+        let exists = src.join(module).is_dir() || src.join(format!("{module}.rs")).is_file();
+        assert!(exists, "src has no module `{module}`");
     }
 }
 
 #[test]
-fn table_of_contents_lists_the_rooms_in_order() {
+fn table_of_contents_lists_the_modules_in_order() {
     let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src/lib.rs")).unwrap();
-    let order = |room: &str| ROOMS.iter().position(|(name, _)| *name == room).expect(room);
+    let order = |module: &str| MODULES.iter().position(|(name, _)| *name == module).expect(module);
     let listed: Vec<usize> =
         text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.split(';').next()).map(order).collect();
     assert!(listed.len() > 8 && listed.is_sorted(), "{listed:?}");

@@ -1,4 +1,4 @@
-//! Every Rust test of the project in one binary, in the order of the rooms of `src`.
+//! Every Rust test of the project in one binary, in the order of the modules of `src`.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

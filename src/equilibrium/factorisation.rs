@@ -82,7 +82,7 @@ pub(super) struct Origin {
     /// The quadrature rules of the ring pairs.
     pub(super) rules: Vec<usize>,
     /// Whether the stability margin of the branch was determined there.
-    pub(super) judged: bool,
+    pub(super) assessed: bool,
 }
 
 /// The Hessian at a shape before its factorisation; it reuses the storage of the last one.
@@ -123,7 +123,7 @@ impl Linearisation {
             axes: vec![Matrix3::identity(); count],
             matrix: vec![0.0; size * size],
             rhs: vec![0.0; size],
-            origin: Origin { unknowns, inputs, rules: Vec::new(), judged: false },
+            origin: Origin { unknowns, inputs, rules: Vec::new(), assessed: false },
             loads: Vec::with_capacity(2 * count + 1),
         })
     }
@@ -147,7 +147,7 @@ impl Linearisation {
         origin.inputs.copy_from(inputs);
         origin.rules.clear();
         origin.rules.extend(rules);
-        origin.judged = false;
+        origin.assessed = false;
     }
 
     /// Factorises this Hessian plus `shift` times the elastic one. Returns itself where the matrix is not positive
@@ -158,7 +158,7 @@ impl Linearisation {
         shift: f64,
     ) -> Result<Factorisation, Box<Self>> {
         let size = self.rhs.len();
-        self.origin.judged = false;
+        self.origin.assessed = false;
         self.matrix.copy_from_slice(hessian.nodes);
         for k in 0..self.condensations.len() {
             if !self.condense(hessian, k, shift) {
@@ -272,8 +272,8 @@ impl Factorisation {
     }
 
     /// Sets whether the stability margin of the branch is that of this factorisation.
-    pub(super) fn set_judged(&mut self, judged: bool) {
-        self.made.origin.judged = judged;
+    pub(super) fn set_assessed(&mut self, assessed: bool) {
+        self.made.origin.assessed = assessed;
     }
 
     /// Returns the storage for the next Hessian.
@@ -291,7 +291,7 @@ impl Factorisation {
         reach: f64,
     ) -> bool {
         let Linearisation { origin, loads: before, .. } = &*self.made;
-        if !origin.judged {
+        if !origin.assessed {
             return false;
         }
         let changes = unknowns.iter().zip(&origin.unknowns).map(|(a, b)| a - b);

@@ -1,6 +1,7 @@
 //! Potential energy of the whole chain, its minimum and the stability of that minimum.
 
 mod answers;
+mod assessment;
 mod chain;
 mod clock;
 mod condensation;
@@ -25,7 +26,6 @@ mod input_derivatives;
 mod inputs;
 mod interpolation;
 mod jacobian;
-mod judge;
 mod layout;
 mod loads;
 mod model_transfer;

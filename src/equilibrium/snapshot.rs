@@ -85,7 +85,7 @@ impl Equilibrium {
         let mut potential = self.potential_as_ruled(&origin.inputs);
         let done = potential.linearise(&origin.unknowns).is_some() && potential.factorise(0.0);
         if let Some(factorisation) = &mut self.work.factorisation {
-            factorisation.set_judged(origin.judged);
+            factorisation.set_assessed(origin.assessed);
         }
         done
     }

@@ -1,5 +1,5 @@
 //! One solve: predict the next shape and correct it. Where that fails, follow the branch in shorter steps of the inputs;
-//! where the branch ends, descend to the next one. Then judge the stability.
+//! where the branch ends, descend to the next one. Then assess the stability.
 
 use super::history::History;
 use super::inputs::Inputs;
@@ -58,7 +58,7 @@ impl Search<'_> {
         } else {
             self.follow(branch.inputs.as_ref(), target, &mut branch.unknowns)
         };
-        let outcome = self.judge(found, branch, target);
+        let outcome = self.assess(found, branch, target);
         if !outcome.is_solved() {
             return self.give_up(branch, outcome);
         }

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
+use super::assessment::measure;
 use super::chain::{Chain, arc_lengths};
 use super::deadline::Deadline;
 use super::history::History;
 use super::inputs::Inputs;
-use super::judge::measure;
 use super::pair_quadrature::PairQuadrature;
 use super::potential::Potential;
 use super::report::Report;

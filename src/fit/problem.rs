@@ -78,7 +78,7 @@ impl<'a> Problem<'a> {
     /// Those of parameters out of range.
     pub(super) fn first(&self, parameters: &DVector<f64>) -> Result<Vec<Result<Manipulator, String>>, Error> {
         let device = self.device(parameters)?;
-        let solved = |row| device.fresh(row).map(|made| self.judged(row, made));
+        let solved = |row| device.fresh(row).map(|made| self.checked(row, made));
         (0..self.count).into_par_iter().map(solved).collect()
     }
 
@@ -91,13 +91,13 @@ impl<'a> Problem<'a> {
         let moved = |(row, from): (usize, &Option<Manipulator>)| {
             let Some(from) = from else { return Ok(None) };
             let made = device.moved(row, from).map_err(Refused::Range)?;
-            self.judged(row, made).map(Some).map_err(|reason| Refused::Row(row, reason))
+            self.checked(row, made).map(Some).map_err(|reason| Refused::Row(row, reason))
         };
         shapes.par_iter().enumerate().map(moved).collect()
     }
 
     /// A shape that was found, with all that was measured of it.
-    fn judged(&self, row: usize, made: Manipulator) -> Result<Manipulator, String> {
+    fn checked(&self, row: usize, made: Manipulator) -> Result<Manipulator, String> {
         let outputs = made.outputs();
         if outputs.status == Status::NotSolved {
             return Err(format!("no shape: {}", outputs.outcome));

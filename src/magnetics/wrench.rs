@@ -18,7 +18,7 @@ use crate::numerics::quadrature::gauss_legendre;
 /// The error of a rule with `n` nodes around is about `(s/d)^n` with the body's extent `s` and the distance `d` from
 /// its centre to the other magnet (measured on ring pairs 3 to 30 mm apart, within a factor of 20); the number of nodes
 /// along the radius preserves that rate.
-const LADDER: [(usize, usize); 9] =
+const RULES: [(usize, usize); 9] =
     [(1, 8), (2, 12), (3, 16), (4, 24), (6, 32), (8, 48), (12, 72), (18, 108), (27, 160)];
 
 /// Finest accuracy that may be requested: below it, rounding errors of the sums are visible.
@@ -127,11 +127,11 @@ pub(super) fn refined(
 ) -> Result<Wrench, Error> {
     let ratio = ratio.clamp(1e-6, 0.75);
     let expected = |&(_, around): &(usize, usize)| ratio.powi(i32::try_from(around).unwrap_or(i32::MAX));
-    let enough = LADDER.iter().position(|rung| expected(rung) <= accuracy).unwrap_or(LADDER.len() - 1);
+    let enough = RULES.iter().position(|rule| expected(rule) <= accuracy).unwrap_or(RULES.len() - 1);
     let start = enough.saturating_sub(1);
-    let (mut coarse, _) = by(LADDER[start])?;
+    let (mut coarse, _) = by(RULES[start])?;
     let mut reached = f64::INFINITY;
-    for step in LADDER[start..].windows(2) {
+    for step in RULES[start..].windows(2) {
         let (fine, size) = by(step[1])?;
         // The difference estimates the error of the coarse rule; the fine one's exponent is larger by the ratio of the
         // nodes around.

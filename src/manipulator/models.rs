@@ -22,7 +22,7 @@ const FINER: usize = 2;
 
 /// Safety factor on the discretisation error estimate, which is of first order and whose reference is itself not converged. The
 /// example `estimate` records how often this covers the error.
-const DOUBT: f64 = 2.0;
+const SAFETY: f64 = 2.0;
 
 /// Models of one design, cheapest first.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ pub(super) struct Models {
     /// Finer discretisations of the richest model, as far as they have been needed.
     finer: Vec<Refinement>,
     /// The finer discretisation of the coarse model of the richest interaction, once it has been needed.
-    judge: Option<Refinement>,
+    finer_coarse: Option<Refinement>,
 }
 
 impl Models {
@@ -58,14 +58,14 @@ impl Models {
             shape_points,
             whole: whole.into_iter().map(model).collect::<Result<_, _>>()?,
             finer: Vec::new(),
-            judge: None,
+            finer_coarse: None,
         })
     }
 
     /// The same models, unsolved, in a vessel.
     pub(super) fn in_vessel(self, vessel: &Vessel) -> Self {
         let whole = self.whole.into_iter().map(|model| model.in_vessel(vessel)).collect();
-        Self { whole, finer: Vec::new(), judge: None, ..self }
+        Self { whole, finer: Vec::new(), finer_coarse: None, ..self }
     }
 
     /// Index of the richest interaction model, in the discretisation of the settings.
@@ -123,7 +123,7 @@ impl Models {
 
     /// All models.
     pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Equilibrium> {
-        let finer = self.finer.iter_mut().chain(&mut self.judge).map(|finer| &mut finer.model);
+        let finer = self.finer.iter_mut().chain(&mut self.finer_coarse).map(|finer| &mut finer.model);
         self.whole.iter_mut().chain(finer)
     }
 
@@ -176,7 +176,7 @@ impl Models {
         let number = number.max(richest);
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
-        Ok(above[0].error_of(model).map(|error| error.times(DOUBT).plus(apart)))
+        Ok(above[0].error_of(model).map(|error| error.times(SAFETY).plus(apart)))
     }
 }
 
@@ -185,14 +185,14 @@ impl Models {
     /// which a finer one of its own tells.
     fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
         let coarse = &mut self.whole[number];
-        let judge = match &mut self.judge {
-            Some(judge) => judge,
+        let finer_coarse = match &mut self.finer_coarse {
+            Some(finer_coarse) => finer_coarse,
             none => {
                 let (design, sources) = &*self.design;
                 none.insert(Refinement::new(coarse, design, sources, self.shape_points)?)
             }
         };
-        Ok(judge.error_of(coarse).map(|error| error.times(DOUBT)))
+        Ok(finer_coarse.error_of(coarse).map(|error| error.times(SAFETY)))
     }
 }
 

@@ -81,7 +81,7 @@ impl Hierarchy {
                 Some(next) => length = next,
                 None => {
                     let snaps = snaps + u32::from(balance.ran && known.is_some());
-                    return Ok(judged(model, &at, Report { snaps, ..report }));
+                    return Ok(assessed(model, &at, Report { snaps, ..report }));
                 }
             }
         }
@@ -132,7 +132,7 @@ impl Balance {
 }
 
 /// The report of a shaft in balance: stable where more length takes more push.
-fn judged(model: &Equilibrium, inputs: &Inputs, report: Report) -> Report {
+fn assessed(model: &Equilibrium, inputs: &Inputs, report: Report) -> Report {
     if inputs.insertion == 0.0 {
         return report;
     }

@@ -29,13 +29,16 @@ const STEPS: u32 = 8;
 
 /// Minimum and maximum number of timed repetitions, and their time budget. The shortest time per solve counts, because
 /// other load on the machine only adds time.
-const LEAST_WALKS: usize = 3;
-const MOST_WALKS: usize = 101;
+const LEAST_REPETITIONS: usize = 3;
+const MOST_REPETITIONS: usize = 101;
 const BUDGET: Duration = Duration::from_millis(20);
 
 /// Degree and pair accuracy of the reference, and of a coarser solution: their difference is the uncertainty.
 const REFERENCE: (usize, f64) = (8, 1e-10);
 const COARSER: (usize, f64) = (7, 5e-10);
+
+/// Pair accuracy of the finest points that are measured.
+const FINEST_PAIRS: f64 = 1e-8;
 
 /// Processor time of a reference, s.
 const TIME_BUDGET: f64 = 60.0;
@@ -167,7 +170,7 @@ impl Case {
         else {
             return Ok(vec![self.empty("reference", "not solved", "cold")]);
         };
-        let mut doubt = self.tip_error(&coarser, &reference);
+        let mut uncertainty = self.tip_error(&coarser, &reference);
         if Method::Collocation.supports(base.interaction) {
             let solver = methods::Settings {
                 method: Method::Collocation,
@@ -179,13 +182,13 @@ impl Case {
             let outputs = manipulator.solve(&self.scene.inputs)?;
             let apart = self.tip_error(outputs, &reference);
             if outputs.status != Status::NotSolved && apart < ANOTHER_SHAPE {
-                doubt = doubt.max(apart);
+                uncertainty = uncertainty.max(apart);
             }
         }
         let mut points = Vec::new();
         for trial in trials(base) {
             for start in ["cold", "warm"] {
-                points.push(self.point(&trial, start, &reference, doubt)?);
+                points.push(self.point(&trial, start, &reference, uncertainty)?);
             }
         }
         Ok(points)
@@ -228,14 +231,14 @@ impl Case {
         trial: &Trial,
         start: &'static str,
         reference: &Outputs,
-        doubt: f64,
+        uncertainty: f64,
     ) -> Result<Point, Error> {
         let mut manipulator = self.device(trial.settings, trial.solver)?;
         let warm = start == "warm";
         let walk = if warm { &self.walk[..] } else { std::slice::from_ref(&self.scene.inputs) };
         let mut solved = manipulator.solve(&self.scene.inputs)?.status != Status::NotSolved;
         let (begin, mut count, mut time) = (Instant::now(), 0, f64::INFINITY);
-        while count < LEAST_WALKS || (count < MOST_WALKS && begin.elapsed() < BUDGET) {
+        while count < LEAST_REPETITIONS || (count < MOST_REPETITIONS && begin.elapsed() < BUDGET) {
             if !warm {
                 manipulator.reset();
             }
@@ -248,7 +251,7 @@ impl Case {
         let outputs = manipulator.outputs();
         let point = self.empty(trial.name, &trial.resolution, start);
         if !solved {
-            return Ok(Point { reference_over_length: Some(doubt), ..point });
+            return Ok(Point { reference_over_length: Some(uncertainty), ..point });
         }
         let wrench = |a: &Outputs, b: Option<&Outputs>| {
             let other = |pick: fn(&Outputs) -> Vector3<f64>| b.map_or_else(Vector3::zeros, pick);
@@ -260,7 +263,7 @@ impl Case {
             tip_over_length: Some(self.tip_error(outputs, reference)),
             angle_deg: Some((outputs.tip_angle - reference.tip_angle).abs().to_degrees()),
             wrench_relative: Some(wrench(outputs, Some(reference)) / wrench(reference, None)),
-            reference_over_length: Some(doubt),
+            reference_over_length: Some(uncertainty),
             ..point
         })
     }
@@ -283,6 +286,12 @@ fn trials(base: Settings) -> Vec<Trial> {
             let resolution = format!("degree {degree}, pairs {pair_accuracy:.0e}");
             add("potential", resolution, Settings { degree, pair_accuracy, ..base }, default);
         }
+    }
+    // Beyond the pairs, the stations of the external field limit the accuracy.
+    for degree in [4, 6] {
+        let settings = Settings { degree, pair_accuracy: FINEST_PAIRS, fine_stations: true, ..base };
+        let resolution = format!("degree {degree}, pairs {FINEST_PAIRS:.0e}, fine stations");
+        add("potential", resolution, settings, default);
     }
     for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(level)) {
         let default = methods::Settings { method: *method, ..default };

@@ -132,7 +132,7 @@ fn ways() -> Result<Vec<Way>, Error> {
     let (first, last) = (hysteresis::FIRST, hysteresis::LAST);
     let passing = |from: f64, to: f64| move |part: f64| hysteresis::inputs(from + (to - from) * part);
     let forth = Way::new(
-        ["snap forth", "the way forth of the study hysteresis"],
+        ["snap forth", "the path of the study hysteresis"],
         hysteresis::manipulator()?,
         passing(first, last),
     )?;
@@ -140,7 +140,7 @@ fn ways() -> Result<Vec<Way>, Error> {
     for step in 1..=FINEST {
         over.solve(&(forth.inputs)(f64::from(step) / f64::from(FINEST)))?;
     }
-    let back = ["snap back", "the same way back"];
+    let back = ["snap back", "the same path in reverse"];
     Ok(vec![
         Way::new(
             ["pass", "the demonstration: past at 140 mm, back, a turn by 45 deg"],
@@ -165,7 +165,8 @@ fn beside(place: Vector3<f64>, turn: f64) -> Inputs {
     Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }
 }
 
-/// The path of `fmu/demo`: past the manipulator in half of the time, back to its middle in a sixth, then a turn.
+/// The path of `fmu/demo` without its return, since a single step from start to start would not move the magnet: past the manipulator
+/// in half of the time, back to its middle in a sixth, then a turn.
 fn demonstration(part: f64) -> Inputs {
     let eased = |share: f64| {
         let share = share.clamp(0.0, 1.0);

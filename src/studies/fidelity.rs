@@ -124,14 +124,14 @@ impl Walk {
         Ok(rows.into_iter().zip(shown).map(row).collect())
     }
 
-    /// Follows the path with the model `own` and measures its errors against the model `judge`.
-    pub(super) fn go(&self, own: &Scene, judge: &Scene) -> Result<Shown, Error> {
-        let (mut own, mut judge) = (own.device(2)?, judge.device(2)?);
+    /// Follows the path with the model `own` and measures its errors against the model `reference`.
+    pub(super) fn go(&self, own: &Scene, reference: &Scene) -> Result<Shown, Error> {
+        let (mut own, mut reference) = (own.device(2)?, reference.device(2)?);
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;
             if step % LOOKS == 0 {
-                let exact = judge.solve(inputs)?;
+                let exact = reference.solve(inputs)?;
                 let solved = [answer, exact].iter().all(|outputs| outputs.status != Status::NotSolved);
                 let (a, b) = (&answer.tip, &exact.tip);
                 let apart = (a.position - b.position).norm() / self.length;

@@ -110,7 +110,7 @@ fn comparison(found: &[Extremes], manipulator: &Design, cylinder: &Design) -> Re
             "mass of nine segments with their tube (g)",
             Value::Number(2.25),
             Value::Number(mass * 1e3),
-            "rings and particles of 7000 kg/m3, the rest 1000, no tube beyond the base; what was weighed is not said".into(),
+            "rings and particles of 7000 kg/m3, the rest 1000, no tube beyond the base; the paper does not say what was weighed".into(),
         ),
     ])
 }

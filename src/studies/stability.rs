@@ -1,7 +1,7 @@
 //! Where methods fail: every method over field strength and direction, cold and warm, with every solution verified.
 
-mod judge;
 mod verdict;
+mod verification;
 
 use nalgebra::{Rotation3, Vector3};
 use serde::Serialize;
@@ -12,7 +12,7 @@ use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Scene, Status};
 use crate::methods::{self, Method};
-use judge::{Judge, Known};
+use verification::{Known, Verifier};
 
 pub use verdict::Verdict;
 
@@ -94,8 +94,8 @@ impl Ray {
     /// None for the paper's designs; those of the solves are passed on.
     pub fn attempts(&self) -> Result<Vec<Attempt>, Error> {
         let design = Design::new(Specification::paper(self.segments))?;
-        let mut judge = Judge::new(&design, self.interaction)?;
-        let mut known = self.branch(&mut judge)?;
+        let mut verifier = Verifier::new(&design, self.interaction)?;
+        let mut known = self.branch(&mut verifier)?;
         let mut out = Vec::new();
         for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
             let scene = Scene {
@@ -127,7 +127,7 @@ impl Ray {
                     let outputs = manipulator.outputs();
                     let solved = outputs.status != Status::NotSolved;
                     let found = if solved {
-                        judge.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
+                        verifier.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
                     } else {
                         None
                     };
@@ -162,15 +162,15 @@ impl Ray {
     }
 
     /// The equilibria of quasi-static loading, by strength.
-    fn branch(&self, judge: &mut Judge) -> Result<Vec<Vec<Known>>, Error> {
+    fn branch(&self, verifier: &mut Verifier) -> Result<Vec<Vec<Known>>, Error> {
         let mut out = vec![Vec::new(); STRENGTHS];
         for (number, known) in out.iter_mut().enumerate() {
             for part in 1..=LOADING_STEPS {
-                if !judge.load(&self.inputs(strength(number, part, LOADING_STEPS)))? {
+                if !verifier.load(&self.inputs(strength(number, part, LOADING_STEPS)))? {
                     return Ok(out);
                 }
             }
-            known.extend(judge.loaded(&self.inputs(strength(number, 1, 1))));
+            known.extend(verifier.loaded(&self.inputs(strength(number, 1, 1))));
         }
         Ok(out)
     }

@@ -131,7 +131,7 @@ fn table_is_for_people() {
 }
 
 #[test]
-fn model_without_potential_is_judged_by_its_whole_matrix() {
+fn model_without_potential_is_assessed_by_its_whole_matrix() {
     let scene =
         "[design]\nsegments = 2\n[model]\ninteraction = \"preceding\"\n[field]\nuniform_mt = [0, 10, 0]";
     let answer = json("preceding", scene, 0);

@@ -198,7 +198,7 @@ fn what_is_called_solved_is_in_balance_and_stable_and_the_rest_is_said() {
 }
 
 #[test]
-fn the_judge_sees_what_is_unstable_and_what_is_out_of_balance() {
+fn the_verification_sees_what_is_unstable_and_what_is_out_of_balance() {
     let mut cell = Cell::random(0);
     let settings = Settings { interaction: Interaction::Rings, ..Settings::default() };
     let design = Design::new(Specification::paper(3)).unwrap();

@@ -8,7 +8,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use crate::given::direction;
-use crate::hostile::judge::Judge;
+use crate::hostile::verifier::Verifier;
 use crate::tolerance::{MOVED_BY_A_MOMENT, RESIDUAL, SAME_TIP_MM, VANISHING_MOMENT_DEG};
 
 /// N m, and the bending stiffness of the paper's core, N m2.
@@ -117,7 +117,7 @@ fn a_moment_is_loaded_slowly() {
 /// By the eigenvalues of the whole matrix of differences, which is not symmetric.
 #[test]
 fn forces_without_a_potential_leave_no_unstable_shape() {
-    let (mut judged, mut least) = (0, f64::INFINITY);
+    let (mut verified, mut least) = (0, f64::INFINITY);
     for number in 0..60 {
         let mut random = StdRng::seed_from_u64(1000 + number);
         let segments = random.random_range(2..=4);
@@ -133,14 +133,14 @@ fn forces_without_a_potential_leave_no_unstable_shape() {
         if report.outcome != Outcome::Solved {
             continue;
         }
-        judged += 1;
+        verified += 1;
         let shape = model.unknowns().to_vec();
-        let mut judge = Judge::new(&mut model, &inputs, false);
-        let smallest = judge.smallest_real_part(&shape).expect("eigenvalues");
+        let mut verifier = Verifier::new(&mut model, &inputs, false);
+        let smallest = verifier.smallest_real_part(&shape).expect("eigenvalues");
         least = least.min(smallest);
         assert!(smallest > 0.0, "number {number}: {smallest}, {report:?}");
-        assert!(judge.residual(&shape).expect("apart") <= RESIDUAL, "number {number}");
+        assert!(verifier.residual(&shape).expect("apart") <= RESIDUAL, "number {number}");
     }
-    println!("{judged} of 60 judged, smallest real part {least}");
-    assert!(judged > 30, "{judged}");
+    println!("{verified} of 60 verified, smallest real part {least}");
+    assert!(verified > 30, "{verified}");
 }

@@ -22,7 +22,7 @@ fn main() {
     let numbers: Vec<u64> = std::env::args().skip(1).map(|text| text.parse().unwrap()).collect();
     let (count, seed) = (numbers.first().copied().unwrap_or(334), numbers.get(1).copied().unwrap_or(1));
     println!(
-        "| segments | targets | met | missed | snaps untold | steps | from the scene's pose (ms) | longest | warm (ms) |"
+        "| segments | targets | met | missed | unreported snaps | steps | from the scene's pose (ms) | longest | warm (ms) |"
     );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
     for segments in [1, 3, 9] {
@@ -36,7 +36,7 @@ fn main() {
         let rest = Steering::new(&scene, &moves, Limits::default()).unwrap();
         let mut device = scene.manipulator(2).unwrap();
         device.solve(&scene.inputs).unwrap();
-        let (mut times, mut warm, mut steps, mut untold, mut met) =
+        let (mut times, mut warm, mut steps, mut unreported, mut met) =
             (Vec::new(), Vec::new(), Vec::new(), 0, 0);
         while times.len() < usize::try_from(count).unwrap() {
             let Some(target) = beside(&device, &scene.inputs, AROUND, &mut random) else { continue };
@@ -45,7 +45,7 @@ fn main() {
             let answer = steering.to(&target).unwrap();
             times.push(started.elapsed().as_secs_f64() * 1e3);
             steps.push(answer.way.len());
-            untold += usize::from(snaps(&device, &answer.way));
+            unreported += usize::from(snaps(&device, &answer.way));
             if !answer.reached {
                 println!("missed: {:?}, {:?}", answer.limit, answer.residual);
                 continue;
@@ -67,7 +67,7 @@ fn main() {
         warm.sort_by(f64::total_cmp);
         steps.sort_unstable();
         println!(
-            "| {segments} | {count} | {met} | {} | {untold} | {} | {:.1} | {:.0} | {:.2} |",
+            "| {segments} | {count} | {met} | {} | {unreported} | {} | {:.1} | {:.0} | {:.2} |",
             times.len() - met,
             steps[steps.len() / 2],
             times[times.len() / 2],

@@ -115,13 +115,14 @@ fn is_within_its_tolerance_of_the_richest_model() {
         .into_par_iter()
         .filter_map(|number| {
             let scene = Scene::random(number);
-            let (mut own, mut judge) =
+            let (mut own, mut reference) =
                 (scene.manipulator(scene.auto), scene.manipulator(richest(scene.auto)));
-            let (own, judge) = (own.solve(&scene.inputs).unwrap(), judge.solve(&scene.inputs).unwrap());
-            let ends = [own.outcome, judge.outcome];
+            let (own, reference) =
+                (own.solve(&scene.inputs).unwrap(), reference.solve(&scene.inputs).unwrap());
+            let ends = [own.outcome, reference.outcome];
             assert_eq!(ends[0].is_solved(), ends[1].is_solved(), "scene {number}: {ends:?}");
-            (judge.status != Status::NotSolved)
-                .then(|| (number, parts(&scene.auto, own, judge), own.interaction, is_cheaper(own)))
+            (reference.status != Status::NotSolved)
+                .then(|| (number, parts(&scene.auto, own, reference), own.interaction, is_cheaper(own)))
         })
         .collect();
     let share = |holds: &dyn Fn(&Compared) -> bool| {
@@ -156,15 +157,15 @@ fn closing_windings_call_for_a_new_estimate() {
             ..Settings::default()
         };
         let device = |settings| Manipulator::new(&design, None, settings, 2).unwrap();
-        let (mut own, mut judge) = (device(auto), device(richest(auto)));
+        let (mut own, mut reference) = (device(auto), device(richest(auto)));
         let (mut worst, mut cheaper) = (0.0_f64, 0);
         // The first core closes at 0.6 T and opens again on the way back.
         for step in (0..=80).chain((0..80).rev()) {
             let field = 12e-3 * f64::from(step);
             let inputs = Inputs { uniform_field: Vector3::new(0.0, field, 0.0), ..Inputs::unloaded(rings) };
-            let (own, judge) = (own.solve(&inputs).unwrap(), judge.solve(&inputs).unwrap());
-            assert!(own.outcome.is_solved() && judge.outcome.is_solved(), "{field} T");
-            worst = worst.max(parts(&auto, own, judge));
+            let (own, reference) = (own.solve(&inputs).unwrap(), reference.solve(&inputs).unwrap());
+            assert!(own.outcome.is_solved() && reference.outcome.is_solved(), "{field} T");
+            worst = worst.max(parts(&auto, own, reference));
             cheaper += u32::from(own.interaction != Interaction::Full);
         }
         println!("tolerance {tolerance}: {cheaper} by a cheaper model, error at most {worst:.2} of it");
@@ -173,13 +174,14 @@ fn closing_windings_call_for_a_new_estimate() {
     }
 }
 
-/// How much more or less tip angle (rad), force (over its size) and margin change in a step than those of the judge: what a
+/// How much more or less tip angle (rad), force (over its size) and margin change in a step than those of the reference: what a
 /// change of models or of quadrature rules adds.
-fn beside_the_judge(own: [&Outputs; 2], judge: [&Outputs; 2]) -> [f64; 3] {
-    let difference =
-        |of: &dyn Fn(&Outputs) -> f64| ((of(own[1]) - of(own[0])) - (of(judge[1]) - of(judge[0]))).abs();
+fn beside_the_reference(own: [&Outputs; 2], reference: [&Outputs; 2]) -> [f64; 3] {
+    let difference = |of: &dyn Fn(&Outputs) -> f64| {
+        ((of(own[1]) - of(own[0])) - (of(reference[1]) - of(reference[0]))).abs()
+    };
     let step = |of: [&Outputs; 2]| of[1].magnetic_force - of[0].magnetic_force;
-    let force = (step(own) - step(judge)).norm() / judge[1].magnetic_force.norm();
+    let force = (step(own) - step(reference)).norm() / reference[1].magnetic_force.norm();
     [difference(&|out| out.tip_angle), force, difference(&|out| out.stability_margin)]
 }
 
@@ -212,7 +214,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             ..Settings::default()
         };
         let manipulator = |settings| Manipulator::new(&design, Some(&pair()), settings, 2).unwrap();
-        let (mut own, mut judge) = (manipulator(auto), manipulator(richest(auto)));
+        let (mut own, mut reference) = (manipulator(auto), manipulator(richest(auto)));
         let (mut before, mut changes, mut worst) = (None::<(Outputs, Outputs)>, 0, 0.0_f64);
         let mut chatter = [0.0_f64; 3]; // tip angle, force, margin
         for step in (0..=90).chain((0..90).rev()) {
@@ -222,11 +224,11 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             let [y, z]: [f64; 2] = core::array::from_fn(|i| start[i] + pace[i] * f64::from(step));
             inputs.magnet.position = Vector3::new(0.0, y, z);
             let a = own.solve(&inputs).unwrap().clone();
-            let b = judge.solve(&inputs).unwrap().clone();
+            let b = reference.solve(&inputs).unwrap().clone();
             assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");
             worst = worst.max(parts(&auto, &a, &b) / asked);
             if let Some((old_a, old_b)) = &before {
-                let steps = beside_the_judge([old_a, &a], [old_b, &b]);
+                let steps = beside_the_reference([old_a, &a], [old_b, &b]);
                 chatter.iter_mut().zip(steps).for_each(|(most, step)| *most = most.max(step));
             }
             if let Some((old_a, old_b)) = &before
@@ -266,9 +268,9 @@ fn obeys_what_is_said_about_the_bending_stop() {
     };
     let [with, without] = ["bending_stop = true", "bending_stop = false"];
     for stop in [with, without] {
-        let (own, judge) = (solved("auto", stop), solved("full", stop));
-        assert_eq!(own.outcome, judge.outcome, "{stop}");
-        assert!(parts(&Settings::default(), &own, &judge) <= 1.0, "{stop}");
+        let (own, reference) = (solved("auto", stop), solved("full", stop));
+        assert_eq!(own.outcome, reference.outcome, "{stop}");
+        assert!(parts(&Settings::default(), &own, &reference) <= 1.0, "{stop}");
     }
     assert_eq!(solved("auto", "").tip_angle.to_bits(), solved("auto", with).tip_angle.to_bits());
     // Measured: 80.54 and 84.97 deg.

@@ -1,4 +1,4 @@
-//! The map of failures: its judge tells shapes apart, the potential method is right or says that it has none.
+//! The map of failures: its verification tells shapes apart, the potential method is right or says that it has none.
 
 use std::collections::BTreeSet;
 

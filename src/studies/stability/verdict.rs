@@ -25,9 +25,9 @@ impl Verdict {
     pub const ALL: [(Self, &str); 6] = [
         (Self::Branch, "the stable shape of slow loading"),
         (Self::OtherStable, "another stable shape"),
-        (Self::Stalled, "stalled, said so"),
-        (Self::Diverged, "diverged, said so"),
-        (Self::Unstable, "unstable shape, not said"),
-        (Self::Wrong, "no shape in balance, not said"),
+        (Self::Stalled, "none found, and reported so"),
+        (Self::Diverged, "diverged, and reported so"),
+        (Self::Unstable, "unstable shape, not reported"),
+        (Self::Wrong, "no equilibrium, not reported"),
     ];
 }

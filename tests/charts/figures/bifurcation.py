@@ -1,4 +1,4 @@
-"""Where shapes end: stable and unstable equilibria over a load, their folds, and the way of slow loading."""
+"""Where shapes end: stable and unstable equilibria over a load, their folds, and the path of slow loading."""
 
 import look
 import numpy as np
@@ -80,7 +80,7 @@ def draw(table: Table) -> Figure:
     look.title(
         figure,
         "Where shapes end: at folds, from which slow loading snaps",
-        "Solid: stable; dashed: unstable; circles: folds and branching points. Broad: the way of slow loading, arrows: "
+        "Solid: stable; dashed: unstable; circles: folds and branching points. Broad: the path of slow loading, arrows: "
         "its snaps.\nFirst row: no interaction; nine segments: level rings; the others: level full.",
     )
     return figure

@@ -10,19 +10,19 @@ COLOUR = look.LEVEL["rings"]
 WAYS = (
     ("pass", "past the device,\nback, and a turn"),
     ("half_orbit", "half around it"),
-    ("snap_forth", "the way forth,\nwith a snap"),
-    ("snap_back", "the way back,\nwith a snap"),
+    ("snap_forth", "the path forth,\nwith a snap"),
+    ("snap_back", "the path back,\nwith a snap"),
 )
 
 
 def draw(table: Table) -> Figure:
-    """A row for each way of the magnet, a dot for each length of its steps, a cross where a step is refused."""
+    """A row for each path of the magnet, a dot for each length of its steps, a cross where a step is refused."""
     figure, axes = subplots(figsize=(8.5, 3.6))
     worst = max(row(axes, table, name, height) for height, (name, _) in enumerate(WAYS))
     within = f"$10^{{{np.ceil(np.log10(worst)):.0f}}}$ mm"
     look.title(
         figure,
-        "In few steps or in many, the same way of the magnet ends in the same place",
+        "In few steps or in many, the same path of the magnet ends in the same place",
         f"dots: tip within {within} of where 1000 steps lead, with as many snaps; cross: refused",
     )
     axes.set_yticks(range(len(WAYS)), [words for _, words in WAYS])
@@ -35,7 +35,7 @@ def draw(table: Table) -> Figure:
 
 
 def row(axes, table: Table, name: str, height: int) -> float:
-    """One way; returns the largest distance of a tip that is solved (mm)."""
+    """One path; returns the largest distance of a tip that is solved (mm)."""
     step, apart = table[f"{name}_step_mm"], table[f"{name}_apart_mm"]
     refused = table[f"refused_{name}"] > 0
     axes.plot(np.sort(step), np.full(len(step), height), color=look.LIGHT, lw=6, zorder=1)

@@ -35,7 +35,7 @@ def draw(table: Table) -> Figure:
 
 
 def curves(axes, places: np.ndarray, way: str, table: Table) -> None:
-    """All devices along one way of the field."""
+    """All devices along one path of the field."""
     axes.set_xlim(places[0], places[-1])
     labels = []
     marks = table.marks()

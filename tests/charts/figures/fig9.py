@@ -44,7 +44,7 @@ def draw(table: Table) -> Figure:
 
 
 def curves(axes, table: Table, cases: tuple, column: str, unit: float) -> None:
-    """A curve for each case to where its way ends, and there what it is."""
+    """A curve for each case to where its path ends, and there what it is."""
     time, labels = table["time_s"], []
     for name, words, colour, style in cases:
         values = unit * table[f"{name}_{column}"]

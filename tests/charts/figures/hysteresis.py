@@ -25,7 +25,7 @@ def draw(table: Table) -> Figure:
 
 
 def loop(axes, table: Table, column: str, quantity: str, words: dict[str, tuple[float, float]]) -> None:
-    """Both ways with their snaps as arrows, and words at these places."""
+    """Both directions with their snaps as arrows, and words at these places."""
     z, marks = table["magnet_z_mm"], table.marks()
     axes.set(xlabel="place of the magnet along the axis (mm)", xlim=(z[0], z[-1]))
     for way, other, ahead in (("forth", "back", 1), ("back", "forth", -1)):

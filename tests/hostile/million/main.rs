@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Every output is a finite number, a solve ends within its processor time, nothing panics; of one walk in a hundred every
-//! answer that is called stable is judged by independent eigenvalues and by a finer model. The exit status tells.
+//! answer that is called stable is verified by independent eigenvalues and by a finer model. The exit status tells.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a broken promise stops the run")]
 #![allow(clippy::print_stdout, reason = "tells what it measured")]
 #![allow(missing_docs, reason = "a program")]
@@ -14,11 +14,11 @@
 #[path = "../../given.rs"]
 #[allow(dead_code, reason = "others take all of it")]
 mod given;
-#[path = "../judge.rs"]
-mod judge;
 mod promises;
 mod scenes;
 mod tally;
+#[path = "../verifier.rs"]
+mod verifier;
 #[path = "../worst.rs"]
 mod worst;
 

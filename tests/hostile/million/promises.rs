@@ -5,12 +5,12 @@ use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution};
 use mcm::manipulator::{Inputs, Manipulator, Outcome, Outputs, Scene, Status};
 use nalgebra::Vector3;
 
-use super::judge::Judge;
 use super::scenes::Walk;
 use super::tally::Tally;
+use super::verifier::Verifier;
 use super::worst::Defect;
 
-/// One walk in so many is judged.
+/// One walk in so many is verified.
 const SAMPLE: u64 = 100;
 
 /// Answers without a shape after which a walk ends.
@@ -19,7 +19,7 @@ const ENOUGH: u32 = 3;
 /// Centreline points.
 const POINTS: usize = 5;
 
-/// How far a solve may exceed its budget of processor time: a part of it, and the making of one model that judges, s.
+/// How far a solve may exceed its budget of processor time: a part of it, and the making of one model that verifies, s.
 const LATE: f64 = 1.2;
 const MAKING: f64 = 0.3;
 
@@ -42,8 +42,8 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
     let texts: Vec<String> = walk.texts().collect();
     let scenes: Vec<Scene> = texts.iter().map(|text| Scene::parse(text, "random").unwrap()).collect();
     let mut manipulator = scenes[0].manipulator(POINTS).unwrap();
-    let judged = alone || index.is_multiple_of(SAMPLE);
-    let mut twin = judged.then(|| Twin::new(&scenes[0])).flatten();
+    let verified = alone || index.is_multiple_of(SAMPLE);
+    let mut twin = verified.then(|| Twin::new(&scenes[0])).flatten();
     let mut without = 0;
     for (step, scene) in scenes.iter().enumerate() {
         if without == ENOUGH {
@@ -90,7 +90,7 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
         without += u32::from(!solved);
         let verdict = match &mut twin {
             Some(twin) => twin.verdict(scene, &out),
-            None if judged && solved => verdict_of_auto(scene, &manipulator, &out),
+            None if verified && solved => verdict_of_auto(scene, &manipulator, &out),
             None => continue,
         };
         let defects = verdict.broken.into_iter().map(|what| Defect { index, step, what });
@@ -99,7 +99,7 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
             if alone {
                 println!("# {figures:?}");
             }
-            tally.judged(figures, (index, step));
+            tally.verified(figures, (index, step));
         }
     }
     tally
@@ -156,8 +156,8 @@ impl Twin {
         }
         let shape = self.same.unknowns().to_vec();
         let mut copy = self.same.clone();
-        let mut judge = Judge::new(&mut copy, &scene.inputs, has_potential(scene));
-        let (residual, smallest) = (judge.residual(&shape), judge.smallest_real_part(&shape));
+        let mut verifier = Verifier::new(&mut copy, &scene.inputs, has_potential(scene));
+        let (residual, smallest) = (verifier.residual(&shape), verifier.smallest_real_part(&shape));
         if residual.is_none_or(|residual| residual > BALANCE) {
             verdict.broken.push(format!("not in balance: {residual:?}"));
         }
@@ -187,14 +187,14 @@ impl Verdict {
         length: f64,
     ) {
         let inputs = &scene.inputs;
-        let mut judge = Judge::new(fine, inputs, has_potential(scene));
-        let Some(shape) = judge.polished(start) else {
+        let mut verifier = Verifier::new(fine, inputs, has_potential(scene));
+        let Some(shape) = verifier.polished(start) else {
             if !neutral {
                 self.broken.push("no equilibrium of the finer model near it".into());
             }
             return;
         };
-        let margin = judge.smallest_real_part(&shape).unwrap_or(f64::NAN);
+        let margin = verifier.smallest_real_part(&shape).unwrap_or(f64::NAN);
         let distance = (tip_at(fine, inputs, &shape) - tip).norm() / length;
         self.figures = Some(Figures { distance, margin });
         if neutral {

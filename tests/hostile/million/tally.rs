@@ -33,7 +33,7 @@ pub(crate) struct Tally {
     /// By level and ending.
     endings: BTreeMap<(&'static str, &'static str), Ending>,
     snaps: u64,
-    judged: u64,
+    verified: u64,
     pub(crate) defects: Vec<Defect>,
     farthest: Vec<Place>,
     softest: Vec<Place>,
@@ -52,9 +52,9 @@ impl Tally {
         self.snaps += u64::from(out.status == Status::Snapped);
     }
 
-    /// Adds a judgement.
-    pub(crate) fn judged(&mut self, figures: Figures, (index, step): (u64, usize)) {
-        self.judged += 1;
+    /// Adds a verification.
+    pub(crate) fn verified(&mut self, figures: Figures, (index, step): (u64, usize)) {
+        self.verified += 1;
         keep(&mut self.farthest, &[(figures.distance * figures.margin.min(1.0), index, step)]);
         keep(&mut self.softest, &[(-figures.margin, index, step)]);
     }
@@ -66,7 +66,7 @@ impl Tally {
             self.endings.entry(key).or_default().add(&ending);
         }
         self.snaps += more.snaps;
-        self.judged += more.judged;
+        self.verified += more.verified;
         self.defects.extend(more.defects);
         keep(&mut self.farthest, &more.farthest);
         keep(&mut self.softest, &more.softest);
@@ -83,7 +83,7 @@ impl fmt::Display for Tally {
             let Ending { count, seconds, slowest } = ending;
             writeln!(out, "{level:>10} {name:<20} {count:>8} {seconds:>8.1} s: {}", listed(slowest))?;
         }
-        writeln!(out, "solves with a snap: {}; answers judged: {}", self.snaps, self.judged)?;
+        writeln!(out, "solves with a snap: {}; answers verified: {}", self.snaps, self.verified)?;
         writeln!(
             out,
             "tip off the finer model's over the length, times the margin: {}",

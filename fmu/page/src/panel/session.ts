@@ -47,8 +47,8 @@ export class Session {
     /** Number of answers to come from a device loaded anew. */
     private loading = 0;
     private frame = 0;
-    /** Whether inputs were asked for while a scene was opened. */
-    private held = false;
+    /** What was asked of the device while another scene was opened: it is of no use to that one, and sent only if the scene is refused. */
+    private held: Request[] = [];
 
     constructor(private readonly send: (request: Request) => void) {}
 
@@ -72,8 +72,7 @@ export class Session {
     /** Loads the device anew at the present inputs, or at others. */
     restart(inputs: Float64Array = this.inputs): void {
         this.take(inputs);
-        this.loading += 1;
-        this.send({ kind: "restart", inputs: inputs.slice() });
+        this.ask({ kind: "restart", inputs: inputs.slice() });
         this.tell("changed", "way");
     }
 
@@ -84,24 +83,28 @@ export class Session {
         // A hand moves more often than the screen is drawn: only the newest inputs of a frame are sent.
         this.frame ||= requestAnimationFrame(() => {
             this.frame = 0;
-            this.move();
+            this.ask({ kind: "move", inputs: this.inputs.slice(), every: false });
         });
         this.tell("changed", origin);
-    }
-
-    /** Sends the inputs asked for; while a scene is opened, whose inputs are others, they wait. */
-    private move(): void {
-        this.held = this.opening.length > 0;
-        if (!this.held) {
-            this.send({ kind: "move", inputs: this.inputs.slice(), every: false });
-        }
     }
 
     /** Asks for these inputs, to be solved by the model asked for even if others follow. */
     follow(inputs: Float64Array): void {
         this.take(inputs);
-        this.send({ kind: "move", inputs: inputs.slice(), every: true });
+        this.ask({ kind: "move", inputs: inputs.slice(), every: true });
         this.tell("changed", "way");
+    }
+
+    /** Asks the present device, unless another scene is being opened. */
+    private ask(request: Exclude<Request, { kind: "open" }>): void {
+        if (this.opening.length > 0) {
+            this.held.push(request);
+            return;
+        }
+        if (request.kind === "restart") {
+            this.loading += 1;
+        }
+        this.send(request);
     }
 
     /** An input asked for; not a number where the device has none of this name. */
@@ -130,9 +133,7 @@ export class Session {
                 this.opening.shift();
                 this.loading = 0;
                 this.faults = reply.message.split("\n").filter((line) => line.trim() !== "");
-                if (this.held) {
-                    this.move();
-                }
+                this.held.splice(0).forEach((request) => this.ask(request));
                 this.tell("refused", this.faults);
                 break;
             case "answer":
@@ -149,7 +150,7 @@ export class Session {
         const asked = this.opening.shift() ?? { scene: this.scene, inputs: {} };
         this.scene = asked.scene;
         this.faults = [];
-        this.held = false;
+        this.held = [];
         this.description = description;
         this.places = new Places(description);
         this.answer = null;

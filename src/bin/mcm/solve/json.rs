@@ -37,7 +37,7 @@ pub(super) fn as_json(
         ("jacobian", json!(derivatives)),
         ("jacobian_note", json!(jacobian.as_ref().err().map(ToString::to_string))),
     ];
-    let judged = [
+    let verdict = [
         ("stable", json!(outputs.stable)),
         ("stability_margin", json!(outputs.stability_margin)),
         ("snaps", json!(outputs.snaps)),
@@ -45,7 +45,7 @@ pub(super) fn as_json(
         ("error_estimate_m", json!(outputs.error_estimate)),
     ];
     let mutual = mutual_wrenches(outputs).into_iter().flatten();
-    let found = shape(outputs).into_iter().chain(mutual).chain(judged);
+    let found = shape(outputs).into_iter().chain(mutual).chain(verdict);
     let found = found.map(|(key, value)| (key, if converged { value } else { Value::Null }));
     let uncertainty = uncertainty.map(|told| ("uncertainty", told));
     found.chain(search).chain(uncertainty).map(|(key, value)| (key.to_owned(), value)).collect()

@@ -68,12 +68,12 @@ pub(super) struct Found {
 /// Verifies shapes with the gradient of a finer potential: Newton's method with finite differences of the gradient
 /// finds an equilibrium from the shape, and the eigenvalues of the full Hessian show whether it is stable.
 #[derive(Debug, Clone)]
-pub(super) struct Judge {
+pub(super) struct Verifier {
     fine: Equilibrium,
     length: f64,
 }
 
-impl Judge {
+impl Verifier {
     pub(super) fn new(design: &Design, interaction: Interaction) -> Result<Self, Error> {
         let settings =
             Settings { interaction, degree: DEGREE, pair_accuracy: PAIR_ACCURACY, ..Settings::default() };
@@ -85,7 +85,7 @@ impl Judge {
         Ok(self.fine.solve(inputs)?.solved())
     }
 
-    /// The equilibrium that [`Judge::load`] has reached; `None` if Newton's method does not converge there.
+    /// The equilibrium that [`Verifier::load`] has reached; `None` if Newton's method does not converge there.
     pub(super) fn loaded(&mut self, inputs: &Inputs) -> Option<Known> {
         let shape = self.fine.unknowns().to_vec();
         Some(Known { of_branch: true, ..self.polished(inputs, &shape)? })

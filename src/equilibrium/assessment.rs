@@ -1,4 +1,4 @@
-//! Judges a solved shape: its stability, and its distance from a fold.
+//! Assesses a solved shape: its stability, and its distance from a fold.
 
 use super::history::History;
 use super::inputs::Inputs;
@@ -17,12 +17,12 @@ const EVERY_DIRECTION: f64 = 0.3;
 /// Margin up to which a shape counts as neutral: the uncertainty that the tolerance leaves.
 const FREE: f64 = 1e-7;
 
-/// Margin below which the shape is judged again with its own Hessian.
+/// Margin below which the shape is assessed again with its own Hessian.
 const DOUBTFUL: f64 = 1e-4;
 
 impl Search<'_> {
-    /// Judges the shape `found` at `target`: its outcome and stability margin, or why there is none.
-    pub(super) fn judge(&mut self, found: Outcome, branch: &mut History, target: &Inputs) -> Outcome {
+    /// Assesses the shape `found` at `target`: its outcome and stability margin, or why there is none.
+    pub(super) fn assess(&mut self, found: Outcome, branch: &mut History, target: &Inputs) -> Outcome {
         let outcome = match found {
             Outcome::Solved if self.kept => {
                 (self.report.margin, self.report.stable) = (branch.margin, branch.stable);
@@ -51,7 +51,7 @@ impl Search<'_> {
         self.model.contact(target, self.work).map_or(outcome, Outcome::Contact)
     }
 
-    /// Judges the shape `unknowns`, found by the last correction, by an upper bound of its stability margin.
+    /// Assesses the shape `unknowns`, found by the last correction, by an upper bound of its stability margin.
     fn verdict(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64], search: Effort) -> Outcome {
         let mut margin = if self.work.factorisation.is_some() {
             self.estimate_margin(inputs, softest, search)
@@ -65,7 +65,7 @@ impl Search<'_> {
             margin = if regular { self.estimate_margin(inputs, softest, search) } else { 0.0 };
         }
         if let Some(factorisation) = &mut self.work.factorisation {
-            factorisation.set_judged(true);
+            factorisation.set_assessed(true);
         }
         if margin.is_finite() {
             let held = margin > FREE;

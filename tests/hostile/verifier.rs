@@ -1,4 +1,4 @@
-//! An independent judge of answers: a potential of which it takes the gradient alone, with Newton's method and eigenvalues by full
+//! An independent verifier of answers: a potential of which it takes the gradient alone, with Newton's method and eigenvalues by full
 //! matrices of central differences.
 
 use mcm::equilibrium::{Equilibrium, Inputs};
@@ -11,7 +11,7 @@ const STEP: f64 = 1e-5;
 const STEPS: usize = 30;
 const BALANCE: f64 = 1e-8;
 
-/// Longest Newton step, in the same measure: no answer is judged by an equilibrium far away.
+/// Longest Newton step, in the same measure: no answer is verified by an equilibrium far away.
 const LONGEST_STEP: f64 = 0.2;
 
 /// A matrix made earlier serves while it makes the residual shrink by this factor.
@@ -25,14 +25,14 @@ const DEFLATED: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 const TURNS: usize = 100;
 
 /// A model at given inputs, in amplitudes weighted by the root of the metric, of which the first is a turn of an element.
-pub(crate) struct Judge<'a> {
+pub(crate) struct Verifier<'a> {
     model: &'a mut Equilibrium,
     inputs: &'a Inputs,
     roots: DVector<f64>,
     symmetric: bool,
 }
 
-impl<'a> Judge<'a> {
+impl<'a> Verifier<'a> {
     /// Whether the matrix is to be taken as symmetric, as forces with a potential have it.
     pub(crate) fn new(model: &'a mut Equilibrium, inputs: &'a Inputs, symmetric: bool) -> Self {
         let roots = DVector::from_iterator(model.freedoms(), model.metric().iter().map(|k| k.sqrt()));
