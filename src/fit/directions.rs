@@ -33,9 +33,9 @@ impl Direction {
         let names: Vec<String> = self.keys.iter().map(|key| format!("`{key}`")).collect();
         let Some((last, others)) = names.split_last() else { return String::new() };
         if others.is_empty() {
-            return format!("{last} is hardly told by these rows");
+            return format!("{last} is hardly determined by these rows");
         }
-        format!("{} and {last} cannot be told apart by these rows", others.join(", "))
+        format!("{} and {last} cannot be distinguished by these rows", others.join(", "))
     }
 }
 

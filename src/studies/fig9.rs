@@ -75,13 +75,13 @@ fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {
     };
     let (inside, heading) = walk.rows.last().map_or((0.0, 0.0), |row| (row.inside, row.heading));
     let end = match walk.lost {
-        None => "the end of the way".to_owned(),
+        None => "the end of the path".to_owned(),
         Some(outcome) => {
             format!("no shape found after {} of {points} steps ({})", walk.rows.len(), outcome.name())
         }
     };
     Comparison {
-        quantity: format!("the way of {}, {}: tip in", case.device, case.walls()),
+        quantity: format!("the path of {}, {}: tip in", case.device, case.walls()),
         decimals: 0,
         paper: if case.name == "mcm" || case.name == "mcm_oiled" {
             Value::Words("left iliac, aorta, superior mesenteric".into())
@@ -91,8 +91,8 @@ fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {
         printed: Value::Absent,
         exact: Value::Words(walk.branches.join(", ")),
         remark: format!(
-            "{end}: {:.0} mm of shaft inside, tip turned to {:.0} deg, snaps: {}; bends by up to {:.0} deg one way and {:.0} deg \
-             both ways ({form}); pull at most {:.3} N, wall {:.3} N in sum, {:.3} N in one contact",
+            "{end}: {:.0} mm of shaft inside, tip turned to {:.0} deg, snaps: {}; bends by up to {:.0} deg to one side and \
+             {:.0} deg to both sides ({form}); pull at most {:.3} N, wall {:.3} N in sum, {:.3} N in one contact",
             1e3 * inside,
             heading.to_degrees(),
             walk.snaps,

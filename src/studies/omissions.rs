@@ -42,7 +42,7 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
         scene.settings.degree = 0;
         Ok(())
     }),
-    ("all but one node of a ring", |scene| {
+    ("all but one quadrature node of a ring", |scene| {
         scene.settings.pair_accuracy = 9e-2;
         Ok(())
     }),
@@ -56,11 +56,11 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
         scene.magnets = scene.magnets.take().map(dipole).transpose()?;
         Ok(())
     }),
-    ("what leads out of the plane (method `planar`)", |scene| {
+    ("everything out of the plane (method `planar`)", |scene| {
         scene.solver.method = Method::Planar;
         Ok(())
     }),
-    ("all strain but one bend a core (method `constant-curvature`)", |scene| {
+    ("all strain except one curvature per core (method `constant-curvature`)", |scene| {
         scene.solver.method = Method::ConstantCurvature;
         Ok(())
     }),

@@ -88,7 +88,7 @@ fn what_cannot_be_told_apart_is_named() {
     let (_, output) = run("fit_apart", |here| measured(here, ",sd_alpha_deg"), &ring);
     assert_status(&output, 0);
     let told = stdout(&output);
-    assert!(told.contains("`design.ring.density_kg_m3` is hardly told by these rows"), "{told}");
+    assert!(told.contains("`design.ring.density_kg_m3` is hardly determined by these rows"), "{told}");
     assert!(told.contains("again with `gravity.acceleration_m_s2["), "{told}");
 }
 

@@ -47,7 +47,7 @@ fn near_a_fold_bands_say_that_they_do_not_hold() {
     let (_, output) = with_scene("near", &uncertain(35.3, 33.0), &["solve", "scene.toml", "--uncertainty"]);
     assert_status(&output, 0);
     let text = stdout(&output);
-    assert!(text.contains("these bands do not hold; only samples tell"), "{text}");
+    assert!(text.contains("these bands do not hold; only samples show it"), "{text}");
     assert!(text.contains("tip angle") && text.contains('\u{b1}'), "{text}");
 }
 

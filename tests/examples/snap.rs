@@ -26,7 +26,7 @@ fn main() -> Result<(), Error> {
     for (step, place) in forth.clone().chain(forth.rev().skip(1)).enumerate() {
         inputs.magnet.position.z = 1e-3 * f64::from(place);
         manipulator.solve(&inputs)?;
-        // 1 unloaded, 0 at a fold: the closer to 0, the sooner it snaps.
+        // 1 without loads and interaction, 0 at a fold: the closer to 0, the sooner it snaps.
         let outputs = manipulator.measure_margin();
         let (angle, margin) = (outputs.tip_angle.to_degrees(), outputs.stability_margin);
         let note = match outputs.status {

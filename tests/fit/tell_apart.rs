@@ -22,7 +22,7 @@ fn a_pair_that_acts_alike_is_named() {
     println!("{:?}\n{:?}\n{:?}", fit.parameters, fit.directions, fit.experiments);
     assert_eq!(fit.directions.len(), 1);
     let words = fit.directions[0].words();
-    assert_eq!(words, format!("`{}` and `{}` cannot be told apart by these rows", keys[0], keys[1]));
+    assert_eq!(words, format!("`{}` and `{}` cannot be distinguished by these rows", keys[0], keys[1]));
     assert!(fit.parameters.iter().all(|parameter| parameter.deviation.is_none()));
     // Twice the modulus with twice the remanence is the same device in a field.
     let changes = &fit.directions[0].changes;

@@ -198,10 +198,15 @@ def test_a_scene_is_opened_while_the_magnet_moves(open_page: Callable[..., Page]
         state = page.choose(preset)
         assert state["inputs"]["magnet.position[3]"] == pytest.approx(place)
         assert state["snaps"] == 0
-    page.press("play")
-    page.until("played", lambda s: s["inputs"]["magnet.position[3]"] > -0.0395)
-    assert page.choose("fig-7b")["outputs"]["tip.angle"] > 1.0
-    assert "stopped" in page.text("banners")
+    # A point of the path that falls due while another scene is being opened is not a step of that one.
+    for preset in ("aorta", "fig-7b"):
+        page.choose("hysteresis")
+        page.press("play")
+        page.until("played", lambda s: s["inputs"]["magnet.position[3]"] > -0.0395)
+        opened = page.choose(preset)
+        assert opened["status"] == 0
+        assert "stopped" in page.text("banners")
+    assert opened["outputs"]["tip.angle"] > 1.0
 
 
 def test_a_pose_without_an_answer_keeps_the_shape_and_is_left_again(open_page: Callable[..., Page]) -> None:

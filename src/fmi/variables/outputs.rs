@@ -187,8 +187,7 @@ impl Rows {
         self.scalar(boolean("stability.stable", description, |o| o.stable == Some(true)));
         let description = "Whether one direction is free, as about the axis of an antiparallel field: neither stable nor unstable";
         self.scalar(boolean("stability.neutral", description, |o| o.outcome == Outcome::Neutral));
-        let description =
-            "Smallest eigenvalue of the Hessian relative to the elastic energy: 1 unloaded, 0 at a fold";
+        let description = "Smallest eigenvalue of the Hessian relative to the elastic stiffness: 1 without loads and interaction, 0 at a fold";
         let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
         self.scalar(margin.availability(Availability::OnRequest(Request::Margin)));
         let snaps =

@@ -1,7 +1,6 @@
 //! One and three segments with helices of different lengths, which are the gaps between the rings.
 //!
-//! No device is stretched: every length is a separate device with its own branch. The pair quadrature does not resolve
-//! rings closer than 3 mm.
+//! No device is stretched: every length is a separate device with its own branch.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-"""Fig. 9: led by a magnet through an aorta, nine segments turn into the artery; a cylinder or a stiff tube does not."""
+"""Fig. 9: guided by a magnet through an aorta, nine segments turn into the artery; a cylinder or a stiff tube does not."""
 
 import look
 import numpy as np
@@ -25,7 +25,7 @@ def draw(table: Table) -> Figure:
     figure, ((inside, turn), (pull, contact)) = subplots(2, 2, figsize=(8.5, 6.2), sharex=True)
     look.title(
         figure,
-        "Fig. 9: led by a magnet, nine segments turn into the artery, others less",
+        "Fig. 9: guided by a magnet, nine segments turn into the artery, others less",
         "predictions, level rings; left: nine segments by friction; right: no friction; circle: no further shape",
     )
     inside.set(title="Dry walls hold them at the port", ylabel="shaft inside (mm)")

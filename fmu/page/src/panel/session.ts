@@ -22,6 +22,9 @@ export function same(one: Float64Array, other: Float64Array): boolean {
     return one.length === other.length && one.every((value, place) => Object.is(value, other[place]));
 }
 
+/** What is asked of the device that is open. */
+type DeviceRequest = Exclude<Request, { kind: "open" }>;
+
 /** What was sent to be opened: the scene, and inputs that shall differ from its start. */
 interface Asked {
     scene: string;
@@ -48,7 +51,7 @@ export class Session {
     private loading = 0;
     private frame = 0;
     /** What was asked of the device while another scene was opened: it is of no use to that one, and sent only if the scene is refused. */
-    private held: Request[] = [];
+    private held: DeviceRequest[] = [];
 
     constructor(private readonly send: (request: Request) => void) {}
 
@@ -96,7 +99,7 @@ export class Session {
     }
 
     /** Asks the present device, unless another scene is being opened. */
-    private ask(request: Exclude<Request, { kind: "open" }>): void {
+    private ask(request: DeviceRequest): void {
         if (this.opening.length > 0) {
             this.held.push(request);
             return;

@@ -62,7 +62,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
         out += &row("contacts with the wall", &wall.count.to_string(), "");
     }
     out + &[
-        row("stability margin", &format!("{:.4}", outputs.stability_margin), "of the unloaded shape's"),
+        row("stability margin", &format!("{:.4}", outputs.stability_margin), "of the elastic stiffness"),
         row("error estimate", &format!("{:.4}", outputs.error_estimate * 1e6), "um, of the tip position"),
         row("snaps", &outputs.snaps.to_string(), ""),
         row("energy", &format!("{:.4}", outputs.energy * 1e6), "uJ"),

@@ -72,7 +72,7 @@ impl Told {
         )];
         if let Some(distance) = self.bands.distance_of_fold() {
             let told = if self.bands.near_fold() {
-                ": near a fold the distribution is no ellipse and these bands do not hold; only samples tell (--samples 1000)"
+                ": near a fold the distribution is no ellipse and these bands do not hold; only samples show it (--samples 1000)"
             } else {
                 ""
             };
