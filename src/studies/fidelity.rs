@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::scenes::{PAIR, later};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Scene, Status, models_of_auto};
+use crate::manipulator::{Inputs, Scene, Solve, Status, models_of_auto};
 
 /// Name, number of segments and field of each scene.
 pub(super) const SCENES: [(&str, usize, &str); 4] = [
@@ -26,8 +26,9 @@ const STEPS: u32 = 100;
 /// Number of steps between two evaluations of the error.
 const LOOKS: usize = 10;
 
-/// Number of timed runs; the fastest counts, because other load on the machine only adds time.
-const WALKS: usize = 3;
+/// Number of times that every model of a scene is timed, in turn; the fastest run counts, because other load on the machine only adds
+/// time.
+const ROUNDS: usize = 5;
 
 /// Tolerances of the tip's position over the length, and, in radians, of its angle.
 const TOLERANCES: [f64; 7] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5];
@@ -103,14 +104,8 @@ impl Walk {
         }
         let richest = models.last().copied().unwrap_or(base).as_discretised();
         progress.more(rows.len());
-        let shown: Vec<Shown> = rows
-            .iter()
-            .map(|row| {
-                let shown = self.go(&self.with(row.2), &self.with(richest.refined()));
-                progress.done();
-                shown
-            })
-            .collect::<Result<_, Error>>()?;
+        let scenes: Vec<Scene> = rows.iter().map(|row| self.with(row.2)).collect();
+        let shown = self.follow(&scenes, &self.with(richest.refined()), progress)?;
         let whole = shown.get(models.len() - 1).map_or(f64::NAN, |shown| shown.time);
         let row = |((model, tolerance, _), shown): ((String, Option<f64>, Settings), Shown)| Fidelity {
             scene: self.name,
@@ -124,9 +119,35 @@ impl Walk {
         Ok(rows.into_iter().zip(shown).map(row).collect())
     }
 
-    /// Follows the path with the model `own` and measures its errors against the model `reference`.
-    pub(super) fn go(&self, own: &Scene, reference: &Scene) -> Result<Shown, Error> {
-        let (mut own, mut reference) = (own.device(2)?, reference.device(2)?);
+    /// Follows the path with each model: its errors against the model `reference`, and its time.
+    pub(super) fn follow(
+        &self,
+        models: &[Scene],
+        reference: &Scene,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Shown>, Error> {
+        let mut followed = Vec::new();
+        for model in models {
+            let mut device = model.device(2)?;
+            let shown = self.errors(device.as_mut(), reference)?;
+            followed.push((device, shown));
+            progress.done();
+        }
+        for _ in 0..ROUNDS {
+            for (device, shown) in &mut followed {
+                let begin = Instant::now();
+                for inputs in &self.path {
+                    device.solve(inputs)?;
+                }
+                shown.time = shown.time.min(begin.elapsed().as_secs_f64() / self.path.len() as f64);
+            }
+        }
+        Ok(followed.into_iter().map(|(_, shown)| shown).collect())
+    }
+
+    /// Errors of a device along the path against the model `reference`, without a time.
+    fn errors(&self, own: &mut dyn Solve, reference: &Scene) -> Result<Shown, Error> {
+        let mut reference = reference.device(2)?;
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;
@@ -138,13 +159,6 @@ impl Walk {
                 shown.tip = if solved { shown.tip.max(apart) } else { f64::NAN };
                 shown.angle = shown.angle.max(a.axis().angle(&b.axis()));
             }
-        }
-        for _ in 0..WALKS {
-            let begin = Instant::now();
-            for inputs in &self.path {
-                own.solve(inputs)?;
-            }
-            shown.time = shown.time.min(begin.elapsed().as_secs_f64() / self.path.len() as f64);
         }
         Ok(shown)
     }

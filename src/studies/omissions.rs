@@ -76,23 +76,22 @@ pub fn omissions(progress: &dyn Progress) -> Result<Vec<Omission>, Error> {
     for (name, segments, field) in SCENES {
         let mut exact = Scene::parse(&format!("{field}\n[design]\nsegments = {segments}"), name)?;
         exact.settings = Settings { interaction: Interaction::Rings, ..exact.settings.as_discretised() };
-        let walk = Walk::new(name, &exact)?;
-        let mut whole = f64::NAN;
-        for (what, simplify) in SIMPLIFICATIONS {
+        let mut scenes = Vec::new();
+        for (_, simplify) in SIMPLIFICATIONS {
             let mut scene = exact.clone();
             simplify(&mut scene)?;
-            let shown = walk.go(&scene, &exact)?;
-            progress.done();
-            whole = if whole.is_nan() { shown.time } else { whole };
-            out.push(Omission {
-                scene: name,
-                what,
-                time_us: 1e6 * shown.time,
-                time_relative: shown.time / whole,
-                tip_over_length: shown.tip,
-                angle_deg: shown.angle.to_degrees(),
-            });
+            scenes.push(scene);
         }
+        let shown = Walk::new(name, &exact)?.follow(&scenes, &exact, progress)?;
+        let whole = shown.first().map_or(f64::NAN, |shown| shown.time);
+        out.extend(SIMPLIFICATIONS.iter().zip(shown).map(|(&(what, _), shown)| Omission {
+            scene: name,
+            what,
+            time_us: 1e6 * shown.time,
+            time_relative: shown.time / whole,
+            tip_over_length: shown.tip,
+            angle_deg: shown.angle.to_degrees(),
+        }));
     }
     Ok(out)
 }
