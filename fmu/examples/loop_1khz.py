@@ -57,14 +57,23 @@ def measure(device: demo.Device, steps: int) -> tuple[np.ndarray, np.ndarray]:
 def draw(picture: Path, times: np.ndarray) -> None:
     """Draws how often a step takes how long."""
     figure, axes = subplots(figsize=(8.5, 3.8))
-    edges = np.geomspace(0.05, 50, 121)
+    edges = np.geomspace(0.1, 100, 121)  # one of them at the period
     _, _, bars = axes.hist(1e3 * times, bins=edges, color=look.GREY)
     for edge, bar in zip(edges[:-1], bars, strict=True):
-        if edge < 1e3 * STEP:
+        if edge < 0.99 * 1e3 * STEP:
             bar.set_facecolor(look.BLUE)
     within, median = np.mean(times <= STEP), 1e3 * np.median(times)
     axes.axvline(1e3 * STEP, color=look.INK, lw=1.2)
-    look.label(axes, 1e3 * STEP, 0.95, "1 ms", look.INK, xycoords=axes.get_xaxis_transform())
+    look.label(
+        axes,
+        1e3 * STEP,
+        0.95,
+        "1 ms",
+        look.INK,
+        xytext=(-6, 0),
+        ha="right",
+        xycoords=axes.get_xaxis_transform(),
+    )
     axes.set(xscale="log", yscale="log", xlabel="time of a step through fmpy (ms)", ylabel="number of steps")
     axes.xaxis.set_major_formatter("{x:g}")
     axes.yaxis.set_major_formatter("{x:g}")

@@ -84,6 +84,18 @@ def test_commands_exist(page: Path) -> None:
     assert not found, "\n".join(found)
 
 
+def test_picture_of_the_fit_is_that_of_its_page(tmp_path: Path) -> None:
+    page = PACKAGE / "src" / "fit" / "README.md"
+    scratch = Scratch(page, tmp_path)
+    fit = lines_of(blocks(page)[0])[0]
+    scratch.bring(fit)
+    assert scratch.run(fit.text).returncode == 0
+    drawn, kept = ((folder / "fit.svg").read_text() for folder in (tmp_path, PACKAGE / "tests" / "charts"))
+    # Coordinates differ by what the end of a solve leaves.
+    number = re.compile(r"\d+(\.\d+)?")
+    assert number.sub("0", drawn) == number.sub("0", kept)
+
+
 def test_rust_of_every_page_is_a_doctest() -> None:
     library = PACKAGE / "src" / "lib.rs"
     included = re.findall(r'^#\[doc = include_str!\("(.*)"\)\]$', library.read_text(), re.MULTILINE)
