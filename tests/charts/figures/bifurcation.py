@@ -80,8 +80,8 @@ def draw(table: Table) -> Figure:
     look.title(
         figure,
         "Where shapes end: at folds, from which slow loading snaps",
-        "Solid: stable; dashed: unstable; circles: folds and branching points. Broad: the path of slow loading, arrows: "
-        "its snaps.\nFirst row: no interaction; nine segments: level rings; the others: level full.",
+        "Solid: stable; dashed: unstable; circles: folds and branching points. Broad: the path of slow loading, "
+        "arrows: its snaps.\nFirst row: no interaction; nine segments: level rings; the others: level full.",
     )
     return figure
 

@@ -1,4 +1,4 @@
-"""Fig. 9: guided by a magnet through an aorta, nine segments turn into the artery; a cylinder or a stiff tube does not."""
+"""Fig. 9: guided by a magnet through an aorta, nine segments turn into the artery, others less."""
 
 import look
 import numpy as np
