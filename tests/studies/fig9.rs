@@ -36,6 +36,6 @@ fn a_magnet_pulls_as_hard_as_friction_holds_and_no_harder() {
         );
     }
     for row in &study.comparison {
-        assert!(row.remark.starts_with("the end of the way"), "{}: {}", row.quantity, row.remark);
+        assert!(row.remark.starts_with("the end of the path"), "{}: {}", row.quantity, row.remark);
     }
 }
