@@ -72,7 +72,7 @@ def test_it_shows_what_the_fmu_answers_and_ends(default: Archive) -> None:
 
 
 def test_it_follows_who_drags_the_magnet(pack: Callable[..., Archive]) -> None:
-    # The path to where bodies touch takes about the default budget of processor time: on a slow machine it must not end first.
+    # The path to where bodies touch takes about as long as the default budget: on a slow machine it must not end first.
     archive = pack((PACKAGE / "fmu" / "default.toml").read_text() + "\n[model]\ntime_budget_s = 30.0\n")
     port, places = free_port(), [[0.0, -120.0, 23.0], [0.0, -120.0, 43.0], [0.0, -110.0, 43.0]]
     expected = list(angles(archive, places))
