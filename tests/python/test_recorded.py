@@ -49,8 +49,8 @@ def plain(cell: str) -> str:
 
 def assert_rows(shown: list[list[str]], expected: list[list[str]], page: Path) -> None:
     """A table of a page has these rows; a failure shows them as they should stand there."""
-    lines = ["| " + " | ".join(cells) + " |" for cells in expected]
-    assert ["| " + " | ".join(cells) + " |" for cells in shown] == lines, f"{page}:\n" + "\n".join(lines)
+    got, wanted = ("\n".join(f"| {' | '.join(cells)} |" for cells in rows) for rows in (shown, expected))
+    assert got == wanted, f"{page}:\n{wanted}"
 
 
 def test_verdicts_on_methods() -> None:
