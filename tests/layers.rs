@@ -178,7 +178,7 @@ fn files_below(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn every_room_uses_only_what_it_may() {
+fn every_module_uses_only_what_it_may() {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files = Vec::new();
     for folder in ["src", "tests", "fmu"] {
