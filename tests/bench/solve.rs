@@ -1,4 +1,4 @@
-//! Time of one solve, cold from the unloaded shape and warm as one of many input changes of one 1 kHz step, of all
+//! Time of one solve, cold from the straight manipulator and warm as one of many input changes of one 1 kHz step, of all
 //! derivatives there, and the error on a case with a closed form: `cargo bench --bench solve`.
 #![allow(
     clippy::unwrap_used,
