@@ -12,7 +12,7 @@ use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Scene, Status};
 use crate::methods::{self, Method};
-use verification::{Known, Verifier};
+use verification::{FineModel, Known};
 
 pub use verdict::Verdict;
 
@@ -94,8 +94,8 @@ impl Ray {
     /// None for the paper's designs; those of the solves are passed on.
     pub fn attempts(&self) -> Result<Vec<Attempt>, Error> {
         let design = Design::new(Specification::paper(self.segments))?;
-        let mut verifier = Verifier::new(&design, self.interaction)?;
-        let mut known = self.branch(&mut verifier)?;
+        let mut fine = FineModel::new(&design, self.interaction)?;
+        let mut known = self.branch(&mut fine)?;
         let mut out = Vec::new();
         for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
             let scene = Scene {
@@ -127,7 +127,7 @@ impl Ray {
                     let outputs = manipulator.outputs();
                     let solved = outputs.status != Status::NotSolved;
                     let found = if solved {
-                        verifier.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
+                        fine.nearest(&self.inputs(strength), &outputs.rings, accuracy, known)
                     } else {
                         None
                     };
@@ -162,15 +162,15 @@ impl Ray {
     }
 
     /// The equilibria of quasi-static loading, by strength.
-    fn branch(&self, verifier: &mut Verifier) -> Result<Vec<Vec<Known>>, Error> {
+    fn branch(&self, fine: &mut FineModel) -> Result<Vec<Vec<Known>>, Error> {
         let mut out = vec![Vec::new(); STRENGTHS];
         for (number, known) in out.iter_mut().enumerate() {
             for part in 1..=LOADING_STEPS {
-                if !verifier.load(&self.inputs(strength(number, part, LOADING_STEPS)))? {
+                if !fine.load(&self.inputs(strength(number, part, LOADING_STEPS)))? {
                     return Ok(out);
                 }
             }
-            known.extend(verifier.loaded(&self.inputs(strength(number, 1, 1))));
+            known.extend(fine.loaded(&self.inputs(strength(number, 1, 1))));
         }
         Ok(out)
     }

@@ -1,14 +1,13 @@
 //! A moment that is fixed in space has no potential, and does not choose the branch.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Outcome, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Outcome, Settings, Solution, Verifier};
 use mcm::manipulator::{Outputs, Scene};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use crate::given::direction;
-use crate::hostile::verifier::Verifier;
 use crate::tolerance::{MOVED_BY_A_MOMENT, RESIDUAL, SAME_TIP_MM, VANISHING_MOMENT_DEG};
 
 /// N m, and the bending stiffness of the paper's core, N m2.

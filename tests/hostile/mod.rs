@@ -4,8 +4,6 @@
 
 pub(crate) mod host;
 mod insertions;
-#[allow(dead_code, reason = "the recorded run uses all of it")]
-pub(crate) mod verifier;
 
 use std::path::Path;
 use std::time::Duration;

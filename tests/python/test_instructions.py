@@ -21,6 +21,7 @@ REGRESSION = 1.05
 PAIR = "[magnet]\norientation_wxyz = [0, 1, 0, 0]\n"
 TURNING = "field.turn_deg=0:10:101"
 PASSING = "magnet.position_mm[3]=20:30:101"
+SHORTLY = "magnet.position_mm[3]=20:25:51"
 
 
 def scene(segments: int, interaction: str, field: str) -> str:
@@ -33,8 +34,8 @@ SCENES = {
     "S=1 rings, field turning": (scene(1, "rings", "[field]\nuniform_mt = [0, 20, 0]\n"), TURNING),
     "S=9 rings, pair passing": (scene(9, "rings", PAIR), PASSING),
     "S=1 full, pair passing": (scene(1, "full", PAIR), PASSING),
-    "S=9 full, pair passing": (scene(9, "full", PAIR), PASSING),
-    "S=9 auto, pair passing": (scene(9, "auto", PAIR), PASSING),
+    "S=9 full, pair passing": (scene(9, "full", PAIR), SHORTLY),
+    "S=9 auto, pair passing": (scene(9, "auto", PAIR), SHORTLY),
     "S=9 full, pair, cold": (scene(9, "full", PAIR), None),
 }
 

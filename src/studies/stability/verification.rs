@@ -1,10 +1,8 @@
 //! Independent verification of a shape that a method reports as solved.
 
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
-
 use super::verdict::Verdict;
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Verifier};
 use crate::error::Error;
 use crate::geometry::Pose;
 
@@ -12,23 +10,13 @@ use crate::geometry::Pose;
 const DEGREE: usize = 4;
 const PAIR_ACCURACY: f64 = 1e-7;
 
-/// Step of the finite differences of the gradient, in radians of the first mode.
-const STEP: f64 = 1e-5;
-
-/// Maximum number of Newton steps, and residual at which a shape is an equilibrium (1: one element turned by a radian).
-const STEPS: usize = 30;
-const BALANCE: f64 = 1e-8;
-
 /// Distance of the rings, over the length, up to which two equilibria count as the same.
 const SAME: f64 = 1e-5;
 
-/// Longest Newton step, in the unit of the residual, so that a solution is not compared with a distant equilibrium.
+/// Longest step of Newton's method towards the equilibrium with which a solution is compared (1: one element turned by a radian).
 const LONGEST_STEP: f64 = 0.5;
 
-/// Largest ratio of successive residuals for which the Hessian is reused in the next step.
-const SHRINKING: f64 = 0.1;
-
-/// Smallest eigenvalue, relative to the elastic energy, below which a shape is unstable: the noise of the differences.
+/// Smallest eigenvalue, relative to the elastic stiffness, below which a shape is unstable: the noise of the differences.
 /// Between it and zero a shape is neutral, as one bent in an antiparallel field, which may turn freely about the axis.
 const UNSTABLE: f64 = -1e-6;
 
@@ -36,7 +24,7 @@ const UNSTABLE: f64 = -1e-6;
 #[derive(Debug, Clone)]
 pub(super) struct Known {
     pub(super) rings: Vec<Pose>,
-    /// Smallest eigenvalue of the Hessian relative to the elastic energy.
+    /// Smallest eigenvalue of the Hessian relative to the elastic stiffness.
     pub(super) margin: f64,
     /// Whether it is [`Verdict::Branch`].
     pub(super) of_branch: bool,
@@ -65,15 +53,14 @@ pub(super) struct Found {
     pub(super) margin: f64,
 }
 
-/// Verifies shapes with the gradient of a finer potential: Newton's method with finite differences of the gradient
-/// finds an equilibrium from the shape, and the eigenvalues of the full Hessian show whether it is stable.
+/// A finer potential, whose equilibria, found by [`Verifier`], are compared with solutions.
 #[derive(Debug, Clone)]
-pub(super) struct Verifier {
+pub(super) struct FineModel {
     fine: Equilibrium,
     length: f64,
 }
 
-impl Verifier {
+impl FineModel {
     pub(super) fn new(design: &Design, interaction: Interaction) -> Result<Self, Error> {
         let settings =
             Settings { interaction, degree: DEGREE, pair_accuracy: PAIR_ACCURACY, ..Settings::default() };
@@ -85,7 +72,7 @@ impl Verifier {
         Ok(self.fine.solve(inputs)?.solved())
     }
 
-    /// The equilibrium that [`Verifier::load`] has reached; `None` if Newton's method does not converge there.
+    /// The equilibrium that [`FineModel::load`] has reached; `None` if Newton's method does not converge there.
     pub(super) fn loaded(&mut self, inputs: &Inputs) -> Option<Known> {
         let shape = self.fine.unknowns().to_vec();
         Some(Known { of_branch: true, ..self.polished(inputs, &shape)? })
@@ -121,64 +108,10 @@ impl Verifier {
 
     /// The equilibrium, stable or not, that Newton's method finds from `start`; `None` if it does not converge.
     fn polished(&mut self, inputs: &Inputs, start: &[f64]) -> Option<Known> {
-        // Scaled by the root of the metric, all amplitudes have one size; the first is the rotation of an element.
-        let roots = DVector::from_iterator(start.len(), self.fine.metric().iter().map(|k| k.sqrt()));
-        let unit = roots[0];
-        let mut shape = DVector::from_column_slice(start).component_mul(&roots);
-        let mut gradient = self.gradient(inputs, &shape, &roots)?;
-        let mut hessian = None;
-        for _ in 0..STEPS {
-            let residual = gradient.norm() / unit;
-            if residual <= BALANCE {
-                let last = self.hessian(inputs, &shape, &roots)?;
-                let unknowns = shape.component_div(&roots);
-                return Some(Known {
-                    rings: self.fine.rings_at(&inputs.base, unknowns.as_slice()),
-                    margin: SymmetricEigen::new(last).eigenvalues.min(),
-                    of_branch: false,
-                });
-            }
-            let factors = match hessian.take() {
-                Some(factors) => factors,
-                None => self.hessian(inputs, &shape, &roots)?.lu(),
-            };
-            let step = factors.solve(&gradient)?;
-            let length = step.norm() / unit;
-            shape -= step * f64::min(1.0, LONGEST_STEP / length);
-            gradient = self.gradient(inputs, &shape, &roots)?;
-            hessian = (gradient.norm() / unit <= SHRINKING * residual).then_some(factors);
-        }
-        None
-    }
-
-    fn gradient(
-        &mut self,
-        inputs: &Inputs,
-        shape: &DVector<f64>,
-        roots: &DVector<f64>,
-    ) -> Option<DVector<f64>> {
-        let (_, gradient) = self.fine.gradient(inputs, shape.component_div(roots).as_slice())?;
-        Some(DVector::from_vec(gradient).component_div(roots))
-    }
-
-    fn hessian(
-        &mut self,
-        inputs: &Inputs,
-        shape: &DVector<f64>,
-        roots: &DVector<f64>,
-    ) -> Option<DMatrix<f64>> {
-        let step = STEP * roots[0];
-        let mut out = DMatrix::zeros(shape.len(), shape.len());
-        for i in 0..shape.len() {
-            let mut at = |side: f64| {
-                let mut moved = shape.clone();
-                moved[i] += side * step;
-                self.gradient(inputs, &moved, roots)
-            };
-            let slope = (at(1.0)? - at(-1.0)?) / (2.0 * step);
-            out.set_column(i, &slope);
-        }
-        Some((&out + out.transpose()) * 0.5)
+        let mut verifier = Verifier::new(&mut self.fine, inputs, true);
+        let unknowns = verifier.polished(start, LONGEST_STEP)?;
+        let margin = verifier.smallest_real_part(&unknowns)?;
+        Some(Known { rings: self.fine.rings_at(&inputs.base, &unknowns), margin, of_branch: false })
     }
 }
 

@@ -17,8 +17,6 @@ mod given;
 mod promises;
 mod scenes;
 mod tally;
-#[path = "../verifier.rs"]
-mod verifier;
 #[path = "../worst.rs"]
 mod worst;
 

@@ -1,17 +1,19 @@
 //! What every answer promises, and whether it keeps it.
 
 use cpu_time::ThreadTime;
-use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution, Verifier};
 use mcm::manipulator::{Inputs, Manipulator, Outcome, Outputs, Scene, Status};
 use nalgebra::Vector3;
 
 use super::scenes::Walk;
 use super::tally::Tally;
-use super::verifier::Verifier;
 use super::worst::Defect;
 
 /// One walk in so many is verified.
 const SAMPLE: u64 = 100;
+
+/// Longest step of Newton's method from an answer to an equilibrium of the finer model (1: one element turned by a radian).
+const LONGEST_STEP: f64 = 0.2;
 
 /// Answers without a shape after which a walk ends.
 const ENOUGH: u32 = 3;
@@ -188,7 +190,7 @@ impl Verdict {
     ) {
         let inputs = &scene.inputs;
         let mut verifier = Verifier::new(fine, inputs, has_potential(scene));
-        let Some(shape) = verifier.polished(start) else {
+        let Some(shape) = verifier.polished(start, LONGEST_STEP) else {
             if !neutral {
                 self.broken.push("no equilibrium of the finer model near it".into());
             }

@@ -1,31 +1,31 @@
-//! An independent verifier of answers: a potential of which it takes the gradient alone, with Newton's method and eigenvalues by full
-//! matrices of central differences.
+//! Verification of shapes that depends on nothing of a solver but the gradient of its potential.
 
-use mcm::equilibrium::{Equilibrium, Inputs};
 use nalgebra::{DMatrix, DVector, Schur, SymmetricEigen};
+
+use super::{Equilibrium, Inputs};
 
 /// Step of the differences of gradients, in radians of the first mode.
 const STEP: f64 = 1e-5;
 
-/// Newton steps at most, and the residual (in turns of one element by a radian) at which a shape is in balance.
+/// Maximum number of Newton steps, and the residual (1: one element turned by a radian) at which a shape is an equilibrium.
 const STEPS: usize = 30;
 const BALANCE: f64 = 1e-8;
 
-/// Longest Newton step, in the same measure: no answer is verified by an equilibrium far away.
-const LONGEST_STEP: f64 = 0.2;
-
-/// A matrix made earlier serves while it makes the residual shrink by this factor.
+/// Largest ratio of successive residuals for which the matrix is reused in the next Newton step.
 const SHRINKING: f64 = 0.1;
 
-/// Entries below the diagonal that the QR algorithm takes for zero, relative to their neighbours. It may go round in circles with
-/// the first, and then not with the next; all are below the differences' noise.
+/// Entries below the diagonal that the QR algorithm takes for zero, relative to their neighbours. With the first it may not
+/// converge, and then it does with the next; all are below the noise of the differences.
 const DEFLATED: [f64; 4] = [1e-13, 1e-12, 1e-11, 1e-10];
 
-/// Turns of the QR algorithm at most, by row.
-const TURNS: usize = 100;
+/// Maximum number of iterations of the QR algorithm for each row.
+const ITERATIONS: usize = 100;
 
-/// A model at given inputs, in amplitudes weighted by the root of the metric, of which the first is a turn of an element.
-pub(crate) struct Verifier<'a> {
+/// Verifies shapes at given inputs with the gradient of a model alone, usually a finer one than has found them: Newton's
+/// method and eigenvalues with full matrices of central differences of gradients. Its unit is the rotation of one
+/// element by a radian; eigenvalues are relative to the elastic stiffness, as is the stability margin.
+#[derive(Debug)]
+pub struct Verifier<'a> {
     model: &'a mut Equilibrium,
     inputs: &'a Inputs,
     roots: DVector<f64>,
@@ -33,33 +33,36 @@ pub(crate) struct Verifier<'a> {
 }
 
 impl<'a> Verifier<'a> {
-    /// Whether the matrix is to be taken as symmetric, as forces with a potential have it.
-    pub(crate) fn new(model: &'a mut Equilibrium, inputs: &'a Inputs, symmetric: bool) -> Self {
+    /// `symmetric`: whether the forces have a potential, so that the matrix of differences is that of second derivatives.
+    pub fn new(model: &'a mut Equilibrium, inputs: &'a Inputs, symmetric: bool) -> Self {
         let roots = DVector::from_iterator(model.freedoms(), model.metric().iter().map(|k| k.sqrt()));
         Self { model, inputs, roots, symmetric }
     }
 
-    /// Norm of the gradient at a shape, in turns of one element by a radian.
-    pub(crate) fn residual(&mut self, unknowns: &[f64]) -> Option<f64> {
+    /// Norm of the gradient at a shape over that of one element turned by a radian; `None` where bodies share volume.
+    pub fn residual(&mut self, unknowns: &[f64]) -> Option<f64> {
         let shape = self.weighted(unknowns);
         Some(self.gradient(&shape)?.norm() / self.roots[0])
     }
 
-    /// Smallest real part of the eigenvalues of the matrix of differences at a shape, relative to the elastic energy.
-    pub(crate) fn smallest_real_part(&mut self, unknowns: &[f64]) -> Option<f64> {
+    /// Smallest real part of the eigenvalues at a shape, relative to the elastic stiffness: stable above 0. `None` where
+    /// bodies share volume.
+    pub fn smallest_real_part(&mut self, unknowns: &[f64]) -> Option<f64> {
         let shape = self.weighted(unknowns);
         let matrix = self.matrix(&shape)?;
         if self.symmetric {
             return Some(SymmetricEigen::new((&matrix + matrix.transpose()) * 0.5).eigenvalues.min());
         }
         let rows = matrix.nrows();
-        let schur = |deflated| Schur::try_new(matrix.clone(), deflated, TURNS * rows);
+        let schur = |deflated| Schur::try_new(matrix.clone(), deflated, ITERATIONS * rows);
         let values = DEFLATED.into_iter().find_map(schur)?.complex_eigenvalues();
         values.iter().map(|value| value.re).min_by(f64::total_cmp)
     }
 
-    /// The equilibrium, stable or not, to which Newton's method leads from a shape.
-    pub(crate) fn polished(&mut self, start: &[f64]) -> Option<Vec<f64>> {
+    /// The equilibrium, stable or not, that Newton's method finds from a shape in steps of at most `longest_step` (1: one
+    /// element turned by a radian), so that a shape is not compared with a distant equilibrium. `None` if it does not
+    /// converge.
+    pub fn polished(&mut self, start: &[f64], longest_step: f64) -> Option<Vec<f64>> {
         let unit = self.roots[0];
         let mut shape = self.weighted(start);
         let mut gradient = self.gradient(&shape)?;
@@ -74,7 +77,7 @@ impl<'a> Verifier<'a> {
                 None => self.matrix(&shape)?.lu(),
             };
             let step = factors.solve(&gradient)?;
-            shape -= &step * f64::min(1.0, LONGEST_STEP * unit / step.norm());
+            shape -= &step * f64::min(1.0, longest_step * unit / step.norm());
             gradient = self.gradient(&shape)?;
             matrix = (gradient.norm() / unit <= SHRINKING * residual).then_some(factors);
         }
