@@ -141,6 +141,14 @@ impl Design {
         self.base_ring.iter().chain(self.segments.iter().filter_map(|segment| segment.ring.as_ref()))
     }
 
+    /// Whether every body is symmetric about its axis: no spiral winds in one direction.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        let mut spirals =
+            self.segments.iter().flat_map(|segment| &segment.spans).filter_map(|span| span.spiral);
+        spirals.all(|spiral| spiral.kind == SectorKind::Axisymmetric)
+    }
+
     /// Length of the straight unloaded manipulator without a shaft, m.
     #[must_use]
     pub fn length(&self) -> f64 {

@@ -3,13 +3,13 @@
 use super::history::History;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::potential::{Potential, THOROUGH};
+use super::potential::{EigenSearch, Potential, THOROUGH};
 use super::search::Search;
-use crate::numerics::eigenvalue::{Lanczos, Search as Effort};
+use crate::numerics::eigenvalue::Search as Effort;
 use crate::numerics::trust_region::{Objective, spread};
 
 /// Search effort for the stability margin after every solve: enough to see an approaching fold.
-const GLANCE: Effort = Effort { vectors: 6, settled: 0.03 };
+pub(super) const GLANCE: Effort = Effort { vectors: 6, settled: 0.03 };
 
 /// Weight of all directions that are mixed into the last softest direction before the next search.
 const EVERY_DIRECTION: f64 = 0.3;
@@ -25,13 +25,14 @@ impl Search<'_> {
     pub(super) fn assess(&mut self, found: Outcome, branch: &mut History, target: &Inputs) -> Outcome {
         let outcome = match found {
             Outcome::Solved if self.kept => {
-                (self.report.margin, self.report.stable) = (branch.margin, branch.stable);
-                if branch.stable == Some(false) { Outcome::Neutral } else { Outcome::Solved }
+                let stable = self.margin > FREE && self.work.free_turn.is_none();
+                // Where no margin was found, it is not known.
+                if self.margin == 0.0 { Outcome::Solved } else { self.report_stability(stable) }
             }
             Outcome::Solved => {
                 // Without the softest direction of an earlier shape, the short search may miss a softer one.
                 let effort = if branch.stable.is_some() { GLANCE } else { THOROUGH };
-                self.verdict(target, &branch.unknowns, &mut branch.softest, effort)
+                self.verdict(target, &branch.unknowns, effort)
             }
             Outcome::Neutral => {
                 // Factorisation and loads belong to a shape on the way, or on the way back.
@@ -52,39 +53,50 @@ impl Search<'_> {
     }
 
     /// Assesses the shape `unknowns`, found by the last correction, by an upper bound of its stability margin.
-    fn verdict(&mut self, inputs: &Inputs, unknowns: &[f64], softest: &mut [f64], search: Effort) -> Outcome {
-        let mut margin = if self.work.factorisation.is_some() {
-            self.estimate_margin(inputs, softest, search)
-        } else {
-            f64::NAN
-        };
+    fn verdict(&mut self, inputs: &Inputs, unknowns: &[f64], search: Effort) -> Outcome {
+        // A free turn has no stiffness but that of rounding; held, it leaves that of the other directions.
+        let found = self.work.free_turn.is_none() && self.hold_turn(inputs, unknowns);
+        let mut margin = if found { f64::NAN } else { self.margin_here(inputs, search) };
         if margin.is_nan() || margin < DOUBTFUL {
             // The Hessian is that of a shape one step earlier, whose error may hide an instability.
             let mut potential = self.potential(inputs);
             let regular = potential.linearise(unknowns).is_some() && potential.factorise(0.0);
-            margin = if regular { self.estimate_margin(inputs, softest, search) } else { 0.0 };
+            margin = if regular { self.margin_here(inputs, search) } else { 0.0 };
         }
-        if let Some(factorisation) = &mut self.work.factorisation {
-            factorisation.set_assessed(true);
+        if !margin.is_finite() {
+            self.margin = 0.0;
+            self.softest.fill(0.0);
+            return Outcome::Solved;
         }
-        if margin.is_finite() {
-            let held = margin > FREE;
-            (self.report.margin, self.report.stable) = (if held { margin } else { 0.0 }, Some(held));
-            if held { Outcome::Solved } else { Outcome::Neutral }
-        } else {
-            softest.fill(0.0);
-            Outcome::Solved
-        }
+
+        self.margin = margin;
+        self.report_stability(margin > FREE && self.work.free_turn.is_none())
     }
 
-    /// Upper bound of the stability margin at the shape factorised last; NaN where none is found.
-    fn estimate_margin(&mut self, inputs: &Inputs, softest: &mut [f64], search: Effort) -> f64 {
+    /// Upper bound of the stability margin at the shape factorised last, computed once; NaN where none is found.
+    pub(super) fn margin_here(&mut self, inputs: &Inputs, search: Effort) -> f64 {
+        let Some(factorisation) = &mut self.work.factorisation else { return f64::NAN };
+        if !factorisation.origin().assessed {
+            factorisation.set_assessed(true);
+            self.margin = self.estimate_margin(inputs, search);
+        }
+        self.margin
+    }
+
+    /// Reports whether the shape is stable or neutral, with the margin of the former.
+    fn report_stability(&mut self, stable: bool) -> Outcome {
+        (self.report.margin, self.report.stable) = (if stable { self.margin } else { 0.0 }, Some(stable));
+        if stable { Outcome::Solved } else { Outcome::Neutral }
+    }
+
+    fn estimate_margin(&mut self, inputs: &Inputs, search: Effort) -> f64 {
         let metric = self.model.metric;
+        let mut softest = std::mem::take(&mut self.softest);
         // With a share of all directions, so that a mode orthogonal to the last one is not missed.
-        spread(metric, softest, EVERY_DIRECTION);
-        let mut lanczos = std::mem::take(&mut self.scratch.lanczos);
-        let margin = self.potential(inputs).margin(&mut lanczos, softest, search);
-        self.scratch.lanczos = lanczos;
+        spread(metric, &mut softest, EVERY_DIRECTION);
+        let mut eigen = std::mem::take(&mut self.scratch.eigen);
+        let margin = self.potential(inputs).margin(&mut eigen, &mut softest, search);
+        (self.scratch.eigen, self.softest) = (eigen, softest);
         margin
     }
 }
@@ -93,5 +105,5 @@ impl Search<'_> {
 pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
     let mut softest = vec![0.0; potential.chain.freedoms()];
     spread(potential.metric, &mut softest, 1.0);
-    potential.margin(&mut Lanczos::default(), &mut softest, THOROUGH)
+    potential.margin(&mut EigenSearch::default(), &mut softest, THOROUGH)
 }

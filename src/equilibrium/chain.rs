@@ -40,6 +40,8 @@ pub(crate) struct Chain {
     pub(crate) rings: Vec<RingBody>,
     /// Distance from the last node to the tip, m.
     pub(crate) tip_offset: f64,
+    /// Whether all bodies are symmetric about their axes.
+    pub(super) axisymmetric: bool,
     /// Number of elements of the shaft, which come first.
     pub(crate) shaft: usize,
     /// Index of the first unknown of each element, then the number of unknowns.
@@ -156,6 +158,7 @@ impl Chain {
             elements,
             rings,
             tip_offset,
+            axisymmetric: design.is_axisymmetric(),
             shaft,
             first,
             metric,

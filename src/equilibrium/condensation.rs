@@ -42,6 +42,16 @@ pub(super) struct Condensation {
     eliminated: Vec<f64>,
 }
 
+/// What is added to the diagonal of an element's Hessian.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Added<'a> {
+    /// Factor on the elastic stiffness, and that of each amplitude.
+    pub(super) shift: f64,
+    pub(super) metric: &'a [f64],
+    /// Stiffness on one amplitude.
+    pub(super) held: Option<(usize, f64)>,
+}
+
 impl Condensation {
     /// Allocates storage for an element with this number of amplitudes, coupled to `rings` displacements of rings.
     pub(super) fn new(freedoms: usize, rings: usize) -> Self {
@@ -84,16 +94,15 @@ impl Condensation {
         true
     }
 
-    /// Condenses `hessian + shift metric`, and the coupling `cross` of (start, amplitudes) to the rings' nodes, one row for
-    /// each of their displacements; `false` if the inner block is not positive definite.
+    /// Condenses the Hessian with what is `added` to its diagonal, and the coupling `cross` of (start, amplitudes) to the rings'
+    /// nodes, one row for each of their displacements; `false` if the inner block is not positive definite.
     pub(super) fn condense(
         &mut self,
         tangent: &ElementDerivatives,
-        metric: &[f64],
-        shift: f64,
+        added: &Added<'_>,
         cross: &[f64],
     ) -> bool {
-        self.transform(&tangent.hessian, metric, shift, cross);
+        self.transform(&tangent.hessian, added, cross);
         let (inner, size, columns) = (self.inner, self.size, self.columns);
         let (own, rings) = self.whole.split_at(size * size);
         let (nodes, rest) = own.split_at(NODES * size);
@@ -116,14 +125,15 @@ impl Condensation {
     }
 
     /// Expresses the first amplitudes by (start, end, inner).
-    fn transform(&mut self, hessian: &[f64], metric: &[f64], shift: f64, cross: &[f64]) {
+    fn transform(&mut self, hessian: &[f64], added: &Added<'_>, cross: &[f64]) {
         let size = self.size;
         let sources = hessian.chunks_exact(size).chain(cross.chunks_exact(size));
         let rows = self.whole.chunks_exact_mut(size).zip(self.ends.chunks_exact_mut(END));
         for (number, (source, (row, ends))) in sources.zip(rows).enumerate() {
             row.copy_from_slice(source);
             if let Some(amplitude) = number.checked_sub(START).filter(|_| number < size) {
-                row[number] += shift * metric[amplitude];
+                row[number] += added.shift * added.metric[amplitude];
+                row[number] += added.held.filter(|held| held.0 == amplitude).map_or(0.0, |held| held.1);
             }
             ends.copy_from_slice(&row[START..NODES]);
             row[START..NODES].fill(0.0);

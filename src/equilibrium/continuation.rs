@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::elastic_norm::ElasticNorm;
 use super::inputs::Inputs;
 use super::potential::Potential;
 use super::solution::Solution;
@@ -27,8 +28,8 @@ pub struct Shape {
     pub tip_angle: f64,
     /// Potential energy, J.
     pub energy: f64,
-    /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy; 0 at a fold, negative where
-    /// unstable.
+    /// Stability margin: smallest eigenvalue of the Hessian in the elastic norm of the strains' variation at the shape; 0 at
+    /// a fold, negative where unstable.
     pub margin: f64,
     /// Number of unstable directions; 0 where the shape is stable.
     pub unstable: usize,
@@ -127,14 +128,18 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Scaled<F> {
     fn shape(&mut self, point: &Point) -> Result<Shape, Error> {
         let inputs = self.inputs(point.parameter)?;
         let unknowns: Vec<f64> = point.x.component_mul(&self.scale).as_slice().to_vec();
-        let energy = self.model.potential(&inputs, &unknowns).slope(&unknowns).unwrap_or(f64::NAN);
+        let mut potential = self.model.potential(&inputs, &unknowns);
+        let energy = potential.linearise(&unknowns).unwrap_or(f64::NAN);
+        let hessian = potential.hessian();
+        let mut norm = ElasticNorm::default();
+        norm.update(&self.model.chain, &self.model.work.configurations);
         let tip = self.model.tip();
         Ok(Shape {
             value: self.value(point.parameter),
             tip,
             tip_angle: inputs.base.axis().angle(&tip.axis()),
             energy,
-            margin: point.smallest(),
+            margin: norm.smallest(&hessian),
             unstable: point.negative(),
             kind: point.kind,
             unknowns,

@@ -210,7 +210,7 @@ impl Search<'_> {
         let led = self.lead_along((nearby, part), before, unknowns, &mut trial);
         let predicted = trial.clone();
         let reach = self.model.settings.follow_step;
-        let mut found = led && self.correct(inputs, &mut trial, reach);
+        let mut found = led && self.correct(inputs, &mut trial, reach) && self.is_still_free(inputs);
         if found {
             // Found where the tangent leads; the way back would meet other contacts than the way there.
             let expected = self.apart(&trial, &predicted) <= MISSED * self.apart(&predicted, unknowns);
@@ -258,6 +258,7 @@ impl Search<'_> {
         reach: f64,
     ) -> bool {
         let found = self.correct(inputs, trial, reach)
+            && self.is_still_free(inputs)
             && before.is_none_or(|before| self.kept || self.goes_on([before, inputs], [unknowns, trial]));
         if found {
             unknowns.copy_from_slice(trial);

@@ -50,8 +50,17 @@ impl Search<'_> {
     pub(super) fn descend(&mut self, inputs: &Inputs, unknowns: &mut [f64], tolerance: f64) -> Outcome {
         let unit = self.model.chain.radian_norm();
         let mut reached = unknowns.to_vec();
-        let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
+        self.work.free_turn = None;
         let conservative = self.potential(inputs).terms.have_potential();
+        if self.is_symmetric(inputs) {
+            // Along a free turn a descent would go on until rounding ends it.
+            let minimum = self.go_downhill(inputs, &mut reached, tolerance.max(PASSING));
+            if minimum.residual <= NEARLY * unit && self.rest_on_turn(inputs, &mut reached) {
+                unknowns.copy_from_slice(&reached);
+                return Outcome::Solved;
+            }
+        }
+        let mut minimum = self.go_downhill(inputs, &mut reached, tolerance);
         if !conservative && minimum.converged && !self.is_confirmed(inputs, &reached) {
             // An unstable equilibrium, which the descent of a potential leaves by itself.
             spread(self.model.metric, &mut reached, PUSH * unit);
@@ -75,6 +84,23 @@ impl Search<'_> {
         unknowns.copy_from_slice(&reached);
         self.kept = false;
         end
+    }
+
+    /// Corrects a shape near an equilibrium that is free to turn, with the turn held; returns whether it is one.
+    fn rest_on_turn(&mut self, inputs: &Inputs, shape: &mut Vec<f64>) -> bool {
+        if !self.hold_turn(inputs, shape) {
+            return false;
+        }
+        let mut corrected = shape.clone();
+        let found = self.correct(inputs, &mut corrected, self.model.settings.follow_step)
+            && self.is_still_free(inputs);
+        if found {
+            *shape = corrected;
+            self.kept = false;
+        } else {
+            self.work.free_turn = None;
+        }
+        found
     }
 
     fn is_confirmed(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
@@ -103,6 +129,8 @@ impl Search<'_> {
         if distance <= NEARLY * self.model.chain.radian_norm() {
             return false;
         }
+        // The way back may end at a straight shape: nothing is held on it.
+        let turn = self.work.free_turn.take();
         let (residual, energy) = (self.report.residual, self.report.energy);
         let mut back = reached.to_vec();
         // Where the branch is soft, the residual is already small halfway back.
@@ -111,7 +139,7 @@ impl Search<'_> {
         let left = self.apart(&back, last) > RETURNED * distance
             && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
         // The factorisation belongs to another shape.
-        self.work.factorisation = None;
+        (self.work.factorisation, self.work.free_turn) = (None, turn);
         (self.report.residual, self.report.energy) = (residual, energy);
         left
     }

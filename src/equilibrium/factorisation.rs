@@ -8,7 +8,8 @@ use nalgebra::{DMatrix, DVectorViewMut, Dyn, LU, Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
-use super::condensation::{Condensation, turn_nodes};
+use super::condensation::{Added, Condensation, turn_nodes};
+use super::free_turn::FreeTurn;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::numerics::cholesky;
@@ -68,6 +69,8 @@ pub(super) struct Hessian<'a> {
     /// Mixed second derivatives of each element and the rings' nodes; empty where rings do not act on spans.
     pub(super) mixed: &'a [Vec<f64>],
     pub(super) spans: SpanCoupling,
+    /// An unknown that is held, with the stiffness that holds it.
+    pub(super) held: Option<(usize, f64)>,
     /// Whether all forces are conservative, so that the Hessian is symmetric.
     pub(super) symmetric: bool,
     /// Whether every force between rings has its reaction.
@@ -83,6 +86,8 @@ pub(super) struct Origin {
     pub(super) rules: Vec<usize>,
     /// Whether the stability margin of the branch was determined there.
     pub(super) assessed: bool,
+    /// The free turn that was held.
+    pub(super) turn: Option<FreeTurn>,
 }
 
 /// The Hessian at a shape before its factorisation; it reuses the storage of the last one.
@@ -123,19 +128,20 @@ impl Linearisation {
             axes: vec![Matrix3::identity(); count],
             matrix: vec![0.0; size * size],
             rhs: vec![0.0; size],
-            origin: Origin { unknowns, inputs, rules: Vec::new(), assessed: false },
+            origin: Origin { unknowns, inputs, rules: Vec::new(), assessed: false, turn: None },
             loads: Vec::with_capacity(2 * count + 1),
         })
     }
 
-    /// Records the origin: the shape, the nodes' poses there, the loads on nodes and elements, the inputs and the
-    /// quadrature rules.
+    /// Records the origin: the shape, the nodes' poses there, the loads on nodes and elements, the inputs, the
+    /// quadrature rules and the free turn.
     pub(super) fn note(
         &mut self,
         (unknowns, nodes): (&[f64], &[Pose]),
         loads: impl Iterator<Item = TotalLoad>,
         inputs: &Inputs,
         rules: impl Iterator<Item = usize>,
+        turn: Option<FreeTurn>,
     ) {
         for (axes, node) in self.axes.iter_mut().zip(nodes) {
             *axes = node.rotation;
@@ -147,7 +153,7 @@ impl Linearisation {
         origin.inputs.copy_from(inputs);
         origin.rules.clear();
         origin.rules.extend(rules);
-        origin.assessed = false;
+        (origin.assessed, origin.turn) = (false, turn);
     }
 
     /// Factorises this Hessian plus `shift` times the elastic one. Returns itself where the matrix is not positive
@@ -181,12 +187,14 @@ impl Linearisation {
     fn condense(&mut self, hessian: &Hessian<'_>, k: usize, shift: f64) -> bool {
         let size = self.rhs.len();
         let own = &mut self.condensations[k];
-        if !own.condense(
-            &hessian.elements[k],
-            hessian.chain.part(k, hessian.metric),
+        let unknowns = hessian.chain.first[k]..hessian.chain.first[k + 1];
+        let held = hessian.held.filter(|(unknown, _)| unknowns.contains(unknown));
+        let added = Added {
             shift,
-            &hessian.mixed[k],
-        ) {
+            metric: &hessian.metric[unknowns.clone()],
+            held: held.map(|(unknown, stiffness)| (unknown - unknowns.start, stiffness)),
+        };
+        if !own.condense(&hessian.elements[k], &added, &hessian.mixed[k]) {
             return false;
         }
         let axes = self.axes[k];
@@ -291,16 +299,26 @@ impl Factorisation {
         reach: f64,
     ) -> bool {
         let Linearisation { origin, loads: before, .. } = &*self.made;
-        if !origin.assessed {
-            return false;
-        }
-        let changes = unknowns.iter().zip(&origin.unknowns).map(|(a, b)| a - b);
-        let turned: f64 = chain.metric.iter().zip(changes).map(|(k, change)| k * change * change).sum();
-        let arm = chain.elements.first().map_or(0.0, |element| element.length);
-        let loaded: f64 = before.iter().zip(loads).map(|(before, now)| now.square_from(before, arm)).sum();
-        let unit = chain.radian_norm();
-        turned.sqrt() / unit + loaded.sqrt() / (unit * unit) <= reach
+        origin.assessed && drift(chain, (&origin.unknowns, before), (unknowns, loads)) <= reach
     }
+}
+
+/// Change of a shape and of the loads on nodes and elements, on which the Hessian depends, from `before` to `now`, both together in
+/// the radian norm.
+pub(super) fn drift(
+    chain: &Chain,
+    before: (&[f64], &[TotalLoad]),
+    now: (&[f64], impl Iterator<Item = TotalLoad>),
+) -> f64 {
+    let changes = now.0.iter().zip(before.0).map(|(a, b)| a - b);
+    let turned: f64 = chain.metric.iter().zip(changes).map(|(k, change)| k * change * change).sum();
+
+    let arm = chain.elements.first().map_or(0.0, |element| element.length);
+    let loads = before.1.iter().zip(now.1);
+    let loaded: f64 = loads.map(|(before, now)| now.square_from(before, arm)).sum();
+
+    let unit = chain.radian_norm();
+    turned.sqrt() / unit + loaded.sqrt() / (unit * unit)
 }
 
 /// The row of a node's displacement in the matrix of the nodes, which leaves out the base.

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
+use super::free_turn::FreeTurn;
 use super::inputs::Inputs;
 use crate::numerics::trust_region::spread;
 
@@ -16,9 +17,11 @@ pub(super) struct History {
     pub(super) inputs: Option<Inputs>,
     /// Shapes and inputs of the previous solves on this branch, the most recent first.
     pub(super) earlier: Vec<(Vec<f64>, Inputs)>,
-    /// Stability margin and verdict at the last factorisation.
+    /// Stability margin (of all directions but a free turn) and verdict at the last factorisation.
     pub(super) margin: f64,
     pub(super) stable: Option<bool>,
+    /// The free turn of the present shape, which is neutral then.
+    pub(super) turn: Option<FreeTurn>,
     /// Direction of least stiffness, the initial guess of the next eigenvalue search.
     pub(super) softest: Vec<f64>,
 }
@@ -28,7 +31,7 @@ impl History {
         let mut softest = vec![0.0; chain.freedoms()];
         spread(&chain.metric, &mut softest, 1.0);
         let unknowns = vec![0.0; chain.freedoms()];
-        Self { unknowns, inputs: None, earlier: Vec::new(), margin: 0.0, stable: None, softest }
+        Self { unknowns, inputs: None, earlier: Vec::new(), margin: 0.0, stable: None, turn: None, softest }
     }
 
     /// Whether every shape has this number of unknowns and all of them are finite.
@@ -67,7 +70,7 @@ impl History {
     pub(super) fn rest_at(&mut self, inputs: Inputs, unknowns: Vec<f64>) {
         (self.inputs, self.unknowns) = (Some(inputs), unknowns);
         self.earlier.clear();
-        (self.margin, self.stable) = (0.0, None);
+        (self.margin, self.stable, self.turn) = (0.0, None, None);
     }
 }
 

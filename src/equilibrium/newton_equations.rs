@@ -8,7 +8,9 @@ use crate::rod::Order;
 impl Objective for Potential<'_> {
     fn slope(&mut self, x: &[f64]) -> Option<f64> {
         let energy = self.load(x, Order::Gradient)?;
-        self.backward(x, None).then_some(energy)
+        let regular = self.backward(x, None);
+        self.leave_out_turn(x);
+        regular.then_some(energy)
     }
 
     fn linearise(&mut self, x: &[f64]) -> Option<f64> {
@@ -16,7 +18,9 @@ impl Objective for Potential<'_> {
         let mut made = storage.unwrap_or_else(|| Linearisation::new(self.chain, self.terms.spans.act()));
         let energy = self.load(x, Order::Hessian)?;
         let regular = self.backward(x, Some(&mut made.condensations));
-        made.note((x, &self.work.nodes), self.work.loads(), self.inputs, self.rules.chosen());
+        self.leave_out_turn(x);
+        let turn = self.work.free_turn;
+        made.note((x, &self.work.nodes), self.work.loads(), self.inputs, self.rules.chosen(), turn);
         self.work.linearisation = Some(made);
         regular.then_some(energy)
     }
@@ -34,6 +38,7 @@ impl Objective for Potential<'_> {
             nodes: &self.work.node_hessian,
             elements: &self.work.derivatives,
             mixed: &self.work.cross,
+            held: self.work.free_turn.map(|turn| turn.hold(self.metric)),
             spans: match (self.terms.spans.act(), self.terms.spans.are_mutual()) {
                 (false, _) => SpanCoupling::None,
                 (true, false) => SpanCoupling::OneSided,

@@ -15,7 +15,7 @@ pub enum Outcome {
     /// An equilibrium was found; whether it is stable is reported separately.
     Solved,
     /// An equilibrium of neutral stability: one direction is determined only by rounding, as where a bent manipulator may
-    /// turn about the axis of an antiparallel field.
+    /// turn about the axis of an axisymmetric scene.
     Neutral,
     /// The branch ends at a fold, and no stable shape was found beyond it.
     BranchEnds,
@@ -77,7 +77,7 @@ impl fmt::Display for Outcome {
             Self::Solved => write!(out, "an equilibrium was found"),
             Self::Neutral => write!(
                 out,
-                "the equilibrium is neutral: one direction is free, as about the axis of an antiparallel field; a slight \
+                "the equilibrium is neutral: one direction is free, as about the axis of an axisymmetric scene; a slight \
                  asymmetry of the inputs decides where it settles"
             ),
             Self::BranchEnds => write!(

@@ -4,6 +4,8 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::condensation::Condensation;
+use super::elastic_norm::ElasticNorm;
+use super::free_turn::{FreeTurn, direction};
 use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
 use super::settings::Settings;
@@ -11,7 +13,7 @@ use super::surface::Surface;
 use super::terms::Terms;
 use super::workspace::{PlacedLoads, Workspace};
 use crate::numerics::arnoldi::smallest_real_part;
-use crate::numerics::eigenvalue::{Lanczos, Search};
+use crate::numerics::eigenvalue::{Deflation, Lanczos, Search};
 use crate::numerics::trust_region::{Objective, spread};
 use crate::rod::{ElementLoads, Order};
 
@@ -23,6 +25,14 @@ const SECOND: f64 = 0.5;
 
 /// Search effort for the stability margin when the user asks for it.
 pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
+
+/// Storage of the searches for the stability margin, kept so that they do not allocate.
+#[derive(Debug, Clone, Default)]
+pub(super) struct EigenSearch {
+    pub(super) lanczos: Lanczos,
+    /// The norm at the shape of the last search.
+    pub(super) norm: ElasticNorm,
+}
 
 /// The potential at given inputs.
 #[derive(Debug)]
@@ -40,21 +50,32 @@ pub(super) struct Potential<'a> {
 }
 
 impl Potential<'_> {
-    /// Stability margin: smallest eigenvalue of the last factorised Hessian relative to the elastic energy, an upper
-    /// bound found by `search`. It is positive where the shape is stable and NaN where none is found. `softest` is the
+    /// Stability margin: smallest eigenvalue of the last factorised Hessian in the elastic norm at the shape placed last, an
+    /// upper bound found by `search`. It is positive where the shape is stable and NaN where none is found. `softest` is the
     /// initial guess and then that of the next search: the eigenvector with a share of the second softest one.
     ///
     /// For non-conservative forces it is the smallest real part of the eigenvalues: where that is negative, the shape
     /// diverges in overdamped motion. Flutter, a pair of complex eigenvalues of the undamped motion, is not covered: it
     /// depends on masses and damping, which are not part of statics.
-    pub(super) fn margin(&mut self, lanczos: &mut Lanczos, softest: &mut [f64], search: Search) -> f64 {
-        let metric = self.metric;
-        if self.terms.have_potential() {
-            let margin = lanczos.smallest(metric, 0.0, softest, search, |x| self.solve(x));
-            lanczos.add_second(SECOND, softest);
-            return margin;
+    pub(super) fn margin(&mut self, eigen: &mut EigenSearch, softest: &mut [f64], search: Search) -> f64 {
+        let EigenSearch { lanczos, norm } = eigen;
+        norm.update(self.chain, &self.work.configurations);
+        // A free turn is an eigenvector of its own: the others are orthogonal to it.
+        let turn = self.work.free_turn.map(|_| direction(self.chain, &self.work.placed));
+        let without_turn = turn.map(|turn| Deflation::new(norm, turn));
+        let symmetric = self.terms.have_potential();
+        let mut solve = |x: &mut [f64]| {
+            self.solve(x);
+            without_turn.iter().for_each(|deflation| deflation.apply(x));
+        };
+        without_turn.iter().for_each(|deflation| deflation.apply(softest));
+
+        if !symmetric {
+            return smallest_real_part(norm, softest, ARNOLDI, solve).unwrap_or(f64::NAN);
         }
-        smallest_real_part(metric, softest, ARNOLDI, |x| self.solve(x)).unwrap_or(f64::NAN)
+        let margin = lanczos.smallest(norm, 0.0, softest, search, &mut solve);
+        lanczos.add_second(SECOND, softest);
+        margin
     }
 
     /// Whether the shape factorised last is stable, as far as its factorisation tells; see [`Potential::margin`]. Where
@@ -65,7 +86,14 @@ impl Potential<'_> {
         }
         let mut softest = vec![0.0; self.metric.len()];
         spread(self.metric, &mut softest, 1.0);
-        self.margin(&mut Lanczos::default(), &mut softest, THOROUGH) > 0.0
+        self.margin(&mut EigenSearch::default(), &mut softest, THOROUGH) > 0.0
+    }
+
+    /// Removes from the gradient at `unknowns` its part along a free turn.
+    pub(super) fn leave_out_turn(&mut self, unknowns: &[f64]) {
+        if self.work.free_turn.is_some() {
+            FreeTurn::project(self.chain, self.metric, unknowns, &mut self.work.gradient);
+        }
     }
 
     /// Adds to `x` the Newton step from the last gradient with the last factorisation; the gradient is overwritten.

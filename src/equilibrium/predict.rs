@@ -34,7 +34,9 @@ impl History {
     /// inputs have kept their direction and the two differ by more than the tolerance, which is the error of the shapes
     /// themselves.
     fn predicted(&self, target: &Inputs, model: &Model<'_>, shape: &mut [f64]) -> Option<f64> {
-        let held = self.stable.is_none_or(|stable| stable && self.margin >= model.settings.fold_margin);
+        let held = self.stable.is_none_or(|stable| {
+            (stable || self.turn.is_some()) && self.margin >= model.settings.fold_margin
+        });
         let (Some(here), [(last, before), older @ ..], true) = (&self.inputs, &self.earlier[..], held) else {
             return None;
         };

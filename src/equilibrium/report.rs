@@ -13,8 +13,8 @@ pub struct Report {
     pub iterations: u32,
     /// Residual: dual norm of the gradient in the radian norm (1: one element's end turned by a radian).
     pub residual: f64,
-    /// Stability margin: an upper bound, close near a fold, of the smallest eigenvalue of the Hessian relative to the
-    /// elastic energy; see [`super::Equilibrium::margin`]. Along small steps it is that of the last factorisation, from
+    /// Stability margin: an upper bound, close near a fold, of the smallest eigenvalue of the Hessian in the
+    /// elastic norm; see [`super::Equilibrium::margin`]. Along small steps it is that of the last factorisation, from
     /// which the present margin differs by some percent at most.
     pub margin: f64,
     /// Whether the equilibrium is stable; `None` where non-conservative forces leave it undetermined.

@@ -4,14 +4,13 @@ use super::chain::Chain;
 use super::deadline::Deadline;
 use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
-use super::potential::Potential;
+use super::potential::{EigenSearch, Potential};
 use super::report::Report;
 use super::settings::Settings;
 use super::surface::InVessel;
 use super::terms::Terms;
 use super::workspace::Workspace;
 use crate::magnetics::Sources;
-use crate::numerics::eigenvalue::Lanczos;
 
 /// Distance to the root (radian norm) within which the Hessian of the next shape suffices for all further steps.
 pub(super) const NEARLY: f64 = 1e-4;
@@ -69,7 +68,7 @@ pub(super) struct Scratch {
     pub(super) between: Vec<f64>,
     /// Steps with one factorisation.
     pub(super) steps: Vec<Vec<f64>>,
-    pub(super) lanczos: Lanczos,
+    pub(super) eigen: EigenSearch,
 }
 
 impl Scratch {
@@ -80,7 +79,7 @@ impl Scratch {
             trial: zeros.clone(),
             between: zeros.clone(),
             steps: vec![zeros; CORRECTIONS],
-            lanczos: Lanczos::default(),
+            eigen: EigenSearch::default(),
         }
     }
 }
@@ -95,6 +94,9 @@ pub(super) struct Search<'a> {
     pub(super) deadline: &'a Deadline,
     /// The last equilibrium on the way to the target.
     pub(super) reached: Option<(Inputs, Vec<f64>)>,
+    /// Stability margin at the last assessment, of all directions but a free turn, and the direction of least stiffness.
+    pub(super) margin: f64,
+    pub(super) softest: Vec<f64>,
     /// Largest drift of loads and shape from the last factorisation for which that counts as valid.
     pub(super) reach: f64,
     /// Whether the shape in search is one on the way to the target: it need not be exact.

@@ -59,6 +59,7 @@ impl Equilibrium {
         }
         self.lay_out(inputs);
         let refactorised = origin.as_ref().is_none_or(|origin| self.refactorise(origin));
+        self.work.free_turn = branch.turn;
         self.work.friction.memory = friction.clone();
         let replaced = refactorised && self.rules.restore(rules);
         if !replaced || self.potential_as_ruled(inputs).slope(&branch.unknowns).is_none() {
@@ -82,6 +83,7 @@ impl Equilibrium {
         if !self.rules.restore(&origin.rules) {
             return false;
         }
+        self.work.free_turn = origin.turn;
         let mut potential = self.potential_as_ruled(&origin.inputs);
         let done = potential.linearise(&origin.unknowns).is_some() && potential.factorise(0.0);
         if let Some(factorisation) = &mut self.work.factorisation {

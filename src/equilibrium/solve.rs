@@ -51,6 +51,7 @@ impl Search<'_> {
         self.reached = None;
         self.reach = KEPT * if branch.stable.is_some() { branch.margin } else { 1.0 };
         self.scratch.last.copy_from_slice(&branch.unknowns);
+        self.take_up_turn(branch, target);
         self.begin_friction();
         let taken_up = branch.stable.is_none();
         let found = if self.predict(branch, target) || self.settle(branch, target) {
@@ -63,7 +64,8 @@ impl Search<'_> {
             return self.give_up(branch, outcome);
         }
         (self.report.outcome, self.report.progress) = (outcome, 1.0);
-        (branch.margin, branch.stable) = (self.report.margin, self.report.stable);
+        (branch.margin, branch.stable) = (self.margin, self.report.stable);
+        branch.turn = self.work.free_turn;
         self.end_friction(target, &branch.unknowns);
         // Past a snap, or from the shape of another model, the last steps do not extrapolate to the next one.
         branch.advance(target, &self.scratch.last, self.report.snaps > 0 || taken_up);
@@ -74,6 +76,7 @@ impl Search<'_> {
     /// next solve continues there.
     fn give_up(&mut self, branch: &mut History, outcome: Outcome) -> Report {
         self.work.factorisation = None;
+        self.work.free_turn = None;
         let reached = self.reached.take().filter(|_| outcome == Outcome::OutOfBudget);
         self.recall_friction(reached.is_some());
         match reached {

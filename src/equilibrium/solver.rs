@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use super::assessment::measure;
+use nalgebra::DMatrix;
+
 use super::chain::{Chain, arc_lengths};
 use super::deadline::Deadline;
+use super::elastic_norm::ElasticNorm;
 use super::history::History;
 use super::inputs::Inputs;
 use super::pair_quadrature::PairQuadrature;
@@ -25,7 +27,7 @@ use crate::numerics::trust_region::Objective;
 use crate::rod::Row;
 use crate::vessel::Vessel;
 
-/// Ratio by which a shaft must become shorter in a step for the margin, relative to the elastic energy, to be measured anew.
+/// Ratio by which a shaft must become shorter in a step for the margin to be measured anew.
 const PULLED_OUT: f64 = 1.02;
 
 /// Equilibrium of a manipulator, with the branch that it follows.
@@ -206,11 +208,14 @@ impl Equilibrium {
             report: Report::start(),
             deadline,
             reached: None,
+            margin: branch.margin,
+            softest: std::mem::take(&mut branch.softest),
             reach: 0.0,
             passing: false,
             kept: false,
         };
         let mut report = search.solve(branch, inputs);
+        branch.softest = std::mem::take(&mut search.softest);
         if pulled_out {
             self.chain.stiffness_at(inputs.insertion, &mut self.metric);
             if report.solved()
@@ -232,18 +237,6 @@ impl Equilibrium {
     pub(crate) fn check(&self, inputs: &Inputs) -> Result<(), Error> {
         inputs.check(self.chain.rings.len())?;
         inputs.check_sources(&self.sources, self.branch.inputs.as_ref())
-    }
-
-    /// Stability margin: smallest eigenvalue of the Hessian relative to the elastic energy, at the last solved shape. It
-    /// is 1 for the unloaded manipulator without internal forces and 0 at a fold; `None` before the first solve.
-    #[must_use]
-    pub fn margin(&self) -> Option<f64> {
-        let (inputs, unknowns) = (self.branch.inputs.as_ref()?, &self.branch.unknowns);
-        let mut apart = self.apart();
-        let mut potential = apart.potential(inputs, unknowns);
-        potential.linearise(unknowns)?;
-        let regular = potential.factorise(0.0);
-        regular.then(|| measure(&mut potential)).filter(|margin| margin.is_finite())
     }
 
     /// The inputs of the last solved shape.
@@ -268,6 +261,15 @@ impl Equilibrium {
     #[must_use]
     pub fn metric(&self) -> &[f64] {
         &self.metric
+    }
+
+    /// Elastic norm `K` of a variation of the unknowns at any shape: `x^T K x` is the integral of `du^T K_bt du + dv^T K_se dv` over
+    /// the variations of its curvature and stretch.
+    pub fn elastic_norm(&mut self, inputs: &Inputs, unknowns: &[f64]) -> DMatrix<f64> {
+        let mut norm = ElasticNorm::default();
+        let potential = self.potential(inputs, unknowns);
+        norm.update(potential.chain, &potential.work.configurations);
+        norm.to_dense()
     }
 
     /// Energy (J) and its gradient with respect to the unknowns at any shape; `None` where bodies touch.

@@ -23,7 +23,8 @@ const ITERATIONS: usize = 100;
 
 /// Verifies shapes at given inputs with the gradient of a model alone, usually a finer one than has found them: Newton's
 /// method and eigenvalues with full matrices of central differences of gradients. Its unit is the rotation of one
-/// element by a radian; eigenvalues are relative to the elastic stiffness, as is the stability margin.
+/// element by a radian; eigenvalues are relative to the stiffness of the straight shape, so that no elastic norm enters: they have
+/// the sign of the stability margin, but at a bent shape not its size.
 #[derive(Debug)]
 pub struct Verifier<'a> {
     model: &'a mut Equilibrium,
@@ -45,7 +46,7 @@ impl<'a> Verifier<'a> {
         Some(self.gradient(&shape)?.norm() / self.roots[0])
     }
 
-    /// Smallest real part of the eigenvalues at a shape, relative to the elastic stiffness: stable above 0. `None` where
+    /// Smallest real part of the eigenvalues at a shape, relative to the stiffness of the straight shape: stable above 0. `None` where
     /// bodies share volume.
     pub fn smallest_real_part(&mut self, unknowns: &[f64]) -> Option<f64> {
         let shape = self.weighted(unknowns);

@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 
 use super::chain::Chain;
 use super::factorisation::{Factorisation, Linearisation, TotalLoad};
+use super::free_turn::FreeTurn;
 use super::friction::Friction;
 use super::inputs::Inputs;
 use super::pair_loads::PairLoads;
@@ -43,6 +44,8 @@ pub(super) struct Workspace {
     pub(super) fields: Vec<StationFields>,
     pub(super) walls: WallLoads,
     pub(super) friction: Friction,
+    /// The turn that costs no energy at the shapes in search, which is held then.
+    pub(super) free_turn: Option<FreeTurn>,
     pub(super) wrenches: TermWrenches,
     /// Derivative of the energy with respect to the clamped base: force and moment that the clamp exerts.
     pub(super) base: (Vector3<f64>, Vector3<f64>),
@@ -99,6 +102,7 @@ impl Workspace {
             fields: vec![StationFields::default(); Sources::MOST],
             walls: WallLoads::default(),
             friction: Friction::default(),
+            free_turn: None,
             wrenches: TermWrenches::none(),
             base: (Vector3::zeros(), Vector3::zeros()),
             derivatives: chain.elements.iter().map(ElementDerivatives::new).collect(),
@@ -114,6 +118,7 @@ impl Workspace {
     /// Forgets the factorisation and all forces of the last shape.
     pub(super) fn forget(&mut self) {
         self.factorisation = None;
+        self.free_turn = None;
         self.friction.forget();
         self.station_loads.iter_mut().flatten().for_each(|load| *load = Load::zero());
         self.placed_loads.iter_mut().for_each(PlacedLoads::clear);

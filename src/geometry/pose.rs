@@ -24,6 +24,9 @@ pub struct Pose {
 }
 
 impl Pose {
+    /// Angle (rad) within which directions count as one: far above rounding, far below what a residual shows.
+    const SAME_DIRECTION: f64 = 1e-9;
+
     /// Largest deviation of a given quaternion's norm from one.
     const NORM_SLACK: f64 = 1e-3;
 
@@ -62,6 +65,18 @@ impl Pose {
     #[must_use]
     pub fn axis(&self) -> Vector3<f64> {
         self.rotation.column(2).into()
+    }
+
+    /// Whether a vector is zero or points along the axis, or against it, within 1e-9 rad.
+    #[must_use]
+    pub fn is_along_axis(&self, vector: &Vector3<f64>) -> bool {
+        self.axis().cross(vector).norm() <= Self::SAME_DIRECTION * vector.norm()
+    }
+
+    /// Whether a point (m) lies on the line of the axis, within 1e-9 of its distance from the frame's origin.
+    #[must_use]
+    pub fn is_on_axis(&self, point: &Vector3<f64>) -> bool {
+        self.is_along_axis(&(point - self.position))
     }
 
     /// The unit quaternion (w, x, y, z) with `w >= 0`.

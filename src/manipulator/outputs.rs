@@ -65,7 +65,8 @@ pub struct Outputs {
     pub feed_reaction: Option<f64>,
     /// Whether the equilibrium is stable; `None` when the model has no potential or the method does not compute it.
     pub stable: Option<bool>,
-    /// Smallest eigenvalue of the Hessian relative to the elastic stiffness: 1 without loads and interaction, 0 at a fold.
+    /// Smallest eigenvalue of the Hessian in the elastic norm of the variation of the strains at the shape: 1 without loads and
+    /// interaction, 0 at a fold.
     ///
     /// An upper bound until [`super::Manipulator::measure_margin`] computes it: close near a fold, and outdated by up to some
     /// percent along small steps.

@@ -140,7 +140,7 @@ fn assessed(model: &Equilibrium, inputs: &Inputs, report: Report) -> Report {
     let relative = response.stiffness / response.elastic;
     Report {
         outcome: if relative.abs() <= FREE { Outcome::Neutral } else { report.outcome },
-        margin: report.margin.min(relative),
+        margin: model.margin().unwrap_or_else(|| relative.min(0.0)),
         stable: report.stable.map(|stable| stable && relative >= -FREE),
         ..report
     }

@@ -1,9 +1,49 @@
-//! The smallest eigenvalue of `H x = lambda K x`, for a diagonal `K` and a solver for `H + shift K`.
+//! The smallest eigenvalue of `H x = lambda K x`, for a positive definite `K` and a solver for `H + shift K`.
 
 use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
 
+use super::cholesky::dot;
+
 /// Number of vectors up to which the tridiagonal matrix needs no heap storage.
 const FEW: usize = 8;
+
+/// A symmetric positive definite matrix `K`, known by its products with vectors.
+pub trait Weight {
+    /// Writes `K x` to `out`, both of the matrix' size.
+    fn apply(&self, x: &[f64], out: &mut [f64]);
+}
+
+/// A diagonal matrix by its diagonal.
+impl Weight for [f64] {
+    fn apply(&self, x: &[f64], out: &mut [f64]) {
+        out.iter_mut().zip(self).zip(x).for_each(|((entry, k), x)| *entry = k * x);
+    }
+}
+
+/// A vector to which all others are made orthogonal in the inner product of `K`, such as a known eigenvector.
+#[derive(Debug, Clone)]
+pub struct Deflation {
+    vector: Vec<f64>,
+    weighted: Vec<f64>,
+    square: f64,
+}
+
+impl Deflation {
+    /// For a vector other than zero.
+    #[must_use]
+    pub fn new(weight: &(impl Weight + ?Sized), vector: Vec<f64>) -> Self {
+        let mut weighted = vec![0.0; vector.len()];
+        weight.apply(&vector, &mut weighted);
+        let square = dot(&vector, &weighted);
+        Self { vector, weighted, square }
+    }
+
+    /// Removes the part of `x` along the vector.
+    pub fn apply(&self, x: &mut [f64]) {
+        let along = dot(&self.weighted, x) / self.square;
+        x.iter_mut().zip(&self.vector).for_each(|(entry, own)| *entry -= along * own);
+    }
+}
 
 /// Limits of the eigenvalue search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +65,11 @@ pub fn inner(metric: &[f64], a: &[f64], b: &[f64]) -> f64 {
 #[derive(Debug, Clone, Default)]
 pub struct Lanczos {
     basis: Vec<Vec<f64>>,
+    /// The products of `K` with the vectors of the basis.
+    weighted: Vec<Vec<f64>>,
+    /// The next vector before its normalisation, and its product with `K`.
     image: Vec<f64>,
+    product: Vec<f64>,
     diagonal: Vec<f64>,
     beside: Vec<f64>,
     /// Coordinates of the two leading eigenvectors in the basis.
@@ -41,51 +85,43 @@ impl Lanczos {
     /// returns an upper bound. Returns NaN if the vector or a solution is not finite.
     pub fn smallest(
         &mut self,
-        metric: &[f64],
+        weight: &(impl Weight + ?Sized),
         shift: f64,
         vector: &mut [f64],
         search: Search,
         mut solve: impl FnMut(&mut [f64]),
     ) -> f64 {
-        let size = vector.len();
-        let inner = |a: &[f64], b: &[f64]| inner(metric, a, b);
-        let Self { basis, image, diagonal, beside, weights } = self;
-        let most = search.vectors.min(size);
-        if basis.len() < most || image.len() != size {
-            basis.resize(most, Vec::new());
-            for vector in basis.iter_mut() {
-                vector.resize(size, 0.0);
-            }
-            image.resize(size, 0.0);
-        }
-        image.copy_from_slice(vector);
-        diagonal.clear();
-        beside.clear();
+        let most = self.begin(vector, search);
+        let Self { basis, weighted, image, product, diagonal, beside, weights } = self;
+
+        weight.apply(image, product);
         loop {
             let count = diagonal.len() + 1;
-            let norm = inner(image, image).sqrt();
+            let norm = dot(image, product).sqrt();
             if !(norm.is_finite() && norm > 0.0) {
                 return f64::NAN;
             }
             if count > 1 {
                 beside.push(norm);
             }
-            let next = &mut basis[count - 1];
-            for ((x, entry), k) in next.iter_mut().zip(image.iter_mut()).zip(metric) {
-                *x = *entry / norm;
-                *entry = *x * k;
-            }
+
+            // The next vector of the basis, and its image under the operator.
+            let (next, next_weighted) = (&mut basis[count - 1], &mut weighted[count - 1]);
+            next.iter_mut().zip(&*image).for_each(|(x, entry)| *x = entry / norm);
+            next_weighted.iter_mut().zip(&*product).for_each(|(x, entry)| *x = entry / norm);
+            image.copy_from_slice(next_weighted);
             solve(image);
-            diagonal.push(inner(&basis[count - 1], image));
+            diagonal.push(dot(next_weighted, image));
+
             // Orthogonalised twice against rounding.
-            for earlier in basis[..count].iter().chain(&basis[..count]) {
-                let along = inner(earlier, image);
-                for (entry, e) in image.iter_mut().zip(earlier) {
-                    *entry -= along * e;
-                }
+            for number in (0..count).chain(0..count) {
+                let along = dot(&weighted[number], image);
+                image.iter_mut().zip(&basis[number]).for_each(|(entry, e)| *entry -= along * e);
             }
+
+            weight.apply(image, product);
+            let rest = dot(image, product).sqrt();
             let value = largest(diagonal, beside, weights);
-            let rest = inner(image, image).sqrt();
             let last = weights[0].last().copied().unwrap_or(0.0).abs();
             // A single vector cannot check the initial guess: a second one must confirm it.
             let settled = count > 1 && rest * last <= search.settled * value;
@@ -95,6 +131,25 @@ impl Lanczos {
                 return 1.0 / value - shift;
             }
         }
+    }
+
+    /// Makes room for a search from `vector` and returns its largest number of vectors.
+    fn begin(&mut self, vector: &[f64], search: Search) -> usize {
+        let size = vector.len();
+        let most = search.vectors.min(size);
+        if self.basis.len() < most || self.image.len() != size {
+            for vectors in [&mut self.basis, &mut self.weighted] {
+                vectors.resize(most, Vec::new());
+                vectors.iter_mut().for_each(|vector| vector.resize(size, 0.0));
+            }
+            self.image.resize(size, 0.0);
+            self.product.resize(size, 0.0);
+        }
+
+        self.image.copy_from_slice(vector);
+        self.diagonal.clear();
+        self.beside.clear();
+        most
     }
 
     /// Adds to `vector` the approximation that the last search found of the second eigenvector, multiplied by `factor`.

@@ -275,7 +275,8 @@ fn along_negative_curvature(
     let mut direction = vec![0.0; step.len()];
     spread(&metric, &mut direction, 1.0);
     let search = Search { vectors: 40, settled: 1e-2 };
-    let lambda = Lanczos::default().smallest(&metric, shift, &mut direction, search, |x| objective.solve(x));
+    let lambda =
+        Lanczos::default().smallest(metric.as_slice(), shift, &mut direction, search, |x| objective.solve(x));
     let size = norm(&metric, &direction);
     let along =
         metric.iter().zip(&direction).zip(step.iter()).map(|((k, z), s)| k * z * s).sum::<f64>() / size;

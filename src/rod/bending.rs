@@ -17,15 +17,27 @@ pub(super) struct Bending {
     pub(super) rate_curve: Matrix3<f64>,
 }
 
+/// Derivatives of a station's curvature with respect to rotation vector and rate.
+pub(super) struct CurvatureDerivatives {
+    pub(super) by_vector: Matrix3<f64>,
+    pub(super) by_rate: Matrix3<f64>,
+}
+
+impl CurvatureDerivatives {
+    pub(super) fn of(state: &StationState) -> Self {
+        let by_vector = state.theta.right_product_derivative(&state.rate);
+        Self { by_vector, by_rate: state.left.transpose() }
+    }
+}
+
 impl Bending {
     /// Derivatives at a station with quadrature weight `weight`, m.
     pub(super) fn new(state: &StationState, stiffness: &Stiffness, weight: f64) -> Self {
-        let right = state.left.transpose();
-        let curvature = right * state.rate;
+        let CurvatureDerivatives { by_vector, by_rate: right } = CurvatureDerivatives::of(state);
         let stiffness = curvature_stiffness(stiffness, weight);
-        let moment = stiffness.component_mul(&curvature);
-        let by_vector = state.theta.right_product_derivative(&state.rate);
+        let moment = stiffness.component_mul(&(right * state.rate));
         let weighted = Matrix3::from_diagonal(&stiffness);
+
         Self {
             slope: by_vector.tr_mul(&moment),
             rate_slope: right.tr_mul(&moment),
@@ -39,7 +51,7 @@ impl Bending {
 }
 
 /// Weighted section stiffness against curvature, as a diagonal.
-fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
+pub(super) fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
     Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
 }
 

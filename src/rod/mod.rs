@@ -20,6 +20,7 @@ mod row_table;
 mod section_dipoles;
 mod section_material;
 mod source_geometry;
+mod strain_norm;
 
 pub use bending_stop::{BendingStop, StopLoads};
 pub use charges::Charges;

@@ -6,6 +6,7 @@ use nalgebra::{Vector3, Vector4};
 
 use super::clearance::Clearance;
 use crate::error::{Error, check};
+use crate::geometry::Pose;
 use crate::numerics::spline::{CurvePoint, Spline};
 
 /// Largest turn of the centreline within a piece, rad: within it only one ball is locally the nearest.
@@ -168,6 +169,12 @@ impl Branch {
     pub fn ball(&self, t: f64) -> (Vector3<f64>, f64) {
         let value = self.curve.at(t).value;
         (value.xyz(), value.w)
+    }
+
+    /// Whether its centreline lies on the axis of `frame`.
+    pub(super) fn is_coaxial_with(&self, frame: &Pose) -> bool {
+        // A spline through points on a line stays on it.
+        self.pieces.iter().flat_map(|piece| &piece.ends).all(|end| frame.is_on_axis(&end.value.xyz()))
     }
 
     /// Distance from `point` (m) to the wall, with exact derivatives.

@@ -9,6 +9,7 @@ use super::clearance::Clearance;
 use super::grid::DistanceGrid;
 use super::mesh::Mesh;
 use crate::error::{Error, check};
+use crate::geometry::Pose;
 
 /// Length over which the walls of branches merge where they meet, m. It widens a mouth by at most this times ln 2.
 const MERGED: f64 = 0.5e-3;
@@ -162,6 +163,15 @@ impl Lumen {
     #[must_use]
     pub fn rounding(&self) -> f64 {
         self.grid().map_or(0.0, |grid| ROUNDED * grid.spacing())
+    }
+
+    /// Whether it is symmetric about the axis of `frame`: its branches lie on that axis. A mesh is not.
+    #[must_use]
+    pub fn is_symmetric_about(&self, frame: &Pose) -> bool {
+        match &self.shape {
+            Shape::Branches(branches, _) => branches.iter().all(|branch| branch.is_coaxial_with(frame)),
+            Shape::Grid(_) => false,
+        }
     }
 
     /// A number that differs for other lumens, but for one in four thousand million of them (CRC-32).

@@ -2,7 +2,7 @@
 
 use mcm::equilibrium::{Equilibrium, Inputs, Report, Solution};
 use mcm::manipulator::{Scene, Status};
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{Cholesky, SymmetricEigen};
 
 use super::rows::{Row, list, number, row, rows, vector};
 use crate::tolerance::{FOLD_ANGLE_DEG, FOLD_SHAPE, FOLD_STRENGTH, MARGIN, MARGIN_BOUND};
@@ -136,22 +136,19 @@ fn close_to_the_fold_the_margin_tells() {
     }
 }
 
-/// The smallest eigenvalue of the Hessian relative to the elastic metric, from the whole inverse.
+/// The smallest eigenvalue of `H x = lambda K x`, from the whole inverse and the whole norm.
 fn smallest_eigenvalue(equilibrium: &mut Equilibrium, inputs: &Inputs) -> f64 {
-    let (shape, metric) = (equilibrium.unknowns().to_vec(), equilibrium.metric().to_vec());
-    let size = shape.len();
-    let mut inverse = DMatrix::zeros(size, size);
-    for (i, k) in metric.iter().enumerate() {
-        let mut unit = vec![0.0; size];
-        unit[i] = k.sqrt();
-        let column = equilibrium.solve_at(inputs, &shape, 0.0, &unit).expect("positive definite");
-        inverse
-            .column_mut(i)
-            .iter_mut()
-            .zip(column.iter().zip(&metric))
-            .for_each(|(e, (v, k))| *e = v * k.sqrt());
+    let shape = equilibrium.unknowns().to_vec();
+    let root = Cholesky::new(equilibrium.elastic_norm(inputs, &shape)).expect("positive definite").l();
+
+    let mut inverse = root.clone();
+    for mut column in inverse.column_iter_mut() {
+        let solution =
+            equilibrium.solve_at(inputs, &shape, 0.0, column.as_slice()).expect("positive definite");
+        column.copy_from_slice(&solution);
     }
-    1.0 / SymmetricEigen::new((&inverse + inverse.transpose()) * 0.5).eigenvalues.max()
+    let scaled = root.tr_mul(&inverse);
+    1.0 / SymmetricEigen::new((&scaled + scaled.transpose()) * 0.5).eigenvalues.max()
 }
 
 #[test]

@@ -81,9 +81,9 @@ fn few_vectors_find_the_one_next_to_zero() {
 
 #[test]
 fn what_is_not_finite_has_no_answer() {
-    assert_eq!(smallest_real_part(&[1.0, 1.0], &[1.0, 1.0], 2, |x| x.fill(f64::NAN)), None);
-    assert_eq!(smallest_real_part(&[1.0, 1.0], &[0.0, 0.0], 2, |_| ()), None);
-    assert_eq!(smallest_real_part(&[1.0, 1.0], &[f64::INFINITY, 0.0], 2, |_| ()), None);
+    assert_eq!(smallest_real_part([1.0, 1.0].as_slice(), &[1.0, 1.0], 2, |x| x.fill(f64::NAN)), None);
+    assert_eq!(smallest_real_part([1.0, 1.0].as_slice(), &[0.0, 0.0], 2, |_| ()), None);
+    assert_eq!(smallest_real_part([1.0, 1.0].as_slice(), &[f64::INFINITY, 0.0], 2, |_| ()), None);
 }
 
 /// Where the matrix is symmetric to rounding or to some noise, the QR algorithm ends, too.

@@ -71,7 +71,7 @@ fn smallest_eigenvalue_is_the_dense_ones() {
             let mut vector: Vec<f64> =
                 metric.iter().enumerate().map(|(i, k)| (1.5 + pseudo(9, i)) / k.sqrt()).collect();
             let search = Search { vectors: 60, settled: 1e-7 };
-            let found = Lanczos::default().smallest(&metric, shift, &mut vector, search, |x| {
+            let found = Lanczos::default().smallest(metric.as_slice(), shift, &mut vector, search, |x| {
                 let solution = factor.solve(&DVector::from_row_slice(x));
                 x.copy_from_slice(solution.as_slice());
             });
@@ -109,7 +109,7 @@ fn the_next_search_knows_the_second_softest_direction() {
     let mut lanczos = Lanczos::default();
     let mut search = |matrix: DMatrix<f64>, guess: &mut [f64], vectors: usize| {
         let factor = Cholesky::new(matrix).expect("positive definite");
-        let found = lanczos.smallest(&metric, 0.0, guess, Search { vectors, settled: 1e-9 }, |x| {
+        let found = lanczos.smallest(metric.as_slice(), 0.0, guess, Search { vectors, settled: 1e-9 }, |x| {
             x.copy_from_slice(factor.solve(&DVector::from_row_slice(x)).as_slice());
         });
         let mut second = vec![0.0; size];
@@ -134,17 +134,22 @@ fn an_early_end_of_the_search_is_an_upper_bound() {
     let metric = vec![1.0; size];
     for vectors in 1..6 {
         let mut vector: Vec<f64> = (0..size).map(|i| 1.5 + pseudo(4, i)).collect();
-        let found =
-            Lanczos::default().smallest(&metric, 0.0, &mut vector, Search { vectors, settled: 1e-12 }, |x| {
+        let found = Lanczos::default().smallest(
+            metric.as_slice(),
+            0.0,
+            &mut vector,
+            Search { vectors, settled: 1e-12 },
+            |x| {
                 let solution = factor.solve(&DVector::from_row_slice(x));
                 x.copy_from_slice(solution.as_slice());
-            });
+            },
+        );
         assert!(found >= 0.05 * (1.0 - LAW), "{vectors} vectors: {found}");
     }
     let mut broken = vec![f64::NAN; size];
     assert!(
         Lanczos::default()
-            .smallest(&metric, 0.0, &mut broken, Search { vectors: 5, settled: 0.1 }, |_| {})
+            .smallest(metric.as_slice(), 0.0, &mut broken, Search { vectors: 5, settled: 0.1 }, |_| {})
             .is_nan()
     );
 }

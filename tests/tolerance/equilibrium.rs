@@ -41,6 +41,15 @@ pub(crate) const CRITICAL_WITHOUT_PAIRS: f64 = 5e-7;
 /// Smallest eigenvalue by Lanczos' method and from the whole inverse.
 pub(crate) const MARGIN: f64 = 1e-8;
 
+/// Margin of the solver against that of pieces of constant strain, extrapolated from two lengths.
+pub(crate) const MARGIN_BY_STRAINS: f64 = 5e-5;
+
+/// Margin of a pushed shaft against that of pieces whose magnetisation lies on the centreline, at the length of the solver.
+pub(crate) const PUSHED_MARGIN: f64 = 1e-3;
+
+/// Energy of a neutral shape that is turned: what the quadratures of sections leave.
+pub(crate) const SAME_ENERGY_TURNED: f64 = 1e-6;
+
 /// Angle of a bent core against a closed form: the rotation of the discs varies within them by their two Gauss points.
 pub(crate) const BEND: f64 = 1e-9;
 

@@ -43,6 +43,11 @@ impl Term for Applied<'_> {
         self.0.tip_moment == Vector3::zeros()
     }
 
+    fn is_symmetric_about(&self, axis: &Pose) -> bool {
+        let Inputs { tip_force, tip_moment, ring_forces, .. } = self.0;
+        ring_forces.iter().chain([tip_force, tip_moment]).all(|vector| axis.is_along_axis(vector))
+    }
+
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, _: Order) -> Option<Load> {
         let Some((input, force, arm)) = self.force(frame, pose) else { return Some(Load::zero()) };
         let mut load = Load::fixed_force(&force, &pose.position, &arm);

@@ -10,6 +10,9 @@ use crate::geometry::Pose;
 use crate::magnetics::LinearField;
 use crate::rod::{Load, Order};
 
+/// Largest part of a gradient that is not symmetric about an axis and counts as rounding, relative.
+const ASYMMETRY: f64 = 1e-9;
+
 /// A field that is linear in the whole world; it acts on a body at its centroid.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Background {
@@ -68,6 +71,15 @@ impl Background {
 impl Term for Background {
     fn acts_on(&self, frame: &Frame<'_>) -> bool {
         self.is_on && !matches!(frame, Frame::Tip(_))
+    }
+
+    fn is_symmetric_about(&self, axis: &Pose) -> bool {
+        // About its axis a linear field is turned into itself: in its frame the gradient is diagonal, with two equal entries.
+        let gradient = axis.rotation.tr_mul(&self.gradient()) * axis.rotation;
+        let along = gradient[(2, 2)];
+        let symmetric = Matrix3::from_diagonal(&Vector3::new(-0.5 * along, -0.5 * along, along));
+        let rest = gradient - symmetric;
+        rest.norm() <= ASYMMETRY * gradient.norm() && axis.is_along_axis(&self.at(&axis.position))
     }
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {

@@ -112,6 +112,12 @@ impl Term for Magnet<'_> {
         self.is_on() && !matches!(frame, Frame::Tip(_))
     }
 
+    fn is_symmetric_about(&self, axis: &Pose) -> bool {
+        // Every assembly is a body of revolution about its own axis.
+        let PlacedSource { pose, strength } = self.placed;
+        strength == 0.0 || (axis.is_along_axis(&pose.axis()) && axis.is_on_axis(&pose.position))
+    }
+
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {
         let Some(source) = &self.source else { return Some(Load::zero()) };
         let load = match frame {

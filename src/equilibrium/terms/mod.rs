@@ -52,6 +52,9 @@ pub(crate) trait Term {
         true
     }
 
+    /// Whether nothing of the term changes when all it acts on turns about the axis of this frame.
+    fn is_symmetric_about(&self, axis: &Pose) -> bool;
+
     /// Energy of the body in `frame` at `pose`, with its derivatives in `axes` (columns, in world axes); `None` where it
     /// is not defined, as inside a magnet.
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load>;
@@ -112,6 +115,12 @@ impl<'a> Terms<'a> {
     /// Whether all forces are conservative. False for one-sided interaction or a fixed tip moment.
     pub(crate) fn have_potential(&self) -> bool {
         !self.pairs.one_sided() && self.local().all(|(_, term)| term.has_potential())
+    }
+
+    /// Whether nothing changes when an axisymmetric chain turns about the axis of this frame. The terms between bodies of the chain do
+    /// not distinguish one direction from another.
+    pub(crate) fn are_symmetric_about(&self, axis: &Pose) -> bool {
+        self.local().all(|(_, term)| term.is_symmetric_about(axis)) && self.walls.are_symmetric_about(axis)
     }
 
     /// Total load on one frame, in `axes`; adds each term's wrench about `origin` to `wrenches`.

@@ -53,6 +53,11 @@ pub(crate) struct Touch {
 }
 
 impl<'a> Walls<'a> {
+    /// Whether nothing changes when all that they touch turns about the axis of this frame.
+    pub(super) fn are_symmetric_about(&self, axis: &Pose) -> bool {
+        self.lumen.is_none_or(|(lumen, _)| lumen.is_symmetric_about(axis))
+    }
+
     pub(super) fn new(vessel: Option<&'a Vessel>, inputs: &Inputs) -> Self {
         let softened = |vessel: &'a Vessel| (&vessel.lumen, vessel.wall.softened(inputs.softening));
         Self { lumen: vessel.map(softened), widening: inputs.widening }

@@ -46,6 +46,10 @@ impl Term for Weight {
         self.0 != Vector3::zeros() && !matches!(frame, Frame::Tip(_))
     }
 
+    fn is_symmetric_about(&self, axis: &Pose) -> bool {
+        axis.is_along_axis(&self.0)
+    }
+
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, _: Order) -> Option<Load> {
         Some(self.in_world(frame, pose).in_axes(axes))
     }

@@ -185,9 +185,9 @@ impl Rows {
     fn stability(&mut self) {
         let description = "Whether the equilibrium is known to be stable";
         self.scalar(boolean("stability.stable", description, |o| o.stable == Some(true)));
-        let description = "Whether one direction is free, as about the axis of an antiparallel field: neither stable nor unstable";
+        let description = "Whether one direction is free, as about the axis of an axisymmetric scene: neither stable nor unstable";
         self.scalar(boolean("stability.neutral", description, |o| o.outcome == Outcome::Neutral));
-        let description = "Smallest eigenvalue of the Hessian relative to the elastic stiffness: 1 without loads and interaction, 0 at a fold";
+        let description = "Smallest eigenvalue of the Hessian in the elastic norm of the strains: 1 without loads and interaction, 0 at a fold";
         let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
         self.scalar(margin.availability(Availability::OnRequest(Request::Margin)));
         let snaps =

@@ -30,8 +30,8 @@ Rows: displacement (m) and rotation (rad) of the tip; columns: displacement (m) 
 centre, or the field (T); all along the world's axes. Where they do not exist, as at a fold, jacobian is null and \
 jacobian_note says why. With --uncertainty, uncertainty.band_95 holds half the width of the band of each number, under the \
 same keys, and uncertainty.sensitivities the derivatives by each number of [uncertainty], in the unit of its key; \
-uncertainty is null where there are none. stability is stable, unstable, neutral (one direction is free, as about the axis of an antiparallel \
-field) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
+uncertainty is null where there are none. stability is stable, unstable, neutral (one direction is free, as about the axis of an axisymmetric \
+scene) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
 solve got on the way from the unloaded shape, and all numbers of the shape are null.\n\n\
 Exit status: 0 solved and stable (or stability unknown: any \
 method but \"potential\"), 1 bad input, 2 not converged, \

@@ -1,0 +1,70 @@
+//! The elastic norm of a change of shape, in which stability is measured.
+//!
+//! The eigenvalues of `H x = lambda K x` with this `K` do not depend on the unknowns that describe the shape, unlike those with the
+//! stiffness of the straight shape.
+
+use nalgebra::{Cholesky, DMatrix};
+
+use super::chain::Chain;
+use crate::numerics::cholesky::dot;
+use crate::numerics::eigenvalue::Weight;
+use crate::rod::Configuration;
+
+/// `K` at one shape, one block for each element, as no strain depends on the unknowns of another element.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ElasticNorm {
+    /// The blocks, row by row.
+    blocks: Vec<Vec<f64>>,
+    /// First unknown of each element, then the number of unknowns.
+    first: Vec<usize>,
+    rows: Vec<f64>,
+}
+
+impl ElasticNorm {
+    /// Computes the norm at the shape of these `configurations`, in the storage of the last one.
+    pub(super) fn update(&mut self, chain: &Chain, configurations: &[Configuration]) {
+        self.first.clone_from(&chain.first);
+        self.blocks.resize_with(chain.elements.len(), Vec::new);
+
+        for ((block, element), configuration) in
+            self.blocks.iter_mut().zip(&chain.elements).zip(configurations)
+        {
+            block.resize(element.freedoms() * element.freedoms(), 0.0);
+            configuration.strain_norm(element, &mut self.rows, block);
+        }
+    }
+
+    /// Smallest eigenvalue of `H x = lambda K x` for the whole Hessian, definite or not; NaN where it is not finite.
+    pub(super) fn smallest(&self, hessian: &DMatrix<f64>) -> f64 {
+        let Some(factor) = Cholesky::new(self.to_dense()) else { return f64::NAN };
+        let lower = factor.l();
+        let Some(half) = lower.solve_lower_triangular(hessian) else { return f64::NAN };
+        let Some(scaled) = lower.solve_lower_triangular(&half.transpose()) else { return f64::NAN };
+
+        if scaled.iter().all(|entry| entry.is_finite()) {
+            scaled.symmetric_eigenvalues().min()
+        } else {
+            f64::NAN
+        }
+    }
+
+    pub(super) fn to_dense(&self) -> DMatrix<f64> {
+        let size = self.first.last().copied().unwrap_or(0);
+        let mut out = DMatrix::zeros(size, size);
+        for (block, range) in self.blocks.iter().zip(self.first.windows(2)) {
+            let count = range[1] - range[0];
+            out.view_mut((range[0], range[0]), (count, count)).copy_from_slice(block);
+        }
+        out
+    }
+}
+
+impl Weight for ElasticNorm {
+    fn apply(&self, x: &[f64], out: &mut [f64]) {
+        for (block, range) in self.blocks.iter().zip(self.first.windows(2)) {
+            let own = &x[range[0]..range[1]];
+            let rows = block.chunks_exact(own.len());
+            out[range[0]..range[1]].iter_mut().zip(rows).for_each(|(entry, row)| *entry = dot(row, own));
+        }
+    }
+}
