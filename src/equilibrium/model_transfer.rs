@@ -91,13 +91,15 @@ impl TipDeviation {
     }
 }
 
-/// The amplitudes of the modes that both chains have; the others are zero.
+/// The amplitudes of the strains of another chain, or of those nearest to them.
 fn transferred(to: &Chain, from: &Chain, unknowns: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; to.freedoms()];
     for (k, (own, other)) in to.elements.iter().zip(&from.elements).enumerate() {
         let (target, source) = (&mut out[to.first[k]..to.first[k + 1]], from.part(k, unknowns));
-        for (own, other) in own.polynomials().iter().zip(&other.polynomials()) {
-            own.iter().zip(other).for_each(|(i, j)| target[*i] = source[*j]);
+        if own.has_modes_of(other) {
+            target.copy_from_slice(source);
+        } else {
+            own.projection(other).into_iter().for_each(|(i, j, part)| target[i] += part * source[j]);
         }
     }
     out

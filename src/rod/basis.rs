@@ -53,6 +53,11 @@ impl Modes {
         out
     }
 
+    /// Whether others of the same parts are the same.
+    pub(super) fn are_built_as(&self, other: &Self) -> bool {
+        (self.degree, self.ends) == (other.degree, other.ends)
+    }
+
     /// Number of modes.
     pub(super) fn count(&self) -> usize {
         self.coefficients.len()

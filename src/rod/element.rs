@@ -16,9 +16,6 @@ use super::source_geometry::SourceGeometry;
 use crate::design::{SpanKind, Stiffness};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
-/// Component of the curvature about `d3`, all of whose modes are polynomials.
-const TORSION: usize = 2;
-
 /// Gauss points per disc, whose strain is some percent of the core's, and minimum number of Gauss points of a core or rod
 /// beyond the number of modes.
 const POINTS: (usize, usize) = (2, 1);
@@ -155,14 +152,10 @@ impl Element {
         self.metric.len()
     }
 
-    /// Degrees of freedom of the polynomial modes, by strain component and degree.
-    ///
-    /// These are common to all elements of the same pieces, whatever other modes they have.
+    /// Whether an element of the same pieces has the same modes.
     #[must_use]
-    pub fn polynomials(&self) -> [Vec<usize>; COMPONENTS] {
-        let of = |c: usize| (0..self.freedoms()).filter(move |i| self.component[*i] == c);
-        let count = of(TORSION).count();
-        core::array::from_fn(|c| of(c).take(count).collect())
+    pub fn has_modes_of(&self, other: &Self) -> bool {
+        self.modes.iter().zip(&other.modes).all(|(own, other)| own.are_built_as(other))
     }
 
     /// Projection of the modes of `other`, an element of the same pieces: own and other degree of freedom with coefficient.
