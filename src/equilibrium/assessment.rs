@@ -44,7 +44,7 @@ impl Search<'_> {
             otherwise => {
                 // A contact at the last trial shape may be the reason.
                 let contact = self.model.contact(target, self.work).map(Outcome::Contact);
-                let otherwise = if self.may_go_on() { otherwise } else { Outcome::OutOfBudget };
+                let otherwise = self.spent().map_or(otherwise, Outcome::OutOfBudget);
                 return contact.unwrap_or(otherwise);
             }
         };

@@ -22,8 +22,16 @@ impl Deadline {
 
     /// Whether the budget is used up; never on a system that does not report the time of threads.
     pub(crate) fn has_passed(&self) -> bool {
+        self.elapsed() > self.budget
+    }
+
+    /// What is left of the budget, s.
+    pub(crate) fn left(&self) -> f64 {
+        self.budget.saturating_sub(self.elapsed()).as_secs_f64()
+    }
+
+    fn elapsed(&self) -> Duration {
         let start = self.start.get_or_init(processor_time);
-        let elapsed = start.and_then(|start| processor_time()?.checked_sub(start));
-        elapsed.is_some_and(|elapsed| elapsed > self.budget)
+        start.and_then(|start| processor_time()?.checked_sub(start)).unwrap_or_default()
     }
 }

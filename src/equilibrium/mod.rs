@@ -76,7 +76,7 @@ pub use jacobian::Jacobian;
 pub use layout::{Input, Output};
 pub use model_transfer::TipDeviation;
 pub(crate) use neighbours::{Linearised, Neighbourhood};
-pub use outcome::{Body, Contact, Outcome};
+pub use outcome::{Body, Budget, Contact, Outcome};
 pub(crate) use pair_quadrature::PairQuadrature;
 pub use refinement::Refinement;
 pub use report::Report;

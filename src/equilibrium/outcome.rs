@@ -21,10 +21,19 @@ pub enum Outcome {
     BranchEnds,
     /// Two bodies would overlap.
     Contact(Contact),
-    /// The iterations or the processor time allowed by the settings were used up.
-    OutOfBudget,
+    /// What the settings allow a solve was used up.
+    OutOfBudget(Budget),
     /// Friction and the normal forces that it depends on did not settle, as where the manipulator is wedged.
     Wedged,
+}
+
+/// What the settings allow a solve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Budget {
+    /// The number of iterations.
+    Iterations,
+    /// The processor time.
+    Time,
 }
 
 /// Two bodies that overlap.
@@ -64,7 +73,7 @@ impl Outcome {
             Self::Neutral => "neutral",
             Self::BranchEnds => "branch_ends",
             Self::Contact(_) => "contact",
-            Self::OutOfBudget => "out_of_budget",
+            Self::OutOfBudget(_) => "out_of_budget",
             Self::Wedged => "wedged",
         }
     }
@@ -86,11 +95,13 @@ impl fmt::Display for Outcome {
                  bending_stop is off, touching windings may end it later"
             ),
             Self::Contact(contact) => write!(out, "bodies touch: {contact}; keep them apart"),
-            Self::OutOfBudget => write!(
-                out,
-                "the iterations or the processor time allowed were used up; allow more (the model's time budget), or take \
-                 shorter steps"
-            ),
+            Self::OutOfBudget(budget) => {
+                let (spent, key) = match budget {
+                    Budget::Iterations => ("iterations allowed were", "model.iterations"),
+                    Budget::Time => ("processor time allowed was", "model.time_budget_s"),
+                };
+                write!(out, "the {spent} used up; allow more ({key}), or take shorter steps")
+            }
             Self::Wedged => write!(
                 out,
                 "friction and normal forces do not settle: the manipulator is wedged; go back, turn it or take shorter steps"

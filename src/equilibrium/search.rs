@@ -3,6 +3,7 @@
 use super::chain::Chain;
 use super::deadline::Deadline;
 use super::inputs::Inputs;
+use super::outcome::Budget;
 use super::pair_quadrature::PairQuadrature;
 use super::potential::{EigenSearch, Potential};
 use super::report::Report;
@@ -133,6 +134,14 @@ impl Search<'_> {
 
     /// Whether iterations and time are left.
     pub(super) fn may_go_on(&self) -> bool {
-        self.left() > 0 && !self.deadline.has_passed()
+        self.spent().is_none()
+    }
+
+    /// What is used up, if anything is.
+    pub(super) fn spent(&self) -> Option<Budget> {
+        if self.left() == 0 {
+            return Some(Budget::Iterations);
+        }
+        self.deadline.has_passed().then_some(Budget::Time)
     }
 }

@@ -77,7 +77,7 @@ impl Search<'_> {
     fn give_up(&mut self, branch: &mut History, outcome: Outcome) -> Report {
         self.work.factorisation = None;
         self.work.free_turn = None;
-        let reached = self.reached.take().filter(|_| outcome == Outcome::OutOfBudget);
+        let reached = self.reached.take().filter(|_| matches!(outcome, Outcome::OutOfBudget(_)));
         self.recall_friction(reached.is_some());
         match reached {
             Some((inputs, unknowns)) => branch.rest_at(inputs, unknowns),

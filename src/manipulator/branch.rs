@@ -5,10 +5,14 @@ use serde::{Deserialize, Serialize};
 use super::prediction::predicted;
 use super::solve::Solve;
 use super::{Inputs, Outcome, Outputs, Snapshot, Status};
+use crate::equilibrium::Deadline;
 use crate::error::{Error, check};
 
 /// Width of the interval in which a fold is located, relative to the span of the path.
 const FOLD_WIDTH: f64 = 1e-5;
+
+/// Part of the time budget that is kept for the rest of the way when short steps end, and when the search for a fold does.
+const KEPT: (f64, f64) = (0.5, 0.25);
 
 /// Number of solved shapes used to predict a fold.
 const REMEMBERED: usize = 3;
@@ -16,8 +20,12 @@ const REMEMBERED: usize = 3;
 /// A fold, where the followed branch was left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
-    /// Path parameter at the fold: the middle of an interval of 1e-5 of the path's span.
+    /// Path parameter at the fold: the middle of an interval.
     pub value: f64,
+    /// Width of that interval.
+    pub width: f64,
+    /// Whether it is at most 1e-5 of the path's span; else the time budget ended the search.
+    pub located: bool,
     /// Whether the fold was met with increasing path parameter.
     pub upwards: bool,
     /// The last shape on the branch, with its stability margin measured.
@@ -48,10 +56,16 @@ pub struct Branch<F> {
     inputs: F,
     span: f64,
     longest_step: f64,
+    /// Processor time that each call may take, s.
+    time_budget: f64,
     /// Path parameter at which the manipulator's present shape is in equilibrium.
     here: Option<f64>,
-    /// Whether the branch ended on the last path.
-    lost: bool,
+    /// Whether the path went upwards where the branch was lost, if it was.
+    lost: Option<bool>,
+    /// What the last call found instead of a shape.
+    failed: Option<Box<dyn Solve>>,
+    /// What the time budget made the last call leave out.
+    left_out: Option<String>,
     folds: Vec<Fold>,
     /// Path parameter and stability margin at the last solved targets of [`Branch::to`] on this branch.
     margins: Vec<(f64, f64)>,
@@ -62,7 +76,7 @@ pub struct Branch<F> {
 pub struct PathSnapshot {
     manipulator: Snapshot,
     here: Option<f64>,
-    lost: bool,
+    lost: Option<bool>,
     folds: Vec<Fold>,
     margins: Vec<(f64, f64)>,
 }
@@ -83,54 +97,53 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     ) -> Result<Self, Error> {
         check("span of the path", span, |v| v > 0.0, "> 0")?;
         check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
-        let (folds, margins) = (Vec::new(), Vec::new());
         let manipulator = manipulator.into();
-        Ok(Self { manipulator, inputs, span, longest_step, here: None, lost: false, folds, margins })
+        Ok(Self {
+            time_budget: manipulator.time_budget(),
+            manipulator,
+            inputs,
+            span,
+            longest_step,
+            here: None,
+            lost: None,
+            failed: None,
+            left_out: None,
+            folds: Vec::new(),
+            margins: Vec::new(),
+        })
     }
 
     /// Follows the branch to `target` and locates the folds on the way; the first call starts from the unloaded shape.
     ///
-    /// Where the branch ends, the outputs remain those of its last shape, with [`Status::NotSolved`]. Each later call in the
-    /// same direction tries once to find a shape; a call in the opposite direction continues from the last shape.
+    /// All steps and the search for folds share the time budget of one solve: when half of it is used up, the rest of the way is one
+    /// step, and when a quarter is left, the search ends. Where no shape is found, the outputs remain those of the last one, with [`Status::NotSolved`]. The next call in the same direction starts anew from the unloaded shape; one in the
+    /// opposite direction goes on from the last shape.
     ///
     /// # Errors
     /// Those of the inputs and of [`Solve::solve`].
     pub fn to(&mut self, target: f64) -> Result<&Outputs, Error> {
-        let Some(mut here) = self.here else {
-            if self.manipulator.solve(&(self.inputs)(target)?)?.status != Status::NotSolved {
-                self.here = Some(target);
-                self.remember(target);
-            }
-            return Ok(self.manipulator.outputs());
-        };
-        let upwards = target > here;
-        if self.lost && self.folds.last().is_some_and(|fold| fold.upwards == upwards) {
-            self.search(target)?;
-            return Ok(self.manipulator.outputs());
+        let clock = Deadline::new(self.time_budget);
+        (self.failed, self.left_out) = (None, None);
+        match self.here {
+            Some(here) if self.lost != Some(target > here) => self.follow(here, target, &clock)?,
+            _ => self.start_anew(target, &clock)?,
         }
-        self.lost = false;
-        let longest = self.longest_step;
-        while !self.lost && here.total_cmp(&target).is_ne() {
-            let step = (target - here).clamp(-longest, longest);
-            let next = if (target - here).abs() <= longest { target } else { here + step };
-            let trial = self.trial(next)?;
-            if on_branch(trial.as_ref()) {
-                (self.manipulator, here) = (trial, next);
-            } else {
-                here = self.pass_fold(here, next, trial.as_ref())?;
-            }
-        }
-        self.here = Some(here);
-        if !self.lost {
+        if self.failed.is_none() {
             self.remember(target);
         }
-        Ok(self.manipulator.outputs())
+        Ok(self.outputs())
     }
 
     /// The outputs at the last target.
     #[must_use]
     pub fn outputs(&self) -> &Outputs {
-        self.manipulator.outputs()
+        self.failed.as_ref().unwrap_or(&self.manipulator).outputs()
+    }
+
+    /// What was left out on the way to the last target, because the time budget was used up; `None` where all was done.
+    #[must_use]
+    pub fn left_out(&self) -> Option<&str> {
+        self.left_out.as_deref()
     }
 
     /// The folds met so far, in order.
@@ -168,8 +181,61 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(())
     }
 
-    fn trial(&self, value: f64) -> Result<Box<dyn Solve>, Error> {
+    /// Follows the branch in steps from `here`.
+    fn follow(&mut self, mut here: f64, target: f64, clock: &Deadline) -> Result<(), Error> {
+        let longest = self.longest_step;
+        self.lost = None;
+        while self.failed.is_none() && here.total_cmp(&target).is_ne() {
+            let step = (target - here).clamp(-longest, longest);
+            let mut next = if (target - here).abs() <= longest { target } else { here + step };
+            if next.total_cmp(&target).is_ne() && self.is_late(clock, KEPT.0) {
+                self.leave_out(&format!("the way from {here} to {target} is one step, which may miss snaps"));
+                next = target;
+            }
+            let trial = self.trial(next, clock.left())?;
+            if on_branch(trial.as_ref()) {
+                (self.manipulator, here) = (trial, next);
+            } else if is_out_of_budget(trial.as_ref()) {
+                self.lose(trial, next > here); // whether there is a fold is not known
+            } else {
+                here = self.pass_fold(here, next, trial, clock)?;
+            }
+        }
+        self.here = Some(here);
+        Ok(())
+    }
+
+    /// Solves at `target` from the unloaded shape.
+    fn start_anew(&mut self, target: f64, clock: &Deadline) -> Result<(), Error> {
+        let mut fresh = self.manipulator.clone();
+        fresh.start_anew();
+        fresh.set_time_budget(clock.left());
+        fresh.solve(&(self.inputs)(target)?)?;
+        if fresh.outputs().status == Status::NotSolved {
+            self.failed = Some(fresh);
+            return Ok(());
+        }
+
+        let lost = self.lost.take();
+        if let Some(fold) =
+            self.folds.last_mut().filter(|fold| Some(fold.upwards) == lost && fold.after.is_none())
+        {
+            fold.after = Some((target, fresh.outputs().clone()));
+        }
+        (self.manipulator, self.here) = (fresh, Some(target));
+        self.margins.clear();
+        Ok(())
+    }
+
+    fn lose(&mut self, failed: Box<dyn Solve>, upwards: bool) {
+        (self.failed, self.lost) = (Some(failed), Some(upwards));
+        self.margins.clear();
+    }
+
+    /// The manipulator after a solve from its present shape within `seconds`.
+    fn trial(&self, value: f64, seconds: f64) -> Result<Box<dyn Solve>, Error> {
         let mut trial = self.manipulator.clone();
+        trial.set_time_budget(seconds);
         trial.solve(&(self.inputs)(value)?)?;
         Ok(trial)
     }
@@ -177,51 +243,70 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// Locates the fold by bisection between `here`, on the branch, and `next`, where the solve `beyond` left it.
     ///
     /// Moves to the shape beyond and returns its path parameter, or that of the last shape on the branch if none was found.
-    fn pass_fold(&mut self, here: f64, next: f64, beyond: &dyn Solve) -> Result<f64, Error> {
+    fn pass_fold(
+        &mut self,
+        here: f64,
+        next: f64,
+        beyond: Box<dyn Solve>,
+        clock: &Deadline,
+    ) -> Result<f64, Error> {
         let (mut on, mut off) = (here, next);
-        let mut after = found(off, beyond);
-        while (off - on).abs() > FOLD_WIDTH * self.span {
+        let (mut after, mut nearest) = (found(off, beyond.as_ref()), beyond);
+        while (off - on).abs() > FOLD_WIDTH * self.span && !self.is_late(clock, KEPT.1) {
             let middle = 0.5 * (on + off);
-            let trial = self.trial(middle)?;
+            let trial = self.trial(middle, clock.left() - self.kept(KEPT.1))?;
             if on_branch(trial.as_ref()) {
                 (self.manipulator, on) = (trial, middle);
+            } else if self.is_late(clock, KEPT.1) {
+                break;
             } else {
                 // A snap may fail to settle very close to the fold although it succeeds from farther on; that result is kept.
                 after = found(middle, trial.as_ref()).or(after);
-                off = middle;
+                (nearest, off) = (trial, middle);
             }
         }
+        if !self.is_late(clock, KEPT.1) {
+            nearest = self.trial(off, clock.left())?;
+            if on_branch(nearest.as_ref()) {
+                self.manipulator = nearest;
+                return Ok(off); // reached with a smaller step: not a fold
+            }
+            after = found(off, nearest.as_ref()).or(after);
+        }
         let before = self.manipulator.measure_margin().clone();
-        let nearest = self.trial(off)?;
-        if on_branch(nearest.as_ref()) {
-            self.manipulator = nearest;
-            return Ok(off); // reached with a smaller step: not a fold
+        let (value, width, outcome) = (0.5 * (on + off), (off - on).abs(), nearest.outputs().outcome);
+        let located = width <= FOLD_WIDTH * self.span;
+        if !located {
+            self.leave_out(&format!(
+                "the branch is lost between {on} and {off}, where exactly was not searched"
+            ));
         }
         self.margins.clear();
-        let (after, outcome) = (found(off, nearest.as_ref()).or(after), nearest.outputs().outcome);
-        self.lost = after.is_none();
-        let (reached, manipulator) = after.clone().unwrap_or((on, nearest));
+
+        let upwards = next > here;
+        let shape = after.as_ref().map(|(value, manipulator)| (*value, manipulator.outputs().clone()));
+        self.folds.push(Fold { value, width, located, upwards, before, after: shape, outcome });
+        let Some((reached, manipulator)) = after else {
+            self.lose(nearest, upwards);
+            return Ok(on);
+        };
         self.manipulator = manipulator;
-        let after = after.map(|(value, manipulator)| (value, manipulator.outputs().clone()));
-        self.folds.push(Fold { value: 0.5 * (on + off), upwards: next > here, before, after, outcome });
         Ok(reached)
     }
 
-    /// Tries to find a stable shape at `target`, beyond the end of the branch.
-    fn search(&mut self, target: f64) -> Result<(), Error> {
-        let trial = self.trial(target)?;
-        if trial.outputs().status != Status::NotSolved {
-            self.lost = false;
-            self.here = Some(target);
-            if let Some(fold) = self.folds.last_mut() {
-                fold.after = Some((target, trial.outputs().clone()));
-            }
-        }
-        self.manipulator = trial;
-        if !self.lost {
-            self.remember(target);
-        }
-        Ok(())
+    /// The part of the time budget that is to be kept, s.
+    fn kept(&self, part: f64) -> f64 {
+        if self.time_budget.is_finite() { part * self.time_budget } else { 0.0 }
+    }
+
+    /// Whether no more than that part of the time budget is left.
+    fn is_late(&self, clock: &Deadline, part: f64) -> bool {
+        clock.left() <= self.kept(part)
+    }
+
+    fn leave_out(&mut self, what: &str) {
+        let said = self.left_out.take().map_or_else(String::new, |said| format!("{said}; "));
+        self.left_out = Some(format!("{said}{what} (model.time_budget_s)"));
     }
 
     fn remember(&mut self, value: f64) {
@@ -231,6 +316,10 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         }
         self.margins.push((value, margin));
     }
+}
+
+fn is_out_of_budget(trial: &dyn Solve) -> bool {
+    matches!(trial.outputs().outcome, Outcome::OutOfBudget(_))
 }
 
 fn on_branch(trial: &dyn Solve) -> bool {

@@ -60,6 +60,12 @@ impl Solve for Compared {
         &self.outputs
     }
 
+    fn start_anew(&mut self) {
+        let snaps = self.outputs.snaps;
+        self.reset();
+        self.outputs.snaps = snaps;
+    }
+
     fn reset(&mut self) {
         self.comparison.reset();
         self.outputs = Outputs::straight(&self.comparison, Self::resolution(&self.comparison));

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::hierarchy::{self, Hierarchy};
+use super::measured_margin::MeasuredMargin;
 use super::outputs::Resolution;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
@@ -34,6 +35,7 @@ use crate::vessel::Vessel;
 #[derive(Debug, Clone)]
 pub struct Manipulator {
     hierarchy: Hierarchy,
+    measured: Option<MeasuredMargin>,
     outputs: Outputs,
     /// Whether the outputs belong to a solved shape.
     has_shape: bool,
@@ -62,7 +64,7 @@ impl Manipulator {
     ) -> Result<Self, Error> {
         let hierarchy = Hierarchy::new(design, sources.into(), settings, shape_points)?;
         let outputs = Outputs::straight(hierarchy.present(), resolution(&hierarchy));
-        Ok(Self { hierarchy, outputs, has_shape: false })
+        Ok(Self { hierarchy, measured: None, outputs, has_shape: false })
     }
 
     /// The same manipulator, unsolved, in a vessel.
@@ -192,10 +194,13 @@ impl Manipulator {
 
     /// Computes the stability margin of the last solved shape and stores it in the outputs.
     ///
-    /// A solve alone gives an upper bound. The next solve is not affected.
+    /// A solve alone gives an upper bound. The next solve is not affected, and a shape that has not changed is not measured again.
     pub fn measure_margin(&mut self) -> &Outputs {
-        if let Some(margin) = self.hierarchy.present().margin() {
-            self.outputs.stability_margin = margin;
+        let model = self.hierarchy.present();
+        self.measured =
+            self.measured.take().filter(|last| last.is_of(model)).or_else(|| MeasuredMargin::of(model));
+        if let Some(measured) = &self.measured {
+            self.outputs.stability_margin = measured.value;
         }
         &self.outputs
     }
@@ -264,7 +269,7 @@ impl Manipulator {
     pub(super) fn with_model(&self, model: Equilibrium, outputs: Outputs) -> Self {
         let mut hierarchy = self.hierarchy.clone();
         hierarchy.replace_present(model);
-        Self { hierarchy, outputs, has_shape: true }
+        Self { hierarchy, measured: None, outputs, has_shape: true }
     }
 
     /// What is read from the shape of another model of the same discretisation.
@@ -299,12 +304,32 @@ impl Manipulator {
     /// # Errors
     /// [`Error::Range`] unless it is from 0 to 10.
     pub fn set_friction(&mut self, coefficient: f64) -> Result<(), Error> {
+        self.measured = None;
         self.hierarchy.set_friction(coefficient)
+    }
+
+    /// Processor time that a solve may take, s.
+    #[must_use]
+    pub fn time_budget(&self) -> f64 {
+        self.hierarchy.time_budget()
+    }
+
+    /// Sets the processor time that a solve may take, s, from the next solve on; nothing is left for a search with 0.
+    pub fn set_time_budget(&mut self, seconds: f64) {
+        self.hierarchy.set_time_budget(seconds);
+    }
+
+    /// Forgets the shape but not the count of snaps: the next solve starts from the unloaded shape.
+    pub fn start_anew(&mut self) {
+        let snaps = self.outputs.snaps;
+        self.reset();
+        self.outputs.snaps = snaps;
     }
 
     /// Resets the shape and the count of snaps.
     pub fn reset(&mut self) {
         self.hierarchy.reset();
+        self.measured = None;
         self.outputs = Outputs::straight(self.hierarchy.present(), resolution(&self.hierarchy));
         self.has_shape = false;
     }

@@ -184,6 +184,15 @@ impl Hierarchy {
         self.solve_before(&self.deadline(), inputs)
     }
 
+    /// Processor time that a solve may take, s.
+    pub(super) fn time_budget(&self) -> f64 {
+        self.time_budget
+    }
+
+    pub(super) fn set_time_budget(&mut self, seconds: f64) {
+        self.time_budget = seconds;
+    }
+
     /// The end of the time budget of a solve that begins now.
     pub(super) fn deadline(&self) -> Deadline {
         Deadline::new(self.time_budget)
@@ -297,10 +306,15 @@ impl Hierarchy {
     /// Tries the next cheaper model; if it is rejected, `report` remains the answer.
     fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
+        // One step of the cheaper model tells of most that are rejected, before any is solved.
+        let apart = self.models.deviation(from - 1, from);
+        if apart.is_none_or(|apart| self.tolerance.room(&apart, DESCEND) < 1.0) {
+            self.wait = self.wait.longer();
+            return Ok(report);
+        }
         // The richer models lose their branch when they estimate errors, so this one is saved.
         let kept = (from >= self.models.richest()).then(|| self.present().clone());
         let before = (self.estimate.clone(), self.age);
-        self.models.warm_start(from - 1, from, inputs);
         let other = self.models.at_mut(from - 1).solve_before(deadline, inputs)?;
         self.present = from - 1;
         if self.is_sound(&other) && self.is_within(inputs, DESCEND, deadline)? {

@@ -5,6 +5,7 @@ mod compared;
 mod device;
 mod error_estimate;
 mod hierarchy;
+mod measured_margin;
 mod models;
 mod neighbours;
 mod outputs;
@@ -15,7 +16,7 @@ mod sensitivities;
 mod solve;
 mod variation;
 
-pub use crate::equilibrium::{Body, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
+pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
 pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};

@@ -134,11 +134,25 @@ impl Models {
 
     /// Transfers a shape of model `from` to model `to`, as [`Equilibrium::adopt`] does.
     pub(super) fn adopt(&mut self, to: usize, from: usize, unknowns: &[f64], inputs: &Inputs) {
+        self.with_pair([to, from], |to, from| to.adopt(from, unknowns, inputs));
+    }
+
+    /// Estimated deviation of the tip of model `from`, which is solved, from that of model `to`, by one step of `to`, which is left
+    /// at its end; `None` as for [`Equilibrium::deviation_of`].
+    pub(super) fn deviation(&mut self, to: usize, from: usize) -> Option<TipDeviation> {
+        self.with_pair([to, from], |to, from| to.deviation_of(from)).flatten()
+    }
+
+    /// Acts on two different models; `None` where they are not.
+    fn with_pair<T>(
+        &mut self,
+        numbers: [usize; 2],
+        act: impl FnOnce(&mut Equilibrium, &Equilibrium) -> T,
+    ) -> Option<T> {
         let finer = self.finer.iter_mut().map(|finer| &mut finer.model);
         let mut models: Vec<_> = self.whole.iter_mut().chain(finer).collect();
-        if let Ok([to, from]) = models.get_disjoint_mut([to, from]) {
-            to.adopt(from, unknowns, inputs);
-        }
+        let [first, second] = models.get_disjoint_mut(numbers).ok()?;
+        Some(act(first, second))
     }
 
     /// Starts model `to` from the present shape of model `from`.

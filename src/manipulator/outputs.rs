@@ -184,7 +184,7 @@ impl Outputs {
         (self.iterations, self.residual) = (report.iterations, report.residual);
         if !report.solved() {
             self.status = Status::NotSolved;
-            if report.outcome == Outcome::OutOfBudget {
+            if matches!(report.outcome, Outcome::OutOfBudget(_)) {
                 self.snaps += report.snaps; // the branch has been followed up to there
             }
             return;

@@ -5,7 +5,7 @@
 //! way: so each length has its verdict, and the way is one that a slowly released shaft would take.
 
 use super::hierarchy::Hierarchy;
-use crate::equilibrium::{Equilibrium, Inputs, LONGEST_INSERTION, Outcome, Report, Solution};
+use crate::equilibrium::{Budget, Equilibrium, Inputs, LONGEST_INSERTION, Outcome, Report, Solution};
 use crate::error::Error;
 
 /// Longest change of the inserted length between two solves, m.
@@ -85,7 +85,7 @@ impl Hierarchy {
                 }
             }
         }
-        Ok(Report { outcome: Outcome::OutOfBudget, iterations, snaps, ..Report::start() })
+        Ok(Report { outcome: Outcome::OutOfBudget(Budget::Iterations), iterations, snaps, ..Report::start() })
     }
 }
 

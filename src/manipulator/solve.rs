@@ -19,6 +19,17 @@ pub trait Solve: fmt::Debug {
     /// Resets the shape and the count of snaps.
     fn reset(&mut self);
 
+    /// Forgets the shape but not the count of snaps: the next solve starts from the unloaded shape.
+    fn start_anew(&mut self);
+
+    /// Processor time that a solve may take, s; without a limit for a method that has none.
+    fn time_budget(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Sets the processor time that a solve may take, s; without effect for a method that has no limit.
+    fn set_time_budget(&mut self, _: f64) {}
+
     /// As [`Manipulator::measure_margin`]; methods without a stability margin leave the outputs unchanged.
     fn measure_margin(&mut self) -> &Outputs;
 
@@ -61,6 +72,18 @@ impl Solve for Manipulator {
 
     fn reset(&mut self) {
         Self::reset(self);
+    }
+
+    fn start_anew(&mut self) {
+        Self::start_anew(self);
+    }
+
+    fn time_budget(&self) -> f64 {
+        Self::time_budget(self)
+    }
+
+    fn set_time_budget(&mut self, seconds: f64) {
+        Self::set_time_budget(self, seconds);
     }
 
     fn measure_margin(&mut self) -> &Outputs {

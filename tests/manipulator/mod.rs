@@ -1,6 +1,7 @@
 //! Tests of `manipulator`.
 
 mod auto;
+mod budget;
 mod changes;
 
 mod estimate;

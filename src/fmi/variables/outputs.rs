@@ -29,7 +29,7 @@ fn outcome_number(outcome: Outcome) -> i32 {
         Outcome::Neutral => 1,
         Outcome::BranchEnds => 2,
         Outcome::Contact(_) => 3,
-        Outcome::OutOfBudget => 4,
+        Outcome::OutOfBudget(_) => 4,
         Outcome::Wedged => 5,
     }
 }

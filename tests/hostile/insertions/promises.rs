@@ -107,7 +107,7 @@ pub(crate) fn try_insertion(insertion: &Insertion, index: u64, alone: bool) -> T
                 broken.push(format!("in {FINER} parts {how}, {apart:.1e} m away"));
             }
         }
-        if !solved && went_on && out.outcome != Outcome::OutOfBudget {
+        if !solved && went_on && !matches!(out.outcome, Outcome::OutOfBudget(_)) {
             let last = last.expect("a step before");
             let back = manipulator.clone().solve(last).unwrap().clone();
             let apart = (back.tip.position - out.tip.position).norm();

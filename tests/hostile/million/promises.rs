@@ -81,7 +81,7 @@ pub(crate) fn try_walk(walk: &Walk, index: u64, alone: bool) -> Tally {
             Outcome::Solved => out.status == Status::NotSolved || out.stable == Some(false),
             Outcome::Neutral => out.status == Status::NotSolved || out.stable == Some(true),
             // The branch goes on from where time ended, and what snapped on the way has snapped.
-            Outcome::OutOfBudget => out.status != Status::NotSolved || out.tip != before.tip,
+            Outcome::OutOfBudget(_) => out.status != Status::NotSolved || out.tip != before.tip,
             _ => out.status != Status::NotSolved || out.tip != before.tip || out.snaps != before.snaps,
         };
         if contradiction {
@@ -146,8 +146,8 @@ impl Twin {
         // Why there is no shape, and how deep bodies touch, depends on the discretisation.
         let same_ending = report.outcome == out.outcome
             || (!report.solved() && out.status == Status::NotSolved)
-            || matches!(report.outcome, Outcome::OutOfBudget)
-            || out.outcome == Outcome::OutOfBudget;
+            || matches!(report.outcome, Outcome::OutOfBudget(_))
+            || matches!(out.outcome, Outcome::OutOfBudget(_));
         if !same_ending {
             verdict
                 .broken

@@ -1,5 +1,6 @@
 //! Snaps are told where they are, and only there.
 
+mod levels;
 pub(crate) mod ways;
 
 use core::f64::consts::PI;

@@ -120,7 +120,7 @@ pub(crate) struct Row {
     residual: f64,
     /// The level that answered.
     interaction: String,
-    /// Why it did not converge, or is neutral.
+    /// Why it did not converge, is neutral, or what was left out on the way to it.
     reason: Option<String>,
 }
 
@@ -228,6 +228,12 @@ impl Row {
             interaction: outputs.interaction.name().into(),
             reason: verdict::reason(outputs),
         }
+    }
+
+    /// With what the time budget left out on the way to it.
+    pub(crate) fn leaving_out(mut self, left_out: Option<&str>) -> Self {
+        self.reason = self.reason.or_else(|| left_out.map(str::to_owned));
+        self
     }
 
     /// The first key's value.

@@ -50,7 +50,9 @@ pub(super) fn describe(keys: &[&str], walk: &Walk) -> String {
 fn fold_in_words(key: &str, fold: &Fold, way: Way) -> String {
     let before = fold.before.tip_angle.to_degrees();
     let margin = fold.before.stability_margin;
-    let there = format!("{}: at {key} = {:.6}, {before:.2} deg (margin {margin:.3})", way.name(), fold.value);
+    let known = if fold.located { String::new() } else { format!(" +-{:.6}", 0.5 * fold.width) };
+    let there =
+        format!("{}: at {key} = {:.6}{known}, {before:.2} deg (margin {margin:.3})", way.name(), fold.value);
     match &fold.after {
         Some((value, shape)) => {
             let angle = shape.tip_angle.to_degrees();

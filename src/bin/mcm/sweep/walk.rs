@@ -188,7 +188,8 @@ impl Steps<'_> {
                 way,
                 branch.outputs(),
                 branch.predicted_fold(),
-            );
+            )
+            .leaving_out(branch.left_out());
             ways.resize(branch.folds().len(), way);
             self.keep(rows.len(), &row)?;
             rows.push(row);
