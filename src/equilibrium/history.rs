@@ -66,6 +66,11 @@ impl History {
         here.copy_from(inputs);
     }
 
+    /// Response to a force relative to that of the shape without loads, as far as it is known: the inverse of the stability margin.
+    pub(super) fn softness(&self) -> f64 {
+        if self.stable.is_some() && self.margin > 0.0 { f64::max(1.0, 1.0 / self.margin) } else { 1.0 }
+    }
+
     /// Stays at an equilibrium on the way to inputs that were not reached.
     pub(super) fn rest_at(&mut self, inputs: Inputs, unknowns: Vec<f64>) {
         (self.inputs, self.unknowns) = (Some(inputs), unknowns);

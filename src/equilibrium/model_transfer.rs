@@ -12,6 +12,10 @@ use crate::numerics::trust_region::{Objective, norm};
 /// Longest Newton step, in the radian norm, whose end still counts as an estimate of the equilibrium.
 pub(super) const NEAR: f64 = 1.0;
 
+/// Softness above which the response to a difference is not linear, and the largest ratio of two steps from which the rest is extrapolated.
+pub(super) const SOFT: f64 = 2.0;
+pub(super) const DIVERGING: f64 = 0.8;
+
 /// Tip deviation: distance and angle between two tips.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TipDeviation {
@@ -48,13 +52,40 @@ impl Equilibrium {
         if stable {
             potential.solve(&mut step);
         }
-        let near = stable && norm(&self.metric, &step) <= NEAR * self.chain.radian_norm();
+        let first = norm(&self.metric, &step);
+        let mut near = stable && first <= NEAR * self.chain.radian_norm();
+        let mut growth = 1.0;
         if near {
             unknowns.iter_mut().zip(&step).for_each(|(unknown, by)| *unknown += by);
+            if other.branch.softness() > SOFT {
+                // What another step adds tells how much more would follow.
+                let ratio =
+                    self.next_step(&inputs, &unknowns, &mut step).map_or(f64::NAN, |next| next / first);
+                near = ratio <= DIVERGING;
+                growth = 1.0 / (1.0 - ratio);
+            }
         }
         self.work.place(&self.chain, &inputs, &unknowns);
         self.branch.unknowns = unknowns;
-        near.then(|| TipDeviation::between(&self.tip(), &other.tip())).filter(TipDeviation::is_finite)
+        let deviation = || TipDeviation::between(&self.tip(), &other.tip()).times(growth);
+        near.then(deviation).filter(TipDeviation::is_finite)
+    }
+}
+
+impl Equilibrium {
+    /// Whether the last solved shape is so soft that errors of the forces change it more than in proportion.
+    #[must_use]
+    pub fn is_soft(&self) -> bool {
+        self.branch.softness() > SOFT
+    }
+
+    /// Length (radian norm) of a step from `unknowns` with the last factorisation, which is written to `step`.
+    fn next_step(&mut self, inputs: &Inputs, unknowns: &[f64], step: &mut [f64]) -> Option<f64> {
+        let mut potential = self.potential(inputs, unknowns);
+        potential.slope(unknowns)?;
+        step.iter_mut().zip(potential.gradient()).for_each(|(by, slope)| *by = -slope);
+        potential.solve(step);
+        Some(norm(&self.metric, step))
     }
 }
 

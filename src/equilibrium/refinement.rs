@@ -9,7 +9,7 @@
 use std::sync::Arc;
 
 use super::inputs::Inputs;
-use super::model_transfer::{NEAR, TipDeviation};
+use super::model_transfer::{DIVERGING, NEAR, SOFT, TipDeviation};
 use super::settings::{Interaction, Settings};
 use super::solution::Solution;
 use super::solver::Equilibrium;
@@ -25,9 +25,16 @@ const DEGREES: usize = 2;
 const QUADRATURE: f64 = 1e-2;
 const FINEST: f64 = 1e-10;
 
+/// Accuracy of the pairs at which the stations of the rods limit that of a shape.
+const LIMITED_BY_STATIONS: f64 = 1e-8;
+
 /// Smallest reported error, of the tip position over the length and of its angle (rad): it covers residuals, and strains
 /// with kinks, to which more modes converge slowly.
 const LEAST: f64 = 1e-8;
+
+/// Largest number of steps to the finer equilibrium of a soft shape, and the length of the last one relative to the first.
+const ROUNDS: usize = 6;
+const SETTLED: f64 = 0.05;
 
 /// A finer discretisation of a model, and the map from the coarser modes to its own.
 #[derive(Debug, Clone)]
@@ -68,7 +75,8 @@ impl Settings {
     pub fn refined(&self) -> Self {
         let finest = FINEST.min(self.pair_accuracy);
         let pair_accuracy = (QUADRATURE * self.pair_accuracy).max(finest);
-        Self { degree: self.degree + DEGREES, pair_accuracy, ..*self }
+        let fine_stations = self.fine_stations || pair_accuracy <= LIMITED_BY_STATIONS;
+        Self { degree: self.degree + DEGREES, pair_accuracy, fine_stations, ..*self }
     }
 }
 
@@ -81,17 +89,18 @@ impl Equilibrium {
 }
 
 impl Refinement {
-    /// Refines `coarse`, which must be of this design and magnet.
+    /// Refines `coarse`, which must be of this design and magnet, to `settings`.
     ///
     /// # Errors
     /// As [`Equilibrium::new`].
     pub fn new(
         coarse: &Equilibrium,
+        settings: Settings,
         design: &Design,
         sources: &Arc<Sources>,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let made = Equilibrium::of_checked(design, sources, coarse.settings.refined(), shape_points)?;
+        let made = Equilibrium::of_checked(design, sources, settings, shape_points)?;
         let model = match &coarse.around {
             Some(around) => made.in_vessel(&around.vessel),
             None => made,
@@ -121,20 +130,67 @@ impl Refinement {
     }
 
     fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<TipDeviation> {
-        let Self { model, projection, shape, step, coarse: own } = self;
-        let unknowns = std::mem::take(&mut coarse.branch.unknowns);
-        let mut potential = coarse.potential_as_ruled(inputs);
-        let factored = potential.work.factorisation.is_some()
-            || (potential.linearise(&unknowns).is_some() && potential.factorise(0.0));
-        shape.fill(0.0);
-        projection.raise(&unknowns, shape);
-        coarse.branch.unknowns = unknowns;
-        if !factored {
+        let softness = coarse.branch.softness();
+        if !self.take_up(coarse, inputs) {
             return None;
         }
-        if coarse.work.friction.acts() {
-            model.work.friction.clone_from(&coarse.work.friction);
+        let first = self.approach(coarse, inputs)?;
+        if first > NEAR * self.model.chain.radian_norm() {
+            return None;
         }
+        // Where the shape is soft, the response is not linear in the forces: further steps tell by how much.
+        let ratio = if softness > SOFT { self.settle(coarse, inputs, first)? } else { 0.0 };
+
+        let Self { model, shape, .. } = self;
+        model.work.place(&model.chain, inputs, shape);
+        let seen = TipDeviation::between(&model.tip(), &coarse.tip()).times(1.0 / (1.0 - ratio));
+        // Two accuracies may share the same quadratures, so that the possible error of the finer ones is added.
+        let quadratures = model.has_quadratures(inputs);
+        let unseen =
+            LEAST + if quadratures { QUADRATURE * coarse.settings.pair_accuracy * softness } else { 0.0 };
+        let unseen = TipDeviation { distance: unseen * model.chain.length(), angle: unseen };
+        Some(seen.plus(unseen)).filter(TipDeviation::is_finite)
+    }
+
+    /// Takes up the shape of `coarse`, which is factorised afterwards: anew where it is soft, as an old factorisation is then too
+    /// far off. Returns whether it could be.
+    fn take_up(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> bool {
+        let old = coarse.is_soft();
+        let unknowns = std::mem::take(&mut coarse.branch.unknowns);
+        let mut potential = coarse.potential_as_ruled(inputs);
+        let factored = (potential.work.factorisation.is_some() && !old)
+            || (potential.linearise(&unknowns).is_some() && potential.factorise(0.0));
+        self.shape.fill(0.0);
+        self.projection.raise(&unknowns, &mut self.shape);
+        coarse.branch.unknowns = unknowns;
+
+        if coarse.work.friction.acts() {
+            self.model.work.friction.clone_from(&coarse.work.friction);
+        }
+        factored
+    }
+
+    /// Goes on after a `first` step until little is left; returns the ratio of the last two, `None` where they do not shrink.
+    fn settle(&mut self, coarse: &mut Equilibrium, inputs: &Inputs, first: f64) -> Option<f64> {
+        let (mut last, mut ratio) = (first, 0.0);
+        for _ in 1..ROUNDS {
+            if last <= SETTLED * first {
+                break;
+            }
+            let next = self.approach(coarse, inputs)?;
+            ratio = next / last;
+            if ratio > DIVERGING {
+                return None;
+            }
+            last = next;
+        }
+        Some(ratio)
+    }
+
+    /// Brings the shape one step nearer to the equilibrium of the finer model; returns the length (radian norm) of the response of
+    /// the coarser modes.
+    fn approach(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<f64> {
+        let Self { model, projection, shape, step, coarse: own } = self;
         // Amplitudes of the added modes: the elastic step without its part in the coarser modes.
         let mut finer = model.potential(inputs, shape);
         finer.slope(shape)?;
@@ -146,6 +202,7 @@ impl Refinement {
         negate(own);
         projection.raise(own, step);
         add(step, shape);
+
         // Response of the coarser modes.
         finer.slope(shape)?;
         projection.lower(finer.gradient(), own);
@@ -153,18 +210,8 @@ impl Refinement {
         coarse.potential_as_ruled(inputs).solve(own);
         step.fill(0.0);
         projection.raise(own, step);
-        let length = norm(&model.metric, step);
-        if length.is_nan() || length > NEAR * model.chain.radian_norm() {
-            return None;
-        }
         add(step, shape);
-        model.work.place(&model.chain, inputs, shape);
-        let seen = TipDeviation::between(&model.tip(), &coarse.tip());
-        // Two accuracies may share the same quadratures, so that the possible error of the finer ones is added.
-        let quadratures = model.has_quadratures(inputs);
-        let unseen = LEAST + if quadratures { QUADRATURE * coarse.settings.pair_accuracy } else { 0.0 };
-        let unseen = TipDeviation { distance: unseen * model.chain.length(), angle: unseen };
-        Some(seen.plus(unseen)).filter(TipDeviation::is_finite)
+        Some(norm(&model.metric, step)).filter(|length| length.is_finite())
     }
 }
 

@@ -32,6 +32,8 @@ pub(super) struct ErrorEstimate {
     closed: Vec<f64>,
     /// Estimated error of the tip pose.
     deviation: TipDeviation,
+    /// Whether the shape was soft, so that its error changes faster.
+    soft: bool,
 }
 
 impl ErrorEstimate {
@@ -42,13 +44,13 @@ impl ErrorEstimate {
         let tip = model.tip();
         let field = model.field_at(inputs, &tip.position).unwrap_or_default();
         let closed = model.closed_windings().filter(|_| stops).collect();
-        Self { inputs: inputs.clone(), tip, field, closed, deviation }
+        Self { inputs: inputs.clone(), tip, field, closed, deviation, soft: model.is_soft() }
     }
 
     /// Replaces the estimate by a new one without allocating.
     pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation) {
         self.inputs.copy_from(inputs);
-        (self.tip, self.deviation) = (model.tip(), deviation);
+        (self.tip, self.deviation, self.soft) = (model.tip(), deviation, model.is_soft());
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
         self.closed.iter_mut().zip(model.closed_windings()).for_each(|(own, now)| *own = now);
     }
@@ -98,9 +100,11 @@ impl ErrorEstimate {
         changes.into_iter().chain(forces).chain(stops).fold(0.0, f64::max)
     }
 
-    /// Whether a new estimate is due at that age: the smaller the error relative to the tolerance, the older it may be.
+    /// Whether a new estimate is due at that age: the smaller the error relative to the tolerance, the older it may be, unless the
+    /// shape is soft.
     pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {
-        age > tolerance.room(&self.deviation, CLIMB).clamp(1.0, STANDING)
+        let standing = if self.soft { 1.0 } else { STANDING };
+        age > tolerance.room(&self.deviation, CLIMB).clamp(1.0, standing)
     }
 
     /// The error extrapolated to that age.

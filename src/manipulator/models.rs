@@ -35,6 +35,8 @@ pub(super) struct Models {
     finer: Vec<Refinement>,
     /// The finer discretisation of the coarse model of the richest interaction, once it has been needed.
     finer_coarse: Option<Refinement>,
+    /// Judge of a soft shape, with the number of the model that it judges.
+    judge: Option<(usize, Refinement)>,
 }
 
 impl Models {
@@ -59,13 +61,14 @@ impl Models {
             whole: whole.into_iter().map(model).collect::<Result<_, _>>()?,
             finer: Vec::new(),
             finer_coarse: None,
+            judge: None,
         })
     }
 
     /// The same models, unsolved, in a vessel.
     pub(super) fn in_vessel(self, vessel: &Vessel) -> Self {
         let whole = self.whole.into_iter().map(|model| model.in_vessel(vessel)).collect();
-        Self { whole, finer: Vec::new(), finer_coarse: None, ..self }
+        Self { whole, finer: Vec::new(), finer_coarse: None, judge: None, ..self }
     }
 
     /// Index of the richest interaction model, in the discretisation of the settings.
@@ -100,7 +103,8 @@ impl Models {
         while self.whole.len() + self.finer.len() <= number {
             let (design, sources) = &*self.design;
             let last = self.at(self.whole.len() + self.finer.len() - 1);
-            let next = Refinement::new(last, design, sources, self.shape_points)?;
+            let settings = last.settings().refined();
+            let next = Refinement::new(last, settings, design, sources, self.shape_points)?;
             self.finer.push(next);
         }
         Ok(())
@@ -123,8 +127,9 @@ impl Models {
 
     /// All models.
     pub(super) fn all(&mut self) -> impl Iterator<Item = &mut Equilibrium> {
-        let finer = self.finer.iter_mut().chain(&mut self.finer_coarse).map(|finer| &mut finer.model);
-        self.whole.iter_mut().chain(finer)
+        let judge = self.judge.iter_mut().map(|(_, judge)| judge);
+        let finer = self.finer.iter_mut().chain(&mut self.finer_coarse).chain(judge);
+        self.whole.iter_mut().chain(finer.map(|finer| &mut finer.model))
     }
 
     /// Resets all shapes.
@@ -188,6 +193,9 @@ impl Models {
         }
         self.make(number.max(richest) + 1)?;
         let number = number.max(richest);
+        if self.at(number).is_soft() {
+            return Ok(self.error_of_soft(number)?.map(|error| error.times(SAFETY).plus(apart)));
+        }
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
         Ok(above[0].error_of(model).map(|error| error.times(SAFETY).plus(apart)))
@@ -195,6 +203,22 @@ impl Models {
 }
 
 impl Models {
+    /// Estimated deviation of a solved model whose shape is soft: its forces err too little for one refinement to tell, but not the
+    /// shape. The model two refinements finer tells.
+    fn error_of_soft(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
+        let settings = self.at(number).settings().refined().refined();
+        let mut judge = match self.judge.take().filter(|(of, _)| *of == number) {
+            Some((_, judge)) => judge,
+            None => {
+                let (design, sources) = &*self.design;
+                Refinement::new(self.at(number), settings, design, sources, self.shape_points)?
+            }
+        };
+        let error = judge.error_of(self.at_mut(number));
+        self.judge = Some((number, judge));
+        Ok(error)
+    }
+
     /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
     /// which a finer one of its own tells.
     fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
@@ -203,7 +227,8 @@ impl Models {
             Some(finer_coarse) => finer_coarse,
             none => {
                 let (design, sources) = &*self.design;
-                none.insert(Refinement::new(coarse, design, sources, self.shape_points)?)
+                let settings = coarse.settings().refined();
+                none.insert(Refinement::new(coarse, settings, design, sources, self.shape_points)?)
             }
         };
         Ok(finer_coarse.error_of(coarse).map(|error| error.times(SAFETY)))

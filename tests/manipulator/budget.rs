@@ -54,7 +54,8 @@ impl Solve for Slow {
 }
 
 fn one_segment(settings: &str) -> Scene {
-    Scene::parse(&format!("[design]\nsegments = 1\n[model]\ntime_budget_s = 60\n{settings}"), "one segment").unwrap()
+    Scene::parse(&format!("[design]\nsegments = 1\n[model]\ntime_budget_s = 60\n{settings}"), "one segment")
+        .unwrap()
 }
 
 fn across(field: f64) -> Inputs {

@@ -7,6 +7,7 @@ mod changes;
 mod estimate;
 
 mod jacobian;
+mod near_fold;
 
 mod ranges;
 mod refusals;
