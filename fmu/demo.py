@@ -1,15 +1,20 @@
-"""Drives the FMU in fmpy: the paper's magnet pair passes along the free manipulator, turns, and returns."""
+"""Drives an FMU in fmpy: its magnet passes along the free manipulator, turns, and returns.
+
+Sizes, words and limits of the pictures are those of the FMU and of the rows that it gave.
+"""
 
 import argparse
 import csv
 import math
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import demo_animation
 import demo_picture
 import fmpy
+from demo_parts import STOP, Parts
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
@@ -23,19 +28,16 @@ from fmpy.fmi2 import (
 from tqdm import tqdm
 
 STEP = 0.05  # communication step, s
-PASSED, BACK, TURNED, STOP = (
-    12.0,
-    16.0,
-    24.0,
-    30.0,
-)  # ends of the pass, of the way back, of the turn, of the return, s
+PASSED, BACK, TURNED = 12.0, 16.0, 24.0  # ends of the pass, of the way back, of the turn, s
 REACH = 0.18  # the pass goes this far before and behind the manipulator's middle, m
-MIDDLE = 0.023  # the manipulator's middle, m
 TURN = math.radians(45)  # about x, towards the tip
 
-# Axis of the magnet from the axis of the manipulator, m. On this path no core bends by the boundary angle of 40 deg,
-# at which its windings would touch.
+# Axis of the magnet from the axis of the manipulator, m. On this path no core of the default FMU bends by the boundary
+# angle of 40 deg, at which its windings would touch.
 DISTANCE = 0.14
+
+# The closest and the farthest distance of the search, m.
+NEAREST, FARTHEST = 0.07, 0.16
 
 # Level `rings` of model.interaction, for the search: it takes twenty passes.
 RINGS = 2
@@ -51,18 +53,20 @@ def eased(share: float) -> float:
 
 
 def path(time: float) -> tuple[float, float]:
-    """Position along the manipulator (m) and turn (rad) of the magnet."""
+    """Position along the manipulator, from its middle (m), and turn (rad) of the magnet."""
     passing = -REACH + 2 * REACH * eased(time / PASSED)
     back = -REACH * eased((time - PASSED) / (BACK - PASSED))
     turned = eased((time - BACK) / (TURNED - BACK))
     home = eased((time - TURNED) / (STOP - TURNED))
-    return MIDDLE + passing + back - REACH * home, TURN * (turned - home)
+    return passing + back - REACH * home, TURN * (turned - home)
 
 
 class Device:
     """One instance of the FMU, inputs and outputs by name."""
 
-    INPUTS = ("magnet.position[2]", "magnet.position[3]", "magnet.orientation[1]", "magnet.orientation[2]")
+    INPUTS = tuple(f"magnet.position[{k}]" for k in (1, 2, 3)) + tuple(
+        f"magnet.orientation[{k}]" for k in (1, 2, 3, 4)
+    )
 
     def __init__(self, fmu: Path) -> None:
         description = fmpy.read_model_description(fmu)
@@ -73,8 +77,10 @@ class Device:
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="demo",
         )
-        # What happens is read from the outputs: the search runs into folds on purpose.
-        callbacks = fmi2CallbackFunctions(logger=fmi2CallbackLoggerTYPE(lambda *_: None))
+        # What happens is read from the outputs, as the search runs into folds on purpose; the last message says why a
+        # run ends.
+        self.said = ""
+        callbacks = fmi2CallbackFunctions(logger=fmi2CallbackLoggerTYPE(self.hear))
         callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
         callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self.slave.instantiate(callbacks=callbacks)
@@ -85,9 +91,13 @@ class Device:
         self.points = sum(name.startswith("shape.position[") and name.endswith(",1]") for name in reals)
         self.reals = reals
         self.cores = [name for name in reals if name.startswith("core[")]
-        start = next(v.start for v in variables if v.name == "design.helix.boundary_angle")
-        self.boundary = float(start)
+        self.parts = Parts.of({v.name: v.start for v in variables if v.start is not None})
+        self.boundary = math.radians(self.parts.boundary)
         self.running = False
+
+    def hear(self, *said: bytes) -> None:
+        """Keeps what the FMU says, without the doubled `%` of a format."""
+        self.said = said[4].decode().replace("%%", "%")
 
     def start(self, distance: float, level: int | None = None) -> None:
         """Begins again, the magnet at its first pose, with the FMU's own level of interaction or that one."""
@@ -106,7 +116,8 @@ class Device:
         z, turn = path(time)
         # Turned by pi about x the magnet's axis points along -z: beside it the field points along +z.
         half = (math.pi + turn) / 2
-        values = (-distance, z, math.cos(half), math.sin(half))
+        z += 1e-3 * self.parts.middle
+        values = (0.0, -distance, z, math.cos(half), math.sin(half), 0.0, 0.0)
         self.slave.setReal([self.reference[name] for name in self.INPUTS], values)
 
     def step(self, index: int, distance: float) -> None:
@@ -126,11 +137,11 @@ class Device:
 
     def apart(self) -> bool:
         """Whether it is held and no two windings touch."""
-        return self.held() and self.largest_core_angle() < self.boundary
+        return self.held() and not self.largest_core_angle() >= self.boundary
 
     def largest_core_angle(self) -> float:
-        """Bending of the core that bends most, rad."""
-        return max(self.slave.getReal([self.reference[name] for name in self.cores]))
+        """Bending of the core that bends most, rad; 0 without cores."""
+        return max((0.0, *self.slave.getReal([self.reference[name] for name in self.cores])))
 
     def summary(self) -> dict[str, float]:
         """Margin and largest core angle (deg)."""
@@ -145,17 +156,17 @@ class Device:
         row = {
             "time_s": round(time, 9),
             "magnet_y_mm": -1e3 * distance,
-            "magnet_z_mm": 1e3 * z,
+            "magnet_z_mm": 1e3 * z + self.parts.middle,
             "magnet_turn_deg": math.degrees(turn),
             "tip_angle_deg": math.degrees(real["tip.angle"]),
-            "largest_core_angle_deg": max(math.degrees(real[name]) for name in self.cores),
-            "boundary_angle_deg": math.degrees(self.boundary),
+            "largest_core_angle_deg": max((0.0, *(math.degrees(real[name]) for name in self.cores))),
         }
+        row |= self.parts.columns()
         for axis, name in enumerate("xyz", start=1):
             row[f"magnetic_force_{name}_mn"] = 1e3 * real[f"force.magnetic[{axis}]"]
         for axis, name in enumerate("xyz", start=1):
             row[f"tip_field_{name}_mt"] = 1e3 * real[f"field.tip[{axis}]"]
-        row["stability_margin"] = real["stability.margin"]
+        row["stability_margin"] = self.slave.getReal([self.reference["stability.margin"]])[0]
         row["snaps"] = self.slave.getInteger([self.reference["stability.snaps"]])[0]
         for ring in range(1, self.rings + 1):
             for axis, name in ((2, "y"), (3, "z")):
@@ -195,8 +206,15 @@ def follow(device: Device, distance: float, keeps: Callable[[Device], bool]) -> 
 
 
 def closest(device: Device, words: str, keeps: Callable[[Device], bool], far: float) -> tuple[float, float]:
-    """Two distances (m), 0.1 mm apart: from the first on inwards the device does not keep on the whole path."""
-    near = 0.07
+    """Two distances (m), 0.1 mm apart: from the first on inwards the device does not keep on the whole path.
+
+    Both are the nearest or the farthest distance of the search where the device keeps on all of them or on none.
+    """
+    near = NEAREST
+    if follow(device, far, keeps) is not None:
+        return far, far
+    if follow(device, near, keeps) is None:
+        return near, near
     with tqdm(total=math.ceil(math.log2((far - near) / 1e-4)), desc=words, unit="run") as bar:
         while far - near > 1e-4:
             middle = (near + far) / 2
@@ -205,22 +223,31 @@ def closest(device: Device, words: str, keeps: Callable[[Device], bool], far: fl
     return near, far
 
 
+def bound(lost: float, kept: float) -> str:
+    """How far something is kept, in words."""
+    if lost < kept:
+        return f"down to {1e3 * kept:.1f} mm"
+    return "at every distance tried" if kept == NEAREST else f"not even at {1e3 * kept:.1f} mm"
+
+
 def search(device: Device) -> None:
     """Says how close the magnet can come, and what happens then."""
-    _, apart = closest(device, "windings apart", Device.apart, 0.16)
-    near, kept = closest(device, "shape kept", Device.held, apart)
-    print(f"adjacent windings stay apart down to {1e3 * apart:.1f} mm from axis to axis;")
+    far = FARTHEST
+    if not math.isnan(device.boundary):
+        lost, far = closest(device, "windings apart", Device.apart, FARTHEST)
+        print(f"adjacent windings stay apart {bound(lost, far)} from axis to axis;")
+    near, kept = closest(device, "shape kept", Device.held, far)
     print(
-        "with the attraction of the rings alone (level `rings`) and without a stop at the windings' contact"
+        f"at level `rings` and without a stop at the windings' contact the shape is kept {bound(near, kept)}."
     )
-    print(f"the shape is kept down to {1e3 * kept:.1f} mm.")
-    event = follow(device, near, Device.held)
+    event = follow(device, near, Device.held) if near < kept else None
     if event is None:
         return
     z, _ = path(event["time"])
     end = "no stable shape is found" if event["status"] == NOT_SOLVED else "the shape snaps"
     print(
-        f"At {1e3 * near:.1f} mm, with the magnet at z = {1e3 * z:.0f} mm, {end} (solver.status {event['status']:.0f});"
+        f"At {1e3 * near:.1f} mm, with the magnet at z = {1e3 * z + device.parts.middle:.0f} mm, {end} "
+        f"(solver.status {event['status']:.0f});"
     )
     print(
         f"a step before, the margin was {event['margin']:.2f} and one core bent by {event['core']:.0f} deg."
@@ -228,13 +255,30 @@ def search(device: Device) -> None:
 
 
 def run(device: Device, distance: float) -> list[dict[str, float]]:
-    """Drives the whole path and returns the table's rows."""
-    device.start(distance)
-    rows = [device.row(0.0, distance)]
-    for index in tqdm(range(steps()), desc="magnet pass", unit="step"):
-        device.step(index, distance)
-        rows.append(device.row((index + 1) * STEP, distance))
+    """Drives the path and returns the table's rows, as far as there is a shape; says where there is none."""
+    rows: list[dict[str, float]] = []
+    try:
+        device.start(distance)
+        rows.append(device.row(0.0, distance))
+        for index in tqdm(range(steps()), desc="magnet pass", unit="step"):
+            device.step(index, distance)
+            rows.append(device.row((index + 1) * STEP, distance))
+    except FMICallException:
+        z, _ = path(len(rows) * STEP)
+        where = f"with the magnet at z = {1e3 * z + device.parts.middle:.0f} mm"
+        print(f"the pass ends after {len(rows)} rows, {where}: {device.said}", file=sys.stderr)
     return rows
+
+
+def distance(text: str) -> float:
+    """A distance in mm: a finite number above 0."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a distance in mm: a number above 0")
+    return value
 
 
 def main() -> None:
@@ -242,7 +286,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("fmu", type=Path, help="the FMU, as `mcm pack` writes it")
     parser.add_argument(
-        "--distance", type=float, default=1e3 * DISTANCE, help="magnet axis to manipulator axis, mm"
+        "--distance", type=distance, default=1e3 * DISTANCE, help="magnet axis to manipulator axis, mm"
     )
     parser.add_argument(
         "--no-search", action="store_true", help="do not search how close the magnet can come"
@@ -256,6 +300,8 @@ def main() -> None:
         rows = run(device, 1e-3 * arguments.distance)
     finally:
         device.close()
+    if not rows:
+        raise SystemExit("there is no shape to draw")
     table = Path("mcm_demo.csv")
     with table.open("w", newline="") as file:
         writer = csv.DictWriter(file, fieldnames=list(rows[0]))

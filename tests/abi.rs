@@ -14,6 +14,8 @@ use crate::tolerance::EFFECT;
 
 mod derivatives;
 
+mod environment;
+
 mod states;
 
 mod strings;
@@ -173,7 +175,7 @@ fn refusals_are_told_with_category_and_format() {
     // SAFETY: no pointers but the handle.
     assert_eq!(unsafe { fmi2DoStep(component, 0.0, 0.1, 1) }, ERROR);
     let said = heard(103).pop().unwrap();
-    assert_eq!(said, "one logStatusError %s: fmi2DoStep is not allowed before initialisation");
+    assert_eq!(said, "one logStatusError: fmi2DoStep is not allowed before initialisation");
     initialise(component);
     assert_eq!(set(component, "magnet.strength", f64::NAN), ERROR);
     assert!(heard(103).pop().unwrap().contains("magnet.strength = NaN"));
@@ -206,6 +208,13 @@ fn instantiation_is_refused_with_a_reason() {
         let said = heard(104).pop().unwrap();
         assert!(said.contains(reason), "{said}");
     }
+    // A relative path behind two slashes names a host.
+    let own_scene = CString::new(Package::new("", "scene", 5).unwrap().guid()).unwrap();
+    let relative = c"file://unpacked/resources".as_ptr();
+    assert!(attempt(one, kind, own_scene.as_ptr(), relative, &raw const functions).is_null());
+    let said = heard(104).pop().unwrap();
+    assert!(said.contains("/resources is no folder"), "{said}");
+    assert!(said.contains("in file://unpacked/resources, unpacked is the name of a host"), "{said}");
     for location in [c"", c"file:///nowhere/at%20all/", c"file:////nowhere/at all"] {
         let silent = attempt(one, kind, own, location.as_ptr(), ptr::null());
         assert!(!silent.is_null(), "no callbacks, no resources: {location:?}");

@@ -45,8 +45,9 @@ pub const POISSON: Interval = Interval::at_least(0.0).below(0.5);
 /// Volume fraction of magnetic particles; Eq. (15) diverges at its upper end.
 pub const VOLUME_FRACTION: Interval = Interval::at_least(0.0).below(DENSEST_PACKING);
 
-/// Remanence of rings, particles and rods, T.
-pub const REMANENCE: Interval = Interval::at_least(0.0).at_most(2.0);
+/// Remanence of rings, particles and rods, T. No magnet has more than 2 T, but scenes raise the remanence of a magnet that stands for a
+/// stronger one; what is above 20 T is given in another unit.
+pub const REMANENCE: Interval = Interval::at_least(0.0).at_most(20.0);
 
 /// Recoil permeability of the rings.
 pub const RECOIL_PERMEABILITY: Interval = Interval::at_least(1.0).at_most(MOST_PERMEABLE);

@@ -9,6 +9,7 @@ mod moment;
 mod preset;
 mod section;
 mod specification;
+pub mod unit_mistake;
 
 pub use chain::{Design, Segment};
 pub use demagnetisation::demagnetising_factor;

@@ -89,6 +89,15 @@ impl Equilibrium {
     }
 }
 
+impl Equilibrium {
+    /// Distance (m) of a tip from its unloaded place at these inputs: that of the straight device behind as much shaft, at the same base.
+    pub(crate) fn tip_travel(&self, inputs: &Inputs, tip: &Pose) -> f64 {
+        let shaft = self.chain.inserted(self.chain.growth(inputs.insertion));
+        let unloaded = inputs.base.position + inputs.base.axis() * (shaft + self.chain.length());
+        (tip.position - unloaded).norm()
+    }
+}
+
 impl TipDeviation {
     /// No deviation.
     pub const NONE: Self = Self { distance: 0.0, angle: 0.0 };

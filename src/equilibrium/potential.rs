@@ -66,9 +66,13 @@ impl Potential<'_> {
         let symmetric = self.terms.have_potential();
         let mut solve = |x: &mut [f64]| {
             self.solve(x);
-            without_turn.iter().for_each(|deflation| deflation.apply(x));
+            if let Some(deflation) = &without_turn {
+                deflation.apply(x);
+            }
         };
-        without_turn.iter().for_each(|deflation| deflation.apply(softest));
+        if let Some(deflation) = &without_turn {
+            deflation.apply(softest);
+        }
 
         if !symmetric {
             return smallest_real_part(norm, softest, ARNOLDI, solve).unwrap_or(f64::NAN);

@@ -70,6 +70,9 @@ pub struct Settings {
     pub tolerance_position: f64,
     /// Largest rotation of the tip relative to the converged solution, rad; default 0.1 deg.
     pub tolerance_angle: f64,
+    /// Largest deviation of a manipulator's tip position, relative to the tip's distance from its unloaded place; default 1e-3; 0: none.
+    /// The smaller of this and [`Settings::tolerance_position`] holds, where this is never less than 1e-8 m.
+    pub tolerance_relative: f64,
     /// Whether a core is as stiff as its closed section once it has bent by its boundary angle, because adjacent windings
     /// touch. By default (`None`) the level decides, see [`Settings::has_bending_stop`].
     pub bending_stop: Option<bool>,
@@ -114,6 +117,7 @@ impl Default for Settings {
             interaction: Interaction::Rings,
             tolerance_position: 5e-5,
             tolerance_angle: 0.1 * core::f64::consts::PI / 180.0,
+            tolerance_relative: 1e-3,
             bending_stop: None,
             degree: 2,
             cylinder_elements: 8,
@@ -141,7 +145,7 @@ impl Settings {
     /// The same settings without tolerances of the tip: the discretisation is exactly the one that the settings specify.
     #[must_use]
     pub fn as_discretised(&self) -> Self {
-        Self { tolerance_position: f64::MAX, tolerance_angle: f64::MAX, ..*self }
+        Self { tolerance_position: f64::MAX, tolerance_angle: f64::MAX, tolerance_relative: 0.0, ..*self }
     }
 
     /// Checks all settings and returns them.
@@ -152,6 +156,12 @@ impl Settings {
         let positive = |value: f64| value > 0.0;
         check("tolerance of the tip position", self.tolerance_position, positive, "> 0 m")?;
         check("tolerance of the tip angle", self.tolerance_angle, positive, "> 0 rad")?;
+        check(
+            "relative tolerance of the tip position",
+            self.tolerance_relative,
+            |v| (0.0..=1.0).contains(&v),
+            "from 0 to 1",
+        )?;
         check("degree of the strain modes", self.degree as f64, |v| v <= 8.0, "from 0 to 8")?;
         check(
             "number of cylinder elements",

@@ -31,7 +31,7 @@ pub enum Error {
     /// The field was asked for at a point where it is singular: on the edge of a magnet.
     #[error("the field at ({x} m, {y} m, {z} m) is singular: the point lies on an edge of a magnet")]
     OnEdge {
-        /// Position of the point in the magnet's own frame, m.
+        /// Position of the point, m, in the frame in which it was given.
         x: f64,
         /// See `x`.
         y: f64,
@@ -66,6 +66,14 @@ impl Error {
     /// An [`Error::Range`] for `quantity`.
     pub fn range(quantity: impl Into<String>, value: f64, allowed: impl Into<String>) -> Self {
         Self::Range { quantity: quantity.into(), value, allowed: allowed.into() }
+    }
+
+    /// The same error of a point that has these coordinates (m) in the frame in which it was given.
+    pub(crate) fn at(self, [x, y, z]: [f64; 3]) -> Self {
+        match self {
+            Self::OnEdge { .. } => Self::OnEdge { x, y, z },
+            other => other,
+        }
     }
 }
 

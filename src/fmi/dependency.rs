@@ -18,6 +18,10 @@ pub enum Known {
     BodyLength,
     /// Pose, strength or shape of a magnet or coil.
     Source,
+    /// How accurately an equilibrium is computed, or for how long: it moves no equilibrium, but what is found of it.
+    Accuracy,
+    /// Friction, whose effect depends on the way to a shape.
+    Friction,
     /// Anything else that acts on the equilibrium.
     Other,
 }

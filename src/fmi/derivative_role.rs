@@ -1,11 +1,34 @@
 //! Where a variable stands in the Jacobian of the manipulator.
 
+use nalgebra::Vector3;
+
+use crate::magnetics::Wrench;
 use crate::manipulator::{Input, Output};
+
+/// A part of a wrench.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WrenchPart {
+    /// Its force, N.
+    Force,
+    /// Its torque, N m.
+    Torque,
+}
+
+impl WrenchPart {
+    /// This part of a wrench.
+    #[must_use]
+    pub fn of(self, wrench: &Wrench) -> Vector3<f64> {
+        match self {
+            Self::Force => wrench.force,
+            Self::Torque => wrench.torque,
+        }
+    }
+}
 
 /// How a variable takes part in the derivatives of outputs with respect to inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DerivativeRole {
-    /// It takes no part: a fixed parameter, a constant, or an output about the solution process.
+    /// It takes no part: a fixed parameter, a constant, or a result without derivatives.
     None,
     /// An output that no input changes, so that its derivatives are 0.
     Unaffected,
@@ -24,6 +47,11 @@ pub enum DerivativeRole {
     Output(Output),
     /// A component of the quaternion of the tip.
     TipQuaternion,
+    /// An output without a row in the Jacobian, as a force of the wall: its derivatives are the differences of devices in equilibrium
+    /// beside the present one.
+    Neighbours,
+    /// A component of the wrench of all other magnets and coils on one of them.
+    MutualWrench(WrenchPart),
 }
 
 impl DerivativeRole {
@@ -36,6 +64,6 @@ impl DerivativeRole {
     /// Whether the variable is an output that has derivatives.
     #[must_use]
     pub fn is_unknown(self) -> bool {
-        matches!(self, Self::Unaffected | Self::ShareOfFeed { .. } | Self::Output(_) | Self::TipQuaternion)
+        !matches!(self, Self::None | Self::Input(_) | Self::InputQuaternion(_))
     }
 }

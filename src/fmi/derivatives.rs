@@ -2,16 +2,14 @@
 
 use std::sync::Arc;
 
-use super::directional_derivatives::{direction, output_derivative};
+use super::dependency::Known;
+use super::directional_derivatives::{At, Direction};
 use super::fmu_state::FmuState;
-use super::host_values::HostValues;
 use super::instance::Instance;
 use super::state::{Ending, State};
-use super::units::DENSITY;
-use super::value::{DataType, Value};
+use super::value::DataType;
 use super::variable::{Causality, Variability, Variable};
 use crate::error::Error;
-use crate::manipulator::{Manipulator, Number, Outputs};
 
 impl Instance {
     /// Sets time derivatives of inputs for the next step, in the unit of the input per second: all of them, or none if one
@@ -23,20 +21,12 @@ impl Instance {
         let entries = || references.iter().zip(orders).zip(values);
         let mut unused = None;
         for ((&reference, &order), &value) in entries() {
-            let Some(variable) = self.variable(reference) else { return Ending::Error };
-            let name = &variable.name;
-            if variable.causality != Causality::Input || variable.variability != Variability::Continuous {
-                return self.refuse(&format!("{name} is not a continuous input: it has no time derivative"));
-            }
-            if order < 1 {
-                return self.refuse(&format!("the order {order} of a derivative of {name} is not allowed"));
-            }
-            if !value.is_finite() {
-                let quantity = format!("time derivative of {name}");
-                return self.refuse(&Error::range(quantity, value, "finite").to_string());
+            if let Err(reason) = self.check_derivative(reference, order, value) {
+                self.note_refused_derivatives(references, values);
+                return self.refuse(&reason);
             }
             if order > 1 && value != 0.0 {
-                unused = Some(name);
+                unused = self.package.table().find(reference).map(|variable| variable.name.as_str());
             }
         }
         if let Some(name) = unused {
@@ -44,8 +34,40 @@ impl Instance {
         }
         for ((&reference, _), &value) in entries().filter(|((_, order), _)| **order == 1) {
             self.fmu_state.input_derivatives.set(reference, value);
+            self.fmu_state.refused.remove(&reference);
         }
         Ending::Ok
+    }
+
+    /// Checks that a variable can have this time derivative.
+    ///
+    /// # Errors
+    /// The reason why not, in words.
+    fn check_derivative(&self, reference: u32, order: i32, value: f64) -> Result<(), String> {
+        let Some(variable) = self.package.table().find(reference) else {
+            return Err(format!("there is no variable with value reference {reference}"));
+        };
+        let name = &variable.name;
+        if variable.causality != Causality::Input || variable.variability != Variability::Continuous {
+            return Err(format!("{name} is not a continuous input: it has no time derivative"));
+        }
+        if order < 1 {
+            return Err(format!("the order {order} of a derivative of {name} is not allowed"));
+        }
+        if value.is_finite() {
+            return Ok(());
+        }
+        Err(Error::range(format!("time derivative of {name}"), value, "finite").to_string())
+    }
+
+    /// Notes which inputs were to move by a call that is refused: the next step would hold them.
+    fn note_refused_derivatives(&mut self, references: &[u32], values: &[f64]) {
+        for (&reference, &value) in references.iter().zip(values) {
+            let variable = self.package.table().find(reference);
+            if value != 0.0 && variable.is_some_and(|variable| variable.causality == Causality::Input) {
+                self.fmu_state.refused.insert(reference);
+            }
+        }
     }
 
     /// Time derivatives of outputs at the present time, in the unit of the output per second. They follow from the time
@@ -66,10 +88,10 @@ impl Instance {
         Ok(values)
     }
 
-    /// Derivatives of the outputs `unknowns` with respect to the inputs `knowns`, times the direction `seed`.
+    /// Derivatives of the outputs `unknowns` with respect to the inputs and parameters `knowns`, times the direction `seed`.
     ///
-    /// Gravity, a tunable parameter, counts as an input. During initialisation fixed parameters of type Real are known too (FMI 2.0.4,
-    /// section 2.1.9).
+    /// Known are the continuous inputs and the tunable parameters, and during initialisation the fixed ones, where they are Real
+    /// (FMI 2.0.4, section 2.1.9). Derivatives by how accurately an equilibrium is computed are 0.
     ///
     /// # Errors
     /// [`Ending::Error`], explained in the log, when there are none.
@@ -81,11 +103,8 @@ impl Instance {
     ) -> Result<Vec<f64>, Ending> {
         for &reference in knowns {
             let variable = self.variable(reference).ok_or(Ending::Error)?;
-            let varies = self.state() == State::Initialization && varies_the_device(variable);
-            if !variable.derivative_role.is_known() && !varies {
-                let (name, reason) = (&variable.name, "it is not a continuous input");
-                let until = if varies_the_device(variable) { ", and initialisation is over" } else { "" };
-                return Err(self.refuse(&format!("there are no derivatives by {name}: {reason}{until}")));
+            if let Some(reason) = why_not_known(variable, self.state()) {
+                return Err(self.refuse(&format!("there are no derivatives by {}: {reason}", variable.name)));
             }
         }
         for &reference in unknowns {
@@ -119,27 +138,12 @@ impl Instance {
             None => jacobian.insert(Arc::new(manipulator.jacobian()?)),
         };
         let table = self.package.table();
-        let seeded = knowns.iter().zip(seed).filter(|(_, seed)| **seed != 0.0);
-        let seeded = seeded.filter_map(|(&known, &seed)| Some((table.find(known)?, seed)));
-        let (parameters, seeded): (Vec<_>, Vec<_>) = seeded.partition(|(known, _)| varies_the_device(known));
-        let direction = direction(jacobian, host_values, seeded.into_iter()).ok_or_else(not_solved)?;
-        let all = jacobian.along(&direction)?;
-        let of_output = |&unknown: &u32| {
-            let variable = table.find(unknown)?;
-            output_derivative(jacobian, all.as_slice(), manipulator.outputs(), variable)
-        };
-        let mut derivatives: Vec<f64> = unknowns
-            .iter()
-            .map(|unknown| of_output(unknown).ok_or_else(not_solved))
-            .collect::<Result<_, _>>()?;
-        for (parameter, seed) in parameters {
-            let (sides, apart) = beside(manipulator, host_values, parameter)?;
-            for (derivative, unknown) in derivatives.iter_mut().zip(unknowns) {
-                let read = |outputs| table.find(*unknown)?.output(outputs)?.real();
-                let [before, after] = sides.each_ref().map(read);
-                *derivative += seed * (after.zip(before).map(|(a, b)| a - b)).ok_or_else(not_solved)? / apart;
-            }
-        }
+        let found = |&reference: &u32| table.find(reference).ok_or_else(not_solved);
+        let unknowns: Vec<&Variable> = unknowns.iter().map(found).collect::<Result<_, _>>()?;
+        let knowns: Vec<&Variable> = knowns.iter().map(found).collect::<Result<_, _>>()?;
+        let direction = Direction::of(&knowns, seed);
+        let derivatives =
+            At { jacobian, manipulator, values: host_values }.derivatives(&unknowns, &direction)?;
         if derivatives.iter().all(|derivative| derivative.is_finite()) {
             Ok(derivatives)
         } else {
@@ -148,32 +152,19 @@ impl Instance {
     }
 }
 
-/// Whether the variable is a number on which the device depends, and its surroundings: a fixed parameter of type Real.
-fn varies_the_device(variable: &Variable) -> bool {
-    (variable.causality, variable.variability) == (Causality::Parameter, Variability::Fixed)
-        && matches!(variable.data_type, DataType::Real(_))
-}
-
-/// The outputs of two devices beside the solved one, one with a smaller and one with a larger value of a parameter, and by how much it
-/// differs between them.
-fn beside(
-    manipulator: &Manipulator,
-    values: &HostValues,
-    parameter: &Variable,
-) -> Result<([Outputs; 2], f64), Error> {
-    let unknown = || Error::NoDerivatives(format!("{} has no value", parameter.name));
-    let value = parameter.host_value(values).and_then(Value::real).ok_or_else(unknown)?;
-    let DataType::Real(quantity) = parameter.data_type else { return Err(unknown()) };
-    if value == 0.0 && quantity == DENSITY {
-        return Err(Error::NoDerivatives(format!(
-            "{} = 0 stands for the rule of its material",
-            parameter.name
-        )));
+/// Why outputs have no derivatives by this variable in this state; `None` if they have.
+fn why_not_known(variable: &Variable, state: State) -> Option<&'static str> {
+    match (variable.causality, variable.variability) {
+        (Causality::Input | Causality::Parameter, _) if !matches!(variable.data_type, DataType::Real(_)) => {
+            Some("it is not a Real")
+        }
+        (Causality::Parameter, _) if variable.known == Known::Friction => {
+            Some("its effect depends on the way to a shape")
+        }
+        (Causality::Parameter, Variability::Fixed) if state != State::Initialization => {
+            Some("it is a fixed parameter, and initialisation is over")
+        }
+        (Causality::Input | Causality::Parameter, _) => None,
+        (Causality::Output | Causality::Local, _) => Some("it is neither an input nor a parameter"),
     }
-    let number = Number { value, usual: quantity.nominal };
-    manipulator.outputs_beside(number, |value| {
-        let mut varied = values.clone();
-        parameter.set(&mut varied, Value::Real(value))?;
-        varied.variant()
-    })
 }

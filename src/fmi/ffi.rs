@@ -8,6 +8,11 @@
 
 mod export;
 
+mod floating_point;
+
+#[cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod hypot;
+
 mod instantiate;
 
 mod logger;
@@ -27,6 +32,7 @@ use super::registry;
 use super::state::{Call, Ending};
 use super::value::Value;
 use export::export;
+use floating_point::in_default_environment;
 use instantiate::{Arguments, instantiate};
 use logger::status;
 

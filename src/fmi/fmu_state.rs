@@ -1,5 +1,6 @@
 //! The FMU state: everything about an instance that changes, and that `fmi2GetFMUstate` therefore saves.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -10,14 +11,16 @@ use super::state::State;
 use crate::manipulator::{Jacobian, Manipulator};
 
 /// What is known of an equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Search {
     /// It was not sought yet.
     Open,
     /// It was found: the manipulator's outputs are those of it.
     Found,
-    /// In model exchange: there is none, which the host can answer by other inputs.
+    /// There is none, which the host can answer by other inputs.
     InVain,
+    /// It is not sought, as the host values are not allowed together; with the reason.
+    Refused(String),
 }
 
 /// The FMU state of an instance.
@@ -35,6 +38,9 @@ pub(super) struct FmuState {
     pub(super) jacobian: Option<Arc<Jacobian>>,
     /// What is known of the equilibrium for the present host values.
     pub(super) search: Search,
+    /// Variables to which the host wanted to give a value that was not taken, by value reference: they keep the value before, and
+    /// nothing is solved until each has got one that is allowed.
+    pub(super) refused: BTreeSet<u32>,
     /// Whether the equilibrium for the next communication point has been found already, because the host read outputs
     /// after setting inputs. The step then need not solve again.
     pub(super) solved_ahead: bool,
@@ -59,6 +65,7 @@ impl FmuState {
             manipulator: None,
             jacobian: None,
             search: Search::Open,
+            refused: BTreeSet::new(),
             solved_ahead: false,
             near_fold: false,
             accepted: None,

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::{PlacedSource, Settings};
-use crate::error::Error;
+use crate::error::{Error, Interval};
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet, Sources};
-use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile, Variant};
+use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile, Variant, Way};
 use crate::methods::Method;
 use crate::vessel::{Vessel, Wall};
 
@@ -85,6 +87,8 @@ pub struct HostValues {
     pub friction: f64,
     /// The cylinders of the external magnet.
     pub magnets: Vec<AxialMagnet>,
+    /// How the device comes to its first inputs.
+    pub way: Way,
     /// Settings of model and solver.
     pub settings: Settings,
 }
@@ -92,8 +96,20 @@ pub struct HostValues {
 /// The magnet of a scene that states none: the usual assembly at its usual place, switched off.
 const SWITCHED_OFF: &str = "[magnet]\nstrength = 0.0";
 
-/// Norm below which a quaternion on the path of a moving pose no longer determines an orientation.
-const SHORTEST_QUATERNION: f64 = 1e-3;
+/// Norm below which a quaternion counts as one that nothing is connected to: hosts give four zeros, and some vary these by 1e-8 for
+/// differences.
+const UNCONNECTED_NORM: f64 = 1e-3;
+
+/// Strength of a magnet below which it is switched off, and no body to be touched: some hosts vary zeros by 1e-8 for differences. The
+/// field of such a magnet is less than a hundredth of the earth's.
+const SWITCHED_OFF_BELOW: f64 = 1e-7;
+
+/// Norms of quaternions that are normalised. Hosts interpolate components: half-way between orientations that are 15 degrees apart
+/// the norm is 0.998, between opposite directions 0.707.
+const NORMALISED: Interval = Interval::at_least(0.5).at_most(2.0);
+
+/// Deviation from unit norm of which the log tells: more than components rounded to three decimals.
+const NORM_SLACK: f64 = 1e-3;
 
 impl HostValues {
     /// The start values that a scene states.
@@ -159,6 +175,7 @@ impl HostValues {
             specification: scene.specification,
             vessel: scene.vessel.map(Arc::new),
             magnets,
+            way: scene.way,
             settings: scene.settings,
         })
     }
@@ -168,7 +185,16 @@ impl HostValues {
         [&self.magnet, &self.base].into_iter().chain(self.further.iter().map(|source| &source.pose))
     }
 
-    /// Whether an orientation is four zeros: some hosts set inputs that nothing is connected to so.
+    /// An orientation that is not of unit norm but normalised, and its norm.
+    #[must_use]
+    pub fn off_unit_norm(&self) -> Option<(&'static str, f64)> {
+        let names = ["magnet.orientation", "base.orientation"];
+        let names = names.into_iter().chain(std::iter::repeat("the orientation of a further magnet or coil"));
+        let norms = names.zip(self.poses()).map(|(name, pose)| (name, pose.norm()));
+        norms.into_iter().find(|(_, norm)| *norm >= UNCONNECTED_NORM && (norm - 1.0).abs() > NORM_SLACK)
+    }
+
+    /// Whether an orientation counts as one that nothing is connected to.
     #[must_use]
     pub fn has_unconnected(&self) -> bool {
         self.poses().any(UncheckedPose::is_unconnected)
@@ -192,12 +218,14 @@ impl HostValues {
     pub fn inputs(&self) -> Result<Inputs, Error> {
         let further = self.source_names().zip(&self.further).map(|((name, _), source)| {
             let pose = source.pose.pose(&format!("{name}.orientation"))?;
-            Ok(PlacedSource { pose, strength: source.strength })
+            let is_coil = source.assembly.coil().is_some();
+            let strength = if is_coil { source.strength } else { switched(source.strength) };
+            Ok(PlacedSource { pose, strength })
         });
         let further = further.collect::<Result<_, Error>>()?;
         Ok(Inputs {
             magnet: self.magnet.pose("magnet.orientation")?,
-            magnet_strength: self.magnet_strength,
+            magnet_strength: switched(self.magnet_strength),
             further,
             uniform_field: self.uniform_field.into(),
             field_gradient: self.field_gradient,
@@ -229,34 +257,57 @@ impl HostValues {
         design.with(shaft, self.guidewire.as_ref())
     }
 
+    /// The checked magnets and coils.
+    fn sources(&self) -> Result<Sources, Error> {
+        let magnet = Some(Assembly::new(self.magnets.clone())?);
+        let further = self.further.iter().map(|source| (*source.assembly).clone()).collect();
+        Sources::new(magnet, further)
+    }
+
+    /// The vessel with the wall that the parameters describe, checked.
+    fn in_wall(&self) -> Result<Option<Vessel>, Error> {
+        let in_lumen = |vessel: &Arc<Vessel>| {
+            let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
+            Ok::<_, Error>(Vessel { wall, lumen: vessel.lumen.clone() })
+        };
+        self.vessel.as_ref().map(in_lumen).transpose()
+    }
+
     /// The device that the parameters describe in its surroundings, checked, with its inputs.
     ///
     /// # Errors
     /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`HostValues::inputs`].
     pub fn variant(&self) -> Result<Variant, Error> {
-        let magnet = Some(Assembly::new(self.magnets.clone())?);
-        let further = self.further.iter().map(|source| (*source.assembly).clone()).collect();
-        let (design, sources) = (self.design()?, Sources::new(magnet, further)?);
-        let in_lumen = |vessel: &Arc<Vessel>| {
-            let wall = Wall::new(self.wall_modulus)?.with_friction(self.friction)?;
-            Ok::<_, Error>(Vessel { wall, lumen: vessel.lumen.clone() })
-        };
-        let vessel = self.vessel.as_ref().map(in_lumen).transpose()?;
-        Ok(Variant { design, sources, vessel, inputs: self.inputs()? })
+        let (design, sources) = (self.design()?, self.sources()?);
+        Ok(Variant { design, sources, vessel: self.in_wall()?, inputs: self.inputs()? })
     }
 
     /// The manipulator that the parameters describe, not yet solved.
     ///
     /// # Errors
-    /// Those of [`HostValues::variant`] and [`Manipulator::new`].
+    /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
-        let Variant { design, sources, vessel, .. } = self.variant()?;
-        let made = Manipulator::new(&design, sources, self.settings, shape_points)?;
+        let (design, vessel) = (self.design()?, self.in_wall()?);
+        let made = Manipulator::new(&design, self.sources()?, self.settings, shape_points)?;
+        let made = made.on_way(self.way.clone());
         Ok(match &vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,
         })
     }
+
+    /// The same values with those of the tunable parameters that a manipulator is built with, and that each solve sets anew, as at the
+    /// start: the present ones may be refused.
+    pub(super) fn with_tunables_of(&self, start: &Self) -> Self {
+        let Settings { tolerance_position, tolerance_angle, tolerance_relative, .. } = start.settings;
+        let settings = Settings { tolerance_position, tolerance_angle, tolerance_relative, ..self.settings };
+        Self { settings, friction: start.friction, ..self.clone() }
+    }
+}
+
+/// The strength of a magnet as it acts.
+fn switched(strength: f64) -> f64 {
+    if strength.abs() < SWITCHED_OFF_BELOW { 0.0 } else { strength }
 }
 
 impl From<Pose> for UncheckedPose {
@@ -267,30 +318,41 @@ impl From<Pose> for UncheckedPose {
 }
 
 impl UncheckedPose {
+    fn norm(&self) -> f64 {
+        self.orientation.iter().map(|component| component * component).sum::<f64>().sqrt()
+    }
+
     /// Scales the quaternion to unit norm, unless it is too short to determine an orientation.
     pub(super) fn normalise(&mut self) {
-        let norm = self.orientation.iter().map(|component| component * component).sum::<f64>().sqrt();
-        if norm > SHORTEST_QUATERNION {
+        let norm = self.norm();
+        if norm > UNCONNECTED_NORM {
             self.orientation = self.orientation.map(|component| component / norm);
         }
     }
 
-    /// Whether its quaternion is four exact zeros, as an input that the host leaves unconnected.
+    /// Whether its quaternion is zero, or as good as zero, as an input that the host leaves unconnected.
     pub(super) fn is_unconnected(&self) -> bool {
-        self.orientation.iter().all(|component| *component == 0.0)
+        self.norm() < UNCONNECTED_NORM
     }
 
-    /// The quaternion that holds.
-    pub(super) fn acting(&self) -> [f64; 4] {
-        if self.is_unconnected() { self.start } else { self.orientation }
+    /// Angular velocity (rad per unit of the rate, world axes) of the orientation of its quaternion, when that changes at a rate; zero
+    /// where it is not connected, so that its start value holds.
+    pub(super) fn spin(&self, rate: [f64; 4]) -> Vector3<f64> {
+        if self.is_unconnected() { Vector3::zeros() } else { Pose::rotation_rate(self.orientation, rate) }
     }
 
+    /// # Errors
+    /// [`Error::Range`] for a quaternion whose norm is from 0.001 to 0.5, or above 2.
     fn pose(&self, orientation: &str) -> Result<Pose, Error> {
-        Pose::new(self.position, self.acting()).map_err(|error| match error {
-            Error::Range { value, allowed, .. } => {
-                Error::range(format!("norm of {orientation}"), value, allowed)
-            }
-            other => other,
-        })
+        if self.is_unconnected() {
+            return Pose::new(self.position, self.start);
+        }
+        let norm = self.norm();
+        if !NORMALISED.contains(norm) {
+            let allowed =
+                "from 0.5 to 2, as an orientation is normalised, or below 0.001, where it is not connected";
+            return Err(Error::range(format!("norm of {orientation}"), norm, allowed));
+        }
+        Pose::new(self.position, self.orientation.map(|component| component / norm))
     }
 }

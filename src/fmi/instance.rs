@@ -1,24 +1,23 @@
 //! One instance of the FMU in safe Rust: each C function only translates its arguments and calls one method.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::advice::{advice, why_not_solved};
 use super::fmu_state::{FmuState, Search};
 use super::log::Log;
 use super::package::Package;
+use super::search_report::SearchReport;
 use super::state::{Call, Ending, Interface, State};
+use super::value::Value;
+use super::variable::Variable;
 use crate::error::Error;
-use crate::manipulator::{Inputs, Manipulator, Outcome, Outputs, Status};
-
-/// Relative tolerance for communication points, with respect to the larger of time and step size: hosts compute times by
-/// adding up step sizes, with rounding errors.
-const TIME_TOLERANCE: f64 = 1e-9;
+use crate::manipulator::{Inputs, Manipulator, Outcome, Outputs, Status, TipTolerance};
 
 /// An instance of the FMU.
 #[derive(Debug)]
 pub struct Instance {
-    interface: Interface,
+    pub(super) interface: Interface,
     pub(super) package: Arc<Package>,
     pub(super) log: Log,
     pub(super) fmu_state: FmuState,
@@ -26,39 +25,32 @@ pub struct Instance {
     pub(super) saved_states: BTreeMap<usize, FmuState>,
     /// Stop time of this run, s, if the host has defined one. A saved state does not carry it: the run that it is restored in may be
     /// longer.
-    stop_time: Option<f64>,
-    /// Whether the log has told of an unexpected communication point, which it does once.
-    told_of_unexpected_time: bool,
-    /// Whether the log has told of an orientation that nothing is connected to, which it does once.
-    told_of_unconnected: bool,
+    pub(super) stop_time: Option<f64>,
+    /// Whether the host's last start or stop time was refused: a run that began all the same would have another one.
+    pub(super) times_refused: bool,
+    pub(super) told: Told,
 }
 
-/// The package that a host wants to instantiate.
-///
-/// It is read from the first of the directories `resources` that holds one; if none does, it is the built-in default
-/// design.
-///
-/// # Errors
-/// [`Error::Syntax`] for resources that were altered, and for a GUID that is not that of the package.
-pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
-    let mut found = None;
-    for path in resources {
-        found = Package::read(path)?;
-        if found.is_some() {
-            break;
-        }
-    }
-    let from =
-        if found.is_some() { "the resources" } else { "the built-in default design (no resources found)" };
-    let package = found.map_or_else(Package::built_in, Ok)?;
-    if package.guid() == guid.trim() {
-        Ok(package)
-    } else {
-        Err(Error::Syntax {
-            what: format!("GUID {guid}"),
-            reason: format!("it is not {}, that of {from}", package.guid()),
-        })
-    }
+/// What the log tells of once in a run, and has told of.
+#[derive(Debug, Default)]
+pub(super) struct Told {
+    /// An unexpected communication point.
+    pub(super) unexpected_time: bool,
+    /// An orientation that nothing is connected to.
+    pub(super) unconnected: bool,
+    /// An orientation that is not of unit norm.
+    pub(super) norm: bool,
+}
+
+/// What came of the search for an equilibrium.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Sought {
+    /// It was found.
+    Found,
+    /// There is none.
+    InVain,
+    /// It was not sought, since inputs or parameters are not allowed: the reason.
+    Refused(String),
 }
 
 impl Instance {
@@ -72,6 +64,9 @@ impl Instance {
             counts.rings,
             counts.cores
         ));
+        for odd in package.warnings() {
+            log.notice(odd);
+        }
         let fmu_state = FmuState::new(package.start());
         Self {
             interface,
@@ -80,8 +75,8 @@ impl Instance {
             fmu_state,
             saved_states: BTreeMap::new(),
             stop_time: None,
-            told_of_unexpected_time: false,
-            told_of_unconnected: false,
+            times_refused: false,
+            told: Told::default(),
         }
     }
 
@@ -134,121 +129,26 @@ impl Instance {
         self.refuse(&format!("internal failure, reset or free the instance: {message}"))
     }
 
-    /// Switches log categories on or off, as [`Log::choose`].
-    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Ending {
-        match self.log.choose(on, categories) {
-            Ok(()) => Ending::Ok,
-            Err(name) => self.refuse(&format!("there is no log category {name}")),
-        }
-    }
-
-    /// Sets start time and stop time, s. The tolerance of the standard has no use here: every solve converges tightly.
-    pub fn setup_experiment(&mut self, start: f64, stop: Option<f64>) -> Ending {
-        if !start.is_finite() {
-            return self.refuse(&Error::range("start time (s)", start, "finite").to_string());
-        }
-        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
-            return self.refuse(&Error::range("stop time (s)", stop, "the start time or later").to_string());
-        }
-        self.fmu_state.time = start;
-        self.stop_time = stop;
-        Ending::Ok
-    }
-
-    /// Enters initialisation mode.
-    pub fn enter_initialization(&mut self) -> Ending {
-        self.fmu_state.state = State::Initialization;
-        Ending::Ok
-    }
-
-    /// Leaves initialisation mode: checks the parameters and solves the first equilibrium.
-    ///
-    /// Parameters that are refused can be corrected, as the instance stays in initialisation mode then.
-    pub fn exit_initialization(&mut self) -> Ending {
-        let found = self.fmu_state.search == Search::Found;
-        let ending = if found { Ok(Ending::Ok) } else { self.solve_at_host_values() };
-        match ending {
-            Ok(Ending::Ok) => {
-                match self.interface {
-                    Interface::CoSimulation => self.fmu_state.state = State::Stepping,
-                    Interface::ModelExchange => self.start_in_event_mode(),
-                }
-                self.log.event(&format!("initialised at t = {}", self.fmu_state.time));
-                Ending::Ok
-            }
-            Ok(failed) => {
-                self.fmu_state.state = State::Failed;
-                failed
-            }
-            Err(error) => self.refuse(&error.to_string()),
-        }
-    }
-
-    /// Terminates the simulation.
-    pub fn terminate(&mut self) -> Ending {
-        self.fmu_state.state = State::Terminated;
-        Ending::Ok
-    }
-
-    /// Returns to the state after instantiation. States that the host has saved are kept.
-    pub fn reset(&mut self) -> Ending {
-        self.fmu_state = FmuState::new(self.package.start());
-        self.stop_time = None;
-        self.told_of_unexpected_time = false;
-        self.told_of_unconnected = false;
-        self.log.forget_repetitions();
-        Ending::Ok
-    }
-
-    /// Steps from the communication point `time` by `step_size`, both in s.
-    ///
-    /// The new equilibrium is that for the inputs now set. Where inputs have time derivatives, the equilibrium follows the
-    /// inputs along their path, and the inputs keep the values at its end.
-    pub fn do_step(&mut self, time: f64, step_size: f64) -> Ending {
-        let end = time + step_size;
-        if !time.is_finite() || !end.is_finite() || step_size < 0.0 {
-            return self.refuse(&format!(
-                "cannot step from t = {time} by {step_size}: both must be finite, and the step size not negative"
-            ));
-        }
-        let tolerance = TIME_TOLERANCE * time.abs().max(self.fmu_state.time.abs()).max(step_size);
-        if let Some(stop) = self.stop_time.filter(|stop| end > stop + tolerance) {
-            return self.refuse(&format!("a step to t = {end} goes beyond the stop time {stop}"));
-        }
-        let unexpected = (time - self.fmu_state.time).abs() > tolerance;
-        if unexpected && !self.told_of_unexpected_time {
-            let expected = self.fmu_state.time;
-            self.log.notice(&format!("step from t = {time}, but the last one ended at t = {expected}"));
-            self.told_of_unexpected_time = true;
-        }
-        // Unchanged inputs are solved again, because the status `Snapped` holds for one step only.
-        if !self.fmu_state.solved_ahead {
-            self.fmu_state.search = Search::Open;
-        }
-        let moving = self.fmu_state.input_derivatives.move_inputs() && step_size > 0.0;
-        let ending = if moving {
-            self.follow_inputs(step_size)
-        } else {
-            self.ensure_solved().err().unwrap_or(Ending::Ok)
-        };
-        if ending != Ending::Ok {
-            return ending;
-        }
-        let manipulator = self.fmu_state.manipulator.as_ref();
-        self.fmu_state.snaps = manipulator.map_or(0, |manipulator| manipulator.outputs().snaps);
-        self.fmu_state.input_derivatives.mark_used();
-        self.fmu_state.solved_ahead = false;
-        self.fmu_state.time = end;
-        self.log.forget_repetitions();
-        Ending::Ok
-    }
-
     /// The outputs of the last equilibrium as they stand, with the margin as [`Outputs::stability_margin`] says; `None` where none
     /// was found since the start or the last reset.
     #[must_use]
     pub fn outputs(&self) -> Option<&Outputs> {
         let manipulator = self.fmu_state.manipulator.as_ref();
         manipulator.filter(|manipulator| manipulator.has_shape()).map(Manipulator::outputs)
+    }
+
+    /// The value of a result as it stands: of the last equilibrium, or of the search for one; `None` where there is none.
+    #[must_use]
+    pub fn result(&self, variable: &Variable) -> Option<Value> {
+        let outputs = self.fmu_state.manipulator.as_ref().map(Manipulator::outputs);
+        let report = SearchReport::of(outputs, self.is_refused());
+        variable.of_search(&report).or_else(|| variable.output(self.outputs()?))
+    }
+
+    /// Whether inputs or parameters that the host has set are not allowed: then the outputs are the last good ones.
+    #[must_use]
+    pub fn is_refused(&self) -> bool {
+        !self.fmu_state.refused.is_empty() || matches!(self.fmu_state.search, Search::Refused(_))
     }
 
     /// Why no equilibrium was found, if the last step or the first solve failed for that; without what a host can do.
@@ -263,26 +163,7 @@ impl Instance {
     pub fn recover(&mut self) {
         if self.state() == State::Failed && self.outputs().is_some() {
             self.fmu_state.state = State::Stepping;
-        }
-    }
-
-    /// Follows the equilibrium while the inputs move along their path for `duration` (s).
-    fn follow_inputs(&mut self, duration: f64) -> Ending {
-        let FmuState { host_values, input_derivatives, search, .. } = &self.fmu_state;
-        let path = host_values.inputs().and_then(|start| {
-            let (mut waypoints, end) = input_derivatives.path(self.package.table(), host_values, duration)?;
-            if *search != Search::Found {
-                waypoints.insert(0, start);
-            }
-            Ok((waypoints, end))
-        });
-        match path.and_then(|(waypoints, end)| Ok((self.solve(&waypoints)?, end))) {
-            Ok((Ending::Ok, end)) => {
-                self.fmu_state.host_values = end;
-                Ending::Ok
-            }
-            Ok((failed, _)) => failed,
-            Err(error) => self.refuse(&error.to_string()),
+            self.fmu_state.search = Search::Open;
         }
     }
 
@@ -292,8 +173,12 @@ impl Instance {
     /// # Errors
     /// As [`Self::ensure_solved`].
     pub(super) fn solve_if_live(&mut self) -> Result<(), Ending> {
-        let live = [State::Initialization, State::Stepping, State::Event, State::ContinuousTime];
-        if live.contains(&self.state()) { self.ensure_solved() } else { Ok(()) }
+        if self.is_live() { self.ensure_solved() } else { Ok(()) }
+    }
+
+    /// Whether outputs are those of the inputs now set, and not those of the last communication point.
+    pub(super) fn is_live(&self) -> bool {
+        matches!(self.state(), State::Initialization | State::Stepping | State::Event | State::ContinuousTime)
     }
 
     /// Solves the equilibrium for the inputs now set, unless that is done already.
@@ -301,48 +186,102 @@ impl Instance {
     /// # Errors
     /// [`Ending::Discard`] or [`Ending::Error`], explained in the log, if there is none.
     pub(super) fn ensure_solved(&mut self) -> Result<(), Ending> {
-        let ending = match self.fmu_state.search {
-            Search::Found => Ending::Ok,
-            Search::InVain => Ending::Discard, // the log has told why
-            Search::Open => {
-                self.solve_at_host_values().unwrap_or_else(|error| self.refuse(&error.to_string()))
-            }
-        };
-        if ending == Ending::Ok { Ok(()) } else { Err(ending) }
+        match self.seek() {
+            Sought::Found => Ok(()),
+            Sought::InVain => Err(self.tell_of_failed_trial()),
+            Sought::Refused(reason) => Err(self.refuse(&reason)),
+        }
     }
 
-    fn solve_at_host_values(&mut self) -> Result<Ending, Error> {
+    /// Seeks the equilibrium for the inputs now set, unless what comes of that is known already.
+    pub(super) fn seek(&mut self) -> Sought {
+        if let Some(reason) = self.refused_values() {
+            return Sought::Refused(reason);
+        }
+        match &self.fmu_state.search {
+            Search::Found => Sought::Found,
+            Search::InVain => Sought::InVain,
+            Search::Refused(reason) => Sought::Refused(reason.clone()),
+            Search::Open => {
+                let waypoints = self.inputs_now().map(|inputs| vec![inputs]);
+                self.sought(waypoints)
+            }
+        }
+    }
+
+    /// Seeks the equilibrium along these waypoints, and notes it where they, or the parameters, are not allowed.
+    pub(super) fn sought(&mut self, waypoints: Result<Vec<Inputs>, Error>) -> Sought {
+        let solved = waypoints.and_then(|waypoints| self.solve(&waypoints));
+        solved.unwrap_or_else(|error| {
+            let reason = error.to_string();
+            self.fmu_state.search = Search::Refused(reason.clone());
+            Sought::Refused(reason)
+        })
+    }
+
+    /// Which values the host wanted to set and that were not taken, if there are any.
+    fn refused_values(&self) -> Option<String> {
+        let found =
+            self.fmu_state.refused.iter().filter_map(|&reference| self.package.table().find(reference));
+        let names: Vec<&str> = found.map(|variable| variable.name.as_str()).collect();
+        let [first, others @ ..] = &names[..] else { return None };
+        let others = if others.is_empty() { String::new() } else { format!(" and {} others", others.len()) };
+        Some(format!(
+            "the last value of {first}{others} was refused: nothing is solved until an allowed one is set"
+        ))
+    }
+
+    fn inputs_now(&mut self) -> Result<Inputs, Error> {
         let values = &self.fmu_state.host_values;
         let inputs = values.inputs()?;
-        if values.has_unconnected() && !self.told_of_unconnected {
-            self.log.notice("an orientation of four zeros counts as not connected: its start value holds");
-            self.told_of_unconnected = true;
+        if values.has_unconnected() && !self.told.unconnected {
+            self.log.notice(
+                "an orientation whose norm is below 0.001, as that of four zeros, counts as not connected: its start value holds",
+            );
+            self.told.unconnected = true;
         }
-        self.solve(&[inputs])
+        if let Some((name, norm)) = values.off_unit_norm().filter(|_| !self.told.norm) {
+            self.log.notice(&format!("{name} has the norm {norm:.4}: orientations are normalised"));
+            self.told.norm = true;
+        }
+        Ok(inputs)
     }
 
     /// Follows the equilibrium along a path of inputs, given by its waypoints.
-    fn solve(&mut self, waypoints: &[Inputs]) -> Result<Ending, Error> {
+    ///
+    /// # Errors
+    /// Those of the parameters and of the inputs, which are then not allowed; the last good equilibrium stays.
+    fn solve(&mut self, waypoints: &[Inputs]) -> Result<Sought, Error> {
         let now = &mut self.fmu_state;
-        let counts = self.package.table().counts();
         let mut manipulator = if let Some(manipulator) = now.manipulator.take() {
             manipulator
         } else {
-            let values = &now.host_values;
-            let made = values.manipulator(counts.shape_points);
-            made.map_err(|error| self.package.table().named(error, values))?
+            let made = now.host_values.manipulator(self.package.table().counts().shape_points);
+            made.map_err(|error| self.package.table().named(error, &now.host_values))?
         };
-        if now.state == State::Initialization {
+        let first = now.state == State::Initialization;
+        let before = first.then(|| manipulator.clone());
+        if first {
             manipulator.reset(); // the first equilibrium must not depend on what was read before
         } else if let Some(accepted) = &now.accepted {
             manipulator.clone_from(accepted);
         }
+
         now.jacobian = None;
-        let manipulator = now.manipulator.insert(manipulator);
+        let followed = self.follow(&mut manipulator, waypoints);
+        let kept = before.filter(|_| followed.is_err()).unwrap_or(manipulator);
+        self.fmu_state.manipulator = Some(kept);
+        followed
+    }
+
+    fn follow(&mut self, manipulator: &mut Manipulator, waypoints: &[Inputs]) -> Result<Sought, Error> {
+        let now = &self.fmu_state;
+        let counts = self.package.table().counts();
         let settings = &now.host_values.settings;
-        manipulator.set_tolerances(settings.tolerance_position, settings.tolerance_angle)?;
+        manipulator.set_tolerance(TipTolerance::of(settings))?;
         let friction = manipulator.set_friction(now.host_values.friction);
         friction.map_err(|error| self.package.table().named(error, &now.host_values))?;
+
         let snaps = manipulator.outputs().snaps;
         let outputs = manipulator.follow(waypoints, now.snaps)?;
         let lengths = [outputs.rings.len(), outputs.core_angles.len(), outputs.shape.len()];
@@ -352,48 +291,48 @@ impl Instance {
                 lengths[0], lengths[1], lengths[2]
             )));
         }
-        let (was_near_fold, time, margin) = (now.near_fold, now.time, outputs.stability_margin);
-        let (status, outcome, snapped) = (outputs.status, outputs.outcome, outputs.snaps > snaps);
-        if status == Status::NotSolved {
-            if now.state == State::Stepping {
-                now.state = State::Failed;
-            }
-            let reason = format!("after t = {time}: {}", why_not_solved(manipulator));
-            if matches!(now.state, State::Event | State::ContinuousTime) {
-                now.search = Search::InVain;
-                self.log.discard(&format!("{reason}; try inputs closer to those of the last accepted step"));
-                return Ok(Ending::Discard);
-            }
-            let reason = format!("{reason}; {}", advice(manipulator));
-            return Ok(self.refuse(&reason));
+        if outputs.status == Status::NotSolved {
+            self.fmu_state.search = Search::InVain;
+            return Ok(Sought::InVain);
         }
+        self.note(outputs, outputs.snaps > snaps);
+        Ok(Sought::Found)
+    }
+
+    /// Notes that an equilibrium was found, and tells what a user should know about it.
+    fn note(&mut self, outputs: &Outputs, snapped: bool) {
+        let now = &mut self.fmu_state;
+        let (time, margin, near_fold) =
+            (now.time, outputs.stability_margin, outputs.status == Status::NearFold);
+        let was_near_fold = std::mem::replace(&mut now.near_fold, near_fold);
         now.search = Search::Found;
         now.solved_ahead = true;
-        now.near_fold = status == Status::NearFold;
+
         if snapped {
-            self.log.notice(&format!("snapped to another branch after t = {time}"));
-        } else if outcome == Outcome::Neutral && !was_near_fold {
-            self.log.notice(&format!("after t = {time}: {outcome}"));
-        } else if status == Status::NearFold && !was_near_fold {
-            self.log.notice(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
+            self.log.notice_once(&format!("snapped to another branch after t = {time}"));
+        } else if outputs.outcome == Outcome::Neutral && !was_near_fold {
+            self.log.notice_once(&format!("after t = {time}: {}", outputs.outcome));
+        } else if near_fold && !was_near_fold {
+            self.log.notice_once(&format!("near a fold after t = {time}: stability margin {margin:.3}"));
         }
-        Ok(Ending::Ok)
     }
-}
 
-/// What a host can do where no equilibrium was found.
-fn advice(manipulator: &Manipulator) -> &'static str {
-    if manipulator.has_shape() {
-        "the last good outputs can be read, reset or restore a state"
-    } else {
-        "there are no outputs, reset and start elsewhere"
+    /// Tells why a step, or the first solve, found no equilibrium.
+    pub(super) fn tell_of_failed_step(&self) -> Ending {
+        let Some(manipulator) = &self.fmu_state.manipulator else { return Ending::Error };
+        let (time, why, advice) = (self.fmu_state.time, why_not_solved(manipulator), advice(manipulator));
+        self.refuse(&format!("after t = {time}: {why}; {advice}"))
     }
-}
 
-/// Why no equilibrium was found.
-fn why_not_solved(manipulator: &Manipulator) -> String {
-    let (outcome, percent) = (manipulator.outputs().outcome, 100.0 * manipulator.outputs().progress);
-    let inputs = if manipulator.has_shape() { "" } else { " for the first inputs" };
-    let from = if manipulator.has_shape() { "" } else { " from the unloaded shape" };
-    format!("no equilibrium found{inputs}, {percent:.0} % of the way{from}: {outcome}")
+    /// Tells why there is no equilibrium for inputs that a host tries between steps.
+    pub(super) fn tell_of_failed_trial(&self) -> Ending {
+        let Some(manipulator) = &self.fmu_state.manipulator else { return Ending::Error };
+        let reason = format!("after t = {}: {}", self.fmu_state.time, why_not_solved(manipulator));
+        if matches!(self.state(), State::Event | State::ContinuousTime) {
+            let advice = "try inputs closer to those of the last accepted step";
+            self.log.discard_once(&format!("{reason}; {advice}"));
+            return Ending::Discard;
+        }
+        self.refuse(&format!("{reason}; set other inputs"))
+    }
 }

@@ -48,6 +48,14 @@ pub fn paths(location: &str) -> Result<Vec<PathBuf>, Error> {
     Ok(paths)
 }
 
+/// The name of another host than this one in a `file://host/path`: what stands there where a relative path was put behind `file://`.
+#[must_use]
+pub fn named_host(location: &str) -> Option<&str> {
+    let (scheme, rest) = location.trim().split_at_checked("file://".len())?;
+    let (host, _) = rest.split_once('/').unwrap_or((rest, ""));
+    (scheme.eq_ignore_ascii_case("file://") && !host.is_empty() && host != "localhost").then_some(host)
+}
+
 /// The path without a slash at its end and without one before a drive letter.
 fn trimmed(path: &str) -> PathBuf {
     let path = if path.len() > 1 { path.trim_end_matches('/') } else { path };

@@ -1,6 +1,6 @@
 //! Messages to the host, by log category.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 use super::state::Ending;
 
@@ -38,7 +38,8 @@ impl Category {
         match self {
             Self::Events => "What was instantiated and initialised",
             Self::Warning => {
-                "Near a fold, snapped to another branch, unexpected communication point, unused derivatives"
+                "Near a fold, snapped to another branch, unexpected communication point, unused derivatives, numbers that look like \
+                 those of another unit"
             }
             Self::Error => "Refused calls, equilibria that were not found",
             Self::All => "All messages",
@@ -56,6 +57,13 @@ pub type Sink = Box<dyn Fn(Ending, Category, &str) + Send>;
 /// How often the same message may be repeated without another one in between.
 const REPETITIONS: u32 = 10;
 
+/// What is told of once a step.
+#[derive(Debug, Clone, Copy)]
+enum Told {
+    Notice,
+    Discard,
+}
+
 /// The log of an instance.
 ///
 /// The standard demands that the logger is called whenever a call fails (section 2.1.3). Errors and notices are therefore
@@ -64,13 +72,16 @@ pub struct Log {
     sink: Sink,
     on: [bool; 3],
     last: RefCell<(String, u32)>,
+    /// Whether a notice, and a discarded call, were told of since the last step: a host that tries many inputs between two steps must
+    /// not fill its log.
+    told: Cell<[bool; 2]>,
 }
 
 impl Log {
     /// A log that passes its messages to `sink`; `events` says whether events are switched on.
     #[must_use]
     pub fn new(sink: Sink, events: bool) -> Self {
-        Self { sink, on: [events, true, true], last: RefCell::default() }
+        Self { sink, on: [events, true, true], last: RefCell::default(), told: Cell::default() }
     }
 
     /// Logs an event.
@@ -86,19 +97,37 @@ impl Log {
         self.tell(Ending::Ok, Category::Warning, message);
     }
 
+    /// Logs what a user should know about a shape, if nothing of the kind was logged since the last step.
+    pub fn notice_once(&self, message: &str) {
+        if !self.once(Told::Notice) {
+            self.notice(message);
+        }
+    }
+
     /// Logs why a call failed.
     pub fn error(&self, message: &str) {
         self.tell(Ending::Error, Category::Error, message);
     }
 
-    /// Logs why a call was not answered, after which the host can try another one.
-    pub fn discard(&self, message: &str) {
-        self.tell(Ending::Discard, Category::Error, message);
+    /// Logs why a call was not answered, after which the host can try another one, if that was not done since the last step.
+    pub fn discard_once(&self, message: &str) {
+        if !self.once(Told::Discard) {
+            self.tell(Ending::Discard, Category::Error, message);
+        }
     }
 
-    /// Forgets which message came last, after a step that succeeded: it may be repeated again.
-    pub fn forget_repetitions(&self) {
+    /// Whether this was told of since the last step; from now on it was.
+    fn once(&self, what: Told) -> bool {
+        let mut told = self.told.get();
+        let before = std::mem::replace(&mut told[what as usize], true);
+        self.told.set(told);
+        before
+    }
+
+    /// Forgets what was told, after a step that succeeded: it may be repeated again.
+    pub fn step_done(&self) {
         *self.last.borrow_mut() = Default::default();
+        self.told.set(Default::default());
     }
 
     /// Passes a message on, unless it was repeated too often: a host that repeats a refused call for ever must not fill its

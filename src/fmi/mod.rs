@@ -22,6 +22,8 @@ pub mod state; // the states of the calling sequence: which call is allowed when
 
 pub mod input_derivatives; // the path of the inputs during a communication step
 
+pub mod search_report; // what the search for an equilibrium has come to
+
 mod fmu_state; // everything about an instance that changes
 
 mod serialise; // an FMU state as bytes
@@ -40,7 +42,13 @@ pub mod package; // what an archive carries besides the library
 
 pub mod location; // the directory of the unpacked resources
 
-pub mod instance; // one instance: its life from instantiation to termination
+mod advice; // what a host is told where no equilibrium was found
+
+pub mod instance; // one instance, and the search for its equilibrium
+
+mod lifecycle; // its calls from set-up to termination
+
+mod co_simulation; // its communication steps
 
 mod model_exchange; // its modes and accepted steps in model exchange
 
@@ -50,6 +58,7 @@ mod saved_states; // its saved FMU states
 
 mod derivatives; // its derivatives with respect to time and inputs
 mod directional_derivatives; // between variables and the Jacobian
+mod neighbours; // as differences of neighbouring devices
 
 pub mod guard; // no panic crosses the C boundary
 

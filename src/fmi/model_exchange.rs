@@ -72,6 +72,6 @@ impl Instance {
         let now = &mut self.fmu_state;
         now.snaps = now.manipulator.as_ref().map_or(0, |manipulator| manipulator.outputs().snaps);
         now.accepted.clone_from(&now.manipulator);
-        self.log.forget_repetitions();
+        self.log.step_done();
     }
 }

@@ -42,6 +42,7 @@ pub struct Package {
     scene: String,
     table: Table,
     start: HostValues,
+    warnings: Vec<String>,
 }
 
 /// The second resource file. It fixes the number of centreline points, and shows whether the scene was altered.
@@ -74,7 +75,8 @@ impl Package {
         let mesh = start.vessel.as_ref().filter(|vessel| vessel.lumen.grid().is_some());
         let mesh = mesh.map(|vessel| format!("{:08x}", vessel.lumen.checksum()));
         let texts = [unnamed.as_str(), scene.as_str()].into_iter().chain(mesh.as_deref());
-        Ok(Self { guid: guid(texts), scene, table, start })
+        let guid = guid(texts);
+        Ok(Self { guid, scene, table, start, warnings: file.warnings()? })
     }
 
     /// The package of the default design, which is built into the library.
@@ -141,6 +143,12 @@ impl Package {
         &self.start
     }
 
+    /// What is odd about the scene, as [`SceneFile::warnings`].
+    #[must_use]
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
+    }
+
     /// The text of `modelDescription.xml`; `generated` is the date and time of generation in UTC, if it shall be stated.
     ///
     /// # Errors
@@ -177,4 +185,42 @@ impl Package {
         }
         Ok(files)
     }
+}
+
+/// The package that a host wants to instantiate.
+///
+/// It is read from the first of the directories `resources` that holds one; if none does, it is the built-in default
+/// design.
+///
+/// # Errors
+/// [`Error::Syntax`] for resources that were altered, and for a GUID that is not that of the package; it says which directories were
+/// sought in vain.
+pub fn identify(guid: &str, resources: &[PathBuf]) -> Result<Package, Error> {
+    let mut found = None;
+    for path in resources {
+        found = Package::read(path)?;
+        if found.is_some() {
+            break;
+        }
+    }
+    let from = if found.is_some() { "the resources".to_owned() } else { sought_in_vain(resources) };
+    let package = found.map_or_else(Package::built_in, Ok)?;
+    if package.guid() == guid.trim() {
+        Ok(package)
+    } else {
+        Err(Error::Syntax {
+            what: format!("GUID {guid}"),
+            reason: format!("it is not {}, that of {from}", package.guid()),
+        })
+    }
+}
+
+/// The built-in design in words, and why it is the one: where resources were sought in vain.
+fn sought_in_vain(resources: &[PathBuf]) -> String {
+    let why = match resources.first() {
+        None => "the host gave no location".to_owned(),
+        Some(folder) if folder.is_dir() => format!("there is no {SCENE_FILE} in {}", folder.display()),
+        Some(folder) => format!("{} is no folder", folder.display()),
+    };
+    format!("the built-in default design (no resources found: {why})")
 }

@@ -4,6 +4,8 @@
 //! a `postcard` record that begins with the version and the GUID. What follows from the package is left out: inputs and
 //! parameters are listed in the order of the table, and the manipulator is built anew and restored from its [`Snapshot`].
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use super::fmu_state::{FmuState, Search};
@@ -18,7 +20,7 @@ use crate::manipulator::{Manipulator, Snapshot};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// Number of the format; must be raised with every change of [`Record`] or of the types in it.
-const FORMAT: u32 = 14;
+const FORMAT: u32 = 15;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
@@ -34,6 +36,7 @@ struct Record {
     manipulator: Option<Snapshot>,
     accepted: Option<Snapshot>,
     search: Search,
+    refused: BTreeSet<u32>,
     solved_ahead: bool,
     near_fold: bool,
     snaps: u32,
@@ -44,11 +47,13 @@ fn refused(reason: impl Into<String>) -> Error {
     Error::Syntax { what: "serialised FMU state".into(), reason: reason.into() }
 }
 
+fn is_settable(variable: &Variable) -> bool {
+    matches!(variable.causality, Causality::Input | Causality::Parameter)
+}
+
 /// The inputs and parameters.
 fn settable(package: &Package) -> impl Iterator<Item = &Variable> {
-    let settable =
-        |variable: &&Variable| matches!(variable.causality, Causality::Input | Causality::Parameter);
-    package.table().variables().iter().filter(settable)
+    package.table().variables().iter().filter(|variable| is_settable(variable))
 }
 
 /// The bytes of an FMU state.
@@ -63,7 +68,8 @@ pub(super) fn to_bytes(fmu_state: &FmuState, package: &Package) -> Result<Vec<u8
         input_derivatives: fmu_state.input_derivatives.clone(),
         manipulator: fmu_state.manipulator.as_ref().map(Manipulator::snapshot),
         accepted: fmu_state.accepted.as_ref().map(Manipulator::snapshot),
-        search: fmu_state.search,
+        search: fmu_state.search.clone(),
+        refused: fmu_state.refused.clone(),
         solved_ahead: fmu_state.solved_ahead,
         near_fold: fmu_state.near_fold,
         snaps: fmu_state.snaps,
@@ -138,13 +144,18 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         && record.input_derivatives.nonzero().all(of_input)
         && record.time.is_finite()
         && record.state != State::Broken
-        && (record.manipulator.is_some() || record.search == Search::Open)
+        && record.refused.iter().all(|&reference| package.table().find(reference).is_some_and(is_settable))
+        && (record.manipulator.is_some() || matches!(record.search, Search::Open | Search::Refused(_)))
         && (record.accepted.is_some() || record.state.interface() != Some(Interface::ModelExchange));
     if !sound {
         return Err(refused("its values do not fit the variables"));
     }
     if let Some(snapshot) = &record.manipulator {
-        let mut manipulator = fmu_state.host_values.manipulator(package.table().counts().shape_points)?;
+        let values = &fmu_state.host_values;
+        let built = values.with_tunables_of(package.start());
+        let mut manipulator = built.manipulator(package.table().counts().shape_points)?;
+        // What is refused of them stands in the state, and counts in no solve.
+        let _ = manipulator.set_friction(values.friction);
         if let Some(snapshot) = &record.accepted {
             let mut accepted = manipulator.clone();
             accepted.restore(snapshot)?;
@@ -153,6 +164,17 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         manipulator.restore(snapshot)?;
         fmu_state.manipulator = Some(manipulator);
     }
-    let Record { state, input_derivatives, search, solved_ahead, near_fold, snaps, time, .. } = record;
-    Ok(FmuState { state, input_derivatives, search, solved_ahead, near_fold, snaps, time, ..fmu_state })
+    let Record { state, input_derivatives, search, refused, solved_ahead, near_fold, snaps, time, .. } =
+        record;
+    Ok(FmuState {
+        state,
+        input_derivatives,
+        search,
+        refused,
+        solved_ahead,
+        near_fold,
+        snaps,
+        time,
+        ..fmu_state
+    })
 }

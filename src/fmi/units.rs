@@ -1,5 +1,7 @@
 //! Units, and the quantities that are measured in them.
 
+use crate::error::Interval;
+
 /// A unit, expressed in SI base units, with a unit for display.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
@@ -67,7 +69,17 @@ const fn quantity(
     Quantity { name, unit, description, nominal, elements: &[] }
 }
 
+/// Largest size of a number that a host can set, in parts of the usual size of its quantity. Beyond it nothing physical is meant, and
+/// powers of it overflow.
+const LARGEST: f64 = 1e9;
+
 impl Quantity {
+    /// The numbers that a host can set.
+    #[must_use]
+    pub const fn range(&self) -> Interval {
+        Interval::within(LARGEST * self.nominal)
+    }
+
     /// The same, where arrays of it have these elements.
     const fn with(self, elements: &'static [&'static str]) -> Self {
         Self { elements, ..self }

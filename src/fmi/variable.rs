@@ -3,6 +3,7 @@
 use super::dependency::{Dependency, DependencyKind, Known};
 use super::derivative_role::DerivativeRole;
 use super::host_values::HostValues;
+use super::search_report::SearchReport;
 use super::value::{DataType, Value};
 use crate::error::Error;
 use crate::manipulator::Outputs;
@@ -14,9 +15,10 @@ pub enum Causality {
     Input,
     /// Set by the host; when, its variability says.
     Parameter,
-    /// Computed from inputs and parameters.
+    /// Computed from inputs and parameters, and connected to other models: a Real that has derivatives.
     Output,
-    /// Neither set by the host nor computed: a fact about the packed design.
+    /// Read by the host alone: a fact about the packed design, or a result that has no derivatives. Some hosts read every output
+    /// as a Real, or ask for its derivatives.
     Local,
 }
 
@@ -35,7 +37,7 @@ pub enum Variability {
     Continuous,
 }
 
-/// When an output has a value.
+/// When a result has a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Availability {
     /// Always: it describes the search for an equilibrium, also one that found none.
@@ -88,12 +90,16 @@ pub enum Access {
         /// Sets it; a number that is no item has no effect.
         set: fn(&mut HostValues, i32),
     },
-    /// A Real output.
+    /// A Real that is read from the last shape.
     RealOutput(fn(&Outputs, Index) -> f64),
-    /// An Integer or Enumeration output.
+    /// An Integer or Enumeration that is read from the last shape.
     IntegerOutput(fn(&Outputs) -> i32),
-    /// A Boolean output.
+    /// A Boolean that is read from the last shape.
     BooleanOutput(fn(&Outputs) -> bool),
+    /// A Real that describes the search for an equilibrium.
+    RealOfSearch(fn(&SearchReport) -> f64),
+    /// An Integer that describes the search for an equilibrium.
+    IntegerOfSearch(fn(&SearchReport) -> i32),
     /// A constant.
     Constant(Value),
 }
@@ -121,11 +127,11 @@ pub struct Variable {
     pub access: Access,
     /// What an input or parameter acts on; without meaning for other variables.
     pub known: Known,
-    /// How an output depends on inputs and parameters; without meaning for other variables.
+    /// How a result depends on inputs and parameters; without meaning for other variables.
     pub dependency: Dependency,
     /// How it takes part in derivatives.
     pub derivative_role: DerivativeRole,
-    /// When an output has a value; without meaning for other variables.
+    /// When a result has a value; without meaning for other variables.
     pub availability: Availability,
 }
 
@@ -138,11 +144,22 @@ impl Variable {
             (Causality::Parameter, Variability::Tunable) => "tunable parameter",
             (Causality::Parameter, _) => "fixed parameter",
             (Causality::Output, _) => "output",
-            (Causality::Local, _) => "constant",
+            (Causality::Local, Variability::Constant) => "constant",
+            (Causality::Local, _) => "local result",
         }
     }
 
-    /// The value of an input, parameter or constant; `None` for an output.
+    /// Whether it is computed: neither set by the host nor a constant.
+    #[must_use]
+    pub fn is_result(&self) -> bool {
+        match self.causality {
+            Causality::Input | Causality::Parameter => false,
+            Causality::Output => true,
+            Causality::Local => self.variability != Variability::Constant,
+        }
+    }
+
+    /// The value of an input, parameter or constant; `None` for a result.
     #[must_use]
     pub fn host_value(&self, values: &HostValues) -> Option<Value> {
         match self.access {
@@ -150,11 +167,25 @@ impl Variable {
             Access::Boolean { get, .. } => Some(Value::Boolean(get(values))),
             Access::Enumeration { get, .. } => Some(Value::Integer(get(values))),
             Access::Constant(value) => Some(value),
-            Access::RealOutput(_) | Access::IntegerOutput(_) | Access::BooleanOutput(_) => None,
+            Access::RealOutput(_)
+            | Access::IntegerOutput(_)
+            | Access::BooleanOutput(_)
+            | Access::RealOfSearch(_)
+            | Access::IntegerOfSearch(_) => None,
         }
     }
 
-    /// The value of an output; `None` for other variables.
+    /// The value of a result that describes the search for an equilibrium; `None` for other variables.
+    #[must_use]
+    pub fn of_search(&self, report: &SearchReport) -> Option<Value> {
+        match self.access {
+            Access::RealOfSearch(get) => Some(Value::Real(get(report))),
+            Access::IntegerOfSearch(get) => Some(Value::Integer(get(report))),
+            _ => None,
+        }
+    }
+
+    /// The value of a result that is read from a shape; `None` for other variables.
     #[must_use]
     pub fn output(&self, outputs: &Outputs) -> Option<Value> {
         match self.access {
@@ -164,16 +195,18 @@ impl Variable {
             Access::Real { .. }
             | Access::Boolean { .. }
             | Access::Enumeration { .. }
+            | Access::RealOfSearch(_)
+            | Access::IntegerOfSearch(_)
             | Access::Constant(_) => None,
         }
     }
 
-    /// Checks that the variable can take this value: that it is of its type, and a finite number or one of its items.
+    /// Checks that the variable can take this value: that it is of its type, and a finite number of a possible size or one of its items.
     ///
-    /// Bounds are not checked here but where the value is used, since some hold only for a combination of parameters.
+    /// Closer bounds are not checked here but where the value is used, since some hold only for a combination of parameters.
     ///
     /// # Errors
-    /// [`Error::Range`] for a number that is not finite; [`Error::Unsupported`] for a value of another type and for a
+    /// [`Error::Range`] for a number that is not finite or too large; [`Error::Unsupported`] for a value of another type and for a
     /// number that is no item.
     pub fn check(&self, value: Value) -> Result<(), Error> {
         let name = &self.name;
@@ -181,11 +214,13 @@ impl Variable {
             (DataType::Real(_), Value::Real(number)) if !number.is_finite() => {
                 Err(Error::range(name, number, "finite"))
             }
+            (DataType::Real(quantity), Value::Real(number)) => {
+                quantity.range().check(name, number).map(|_| ())
+            }
             (DataType::Enumeration(enumeration), Value::Integer(number)) if !enumeration.has_item(number) => {
                 Err(Error::Unsupported(format!("{name} has no item {number}")))
             }
-            (DataType::Real(_), Value::Real(_))
-            | (DataType::Integer | DataType::Enumeration(_), Value::Integer(_))
+            (DataType::Integer | DataType::Enumeration(_), Value::Integer(_))
             | (DataType::Boolean, Value::Boolean(_)) => Ok(()),
             _ => Err(Error::Unsupported(format!("{name} is not of type {}", value.type_name()))),
         }

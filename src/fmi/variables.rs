@@ -19,6 +19,7 @@ use super::host_values::HostValues;
 use super::value::Value;
 use super::variable::{Causality, Variable};
 use crate::design::SpanKind;
+use crate::design::unit_mistake::UnitRule;
 use crate::error::Error;
 use rows::Rows;
 
@@ -136,9 +137,26 @@ impl Table {
             found.retain(|variable| alike(&variable.name));
         }
         match found[..] {
-            [only] => Error::range(format!("{} ({quantity})", only.name), *value, allowed),
+            [only] => {
+                let guess = UnitRule::of(&only.name).and_then(|rule| rule.guess(*value, 1.0));
+                let guess = guess.map_or_else(String::new, |guess| format!("; {guess}"));
+                Error::range(format!("{} ({quantity})", only.name), *value, format!("{allowed}{guess}"))
+            }
             _ => error,
         }
+    }
+
+    /// Parameters that are allowed, but look as if they were given in another unit, each in a sentence that begins with its name; but for
+    /// those that are as in `start`.
+    #[must_use]
+    pub fn warnings(&self, values: &HostValues, start: &HostValues) -> Vec<String> {
+        let parameters = self.variables.iter().filter(|variable| variable.causality == Causality::Parameter);
+        let odd = |variable: &Variable| {
+            let own = variable.host_value(values).filter(|own| variable.host_value(start) != Some(*own));
+            let mistake = UnitRule::of(&variable.name)?.mistake(&variable.name, own?.real()?, 1.0)?;
+            Some(mistake.to_string())
+        };
+        parameters.filter_map(odd).collect()
     }
 
     /// The value reference of the variable with this name.

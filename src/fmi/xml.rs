@@ -203,8 +203,10 @@ fn variability(variable: &Variable) -> &'static str {
 fn initial(variable: &Variable) -> Option<&'static str> {
     match variable.causality {
         Causality::Input => None,
-        Causality::Parameter | Causality::Local => Some("exact"),
-        Causality::Output => Some("calculated"),
+        Causality::Parameter => Some("exact"),
+        Causality::Output | Causality::Local => {
+            Some(if variable.is_result() { "calculated" } else { "exact" })
+        }
     }
 }
 

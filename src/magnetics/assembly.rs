@@ -175,7 +175,7 @@ impl Assembly {
         }
         let mut sum = Vector3::zeros();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
-            sum += source.field(&(point - centre))?;
+            sum += source.field(&(point - centre)).map_err(|error| error.at((*point).into()))?;
         }
         Ok(sum)
     }
@@ -190,7 +190,8 @@ impl Assembly {
         }
         let mut sum = (Vector3::zeros(), Matrix3::zeros());
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
-            let (field, gradient) = source.field_gradient(&(point - centre))?;
+            let (field, gradient) =
+                source.field_gradient(&(point - centre)).map_err(|error| error.at((*point).into()))?;
             sum.0 += field;
             sum.1 += gradient;
         }
@@ -207,7 +208,8 @@ impl Assembly {
         point: &Vector3<f64>,
     ) -> Result<(Vector3<f64>, Matrix3<f64>), Error> {
         let turn = pose.rotation;
-        let (field, gradient) = self.field_gradient(&turn.tr_mul(&(point - pose.position)))?;
+        let local = turn.tr_mul(&(point - pose.position));
+        let (field, gradient) = self.field_gradient(&local).map_err(|error| error.at((*point).into()))?;
         Ok((turn * field, turn * gradient * turn.transpose()))
     }
 
@@ -221,7 +223,7 @@ impl Assembly {
         }
         let mut sum = Jet::zero();
         for (source, centre) in self.placed(core::slice::from_ref(point)) {
-            sum += source.jet(&(point - centre))?;
+            sum += source.jet(&(point - centre)).map_err(|error| error.at((*point).into()))?;
         }
         Ok(sum)
     }

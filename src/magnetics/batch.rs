@@ -154,7 +154,8 @@ impl AxialSource {
         for (lane, (number, at)) in numbers.iter().zip(at).enumerate().take(count) {
             if !together {
                 let point = points[*number] - Vector3::new(0.0, 0.0, height);
-                let (at, components) = self.components::<ORDER>(&point)?;
+                let found = self.components::<ORDER>(&point);
+                let (at, components) = found.map_err(|error| error.at(points[*number].into()))?;
                 put(*number, &at, &components);
                 continue;
             }

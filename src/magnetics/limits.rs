@@ -11,8 +11,9 @@ pub const MAGNET_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("the
 /// Distance of a cylinder's centre from its magnet's along the axis, m.
 pub const MAGNET_OFFSET: Interval = Interval::within(1e3);
 
-/// Remanence of a magnet, T; negative: against its axis.
-pub const MAGNET_REMANENCE: Interval = Interval::within(1e3);
+/// Remanence of a magnet, T; negative: against its axis. No magnet has more than 2 T, but scenes use it as a factor on the field of one
+/// that stands for a stronger one; what is above 20 T is given in another unit.
+pub const MAGNET_REMANENCE: Interval = Interval::within(20.0);
 
 /// Inner radius of a winding, m.
 pub const COIL_INNER_RADIUS: Interval = Interval::above(0.0).less_than("the outer radius");

@@ -40,14 +40,14 @@ pub struct Fold {
 ///
 /// ```
 /// use mcm::manipulator::{Branch, Inputs, Scene};
-/// // The rings' and the helix' attraction pulls one segment shut at 35.86 mT.
+/// // The rings' and the helix' attraction pulls one segment shut at 35.82 mT.
 /// let scene = Scene::parse("[design]\nsegments = 1\n[model]\ninteraction = \"full\"", "doc")?;
 /// let field = |b: f64| Ok(Inputs { uniform_field: [0.0, b, 0.0].into(), ..Inputs::unloaded(2) });
 /// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04, 0.001)?;
 /// branch.to(0.0)?;
 /// branch.to(0.04)?;
 /// assert_eq!(branch.folds().len(), 1);
-/// assert!((branch.folds()[0].value - 35.86e-3).abs() < 1e-4);
+/// assert!((branch.folds()[0].value - 35.82e-3).abs() < 1e-4);
 /// # Ok::<(), mcm::error::Error>(())
 /// ```
 #[derive(Debug, Clone)]

@@ -42,6 +42,7 @@ impl Compared {
             degree: model.degree,
             method: comparison.settings().method,
             error_estimate: 0.0,
+            beyond_tolerance: false,
         }
     }
 }

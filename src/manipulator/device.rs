@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 use super::hierarchy::{self, Hierarchy};
 use super::measured_margin::MeasuredMargin;
 use super::outputs::Resolution;
+use super::tolerance::TipTolerance;
+use super::way::Way;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Report, Settings, TipDeviation};
+use crate::equilibrium::{Equilibrium, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Sources;
 use crate::methods::Method;
@@ -39,6 +41,8 @@ pub struct Manipulator {
     outputs: Outputs,
     /// Whether the outputs belong to a solved shape.
     has_shape: bool,
+    /// What is solved before the first inputs.
+    way: Way,
 }
 
 /// Serializable state of a manipulator.
@@ -64,7 +68,7 @@ impl Manipulator {
     ) -> Result<Self, Error> {
         let hierarchy = Hierarchy::new(design, sources.into(), settings, shape_points)?;
         let outputs = Outputs::straight(hierarchy.present(), resolution(&hierarchy));
-        Ok(Self { hierarchy, measured: None, outputs, has_shape: false })
+        Ok(Self { hierarchy, measured: None, outputs, has_shape: false, way: Way::default() })
     }
 
     /// The same manipulator, unsolved, in a vessel.
@@ -75,7 +79,16 @@ impl Manipulator {
         self
     }
 
-    /// Follows the equilibrium branch from the last inputs to `inputs`; the first call starts from the unloaded shape.
+    /// The same manipulator, unsolved, which comes to its first inputs on this way, also after a reset.
+    #[must_use]
+    pub fn on_way(mut self, way: Way) -> Self {
+        self.way = way;
+        self.reset();
+        self
+    }
+
+    /// Follows the equilibrium branch from the last inputs to `inputs`; the first call starts from the unloaded shape, and comes to
+    /// `inputs` on the manipulator's way, if it has one. Jumps to another branch on that way are not counted.
     ///
     /// A failed solve is not an error: it reports [`Status::NotSolved`] and keeps the last good outputs.
     ///
@@ -83,6 +96,33 @@ impl Manipulator {
     /// [`Error::Range`] or [`Error::Count`] for inputs that are not finite or not of the right length; the
     /// state is then untouched.
     pub fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
+        if !self.has_shape && !self.way.is_empty() {
+            let came = self.come(inputs);
+            if !matches!(came, Ok(true)) {
+                self.hierarchy.reset();
+                self.has_shape = false;
+                return came.map(|_| &self.outputs);
+            }
+        }
+        self.solve_next(inputs)
+    }
+
+    /// Comes along the way that leads to these inputs; whether all of it is solved.
+    fn come(&mut self, inputs: &Inputs) -> Result<bool, Error> {
+        let points = self.way.points(inputs)?;
+        for (number, point) in points.iter().enumerate() {
+            let outputs = self.solve_next(point)?;
+            if outputs.status == Status::NotSolved {
+                let progress = outputs.progress;
+                self.outputs.progress = (number as f64 + progress) / (points.len() + 1) as f64;
+                return Ok(false);
+            }
+        }
+        self.outputs.snaps = 0;
+        Ok(true)
+    }
+
+    fn solve_next(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
         let report = match inputs.feed_force {
             Some(push) => self.hierarchy.solve_pushed(inputs, push)?,
             None => self.hierarchy.solve(inputs)?,
@@ -269,7 +309,7 @@ impl Manipulator {
     pub(super) fn with_model(&self, model: Equilibrium, outputs: Outputs) -> Self {
         let mut hierarchy = self.hierarchy.clone();
         hierarchy.replace_present(model);
-        Self { hierarchy, measured: None, outputs, has_shape: true }
+        Self { hierarchy, measured: None, outputs, has_shape: true, way: self.way.clone() }
     }
 
     /// What is read from the shape of another model of the same discretisation.
@@ -286,15 +326,12 @@ impl Manipulator {
         out
     }
 
-    /// Sets the tolerances of tip position (m) and angle (rad) relative to the converged model, from the next solve on.
+    /// Sets the tolerances of the tip relative to the converged model, from the next solve on.
     ///
     /// # Errors
-    /// [`Error::Range`] unless both are positive.
-    pub fn set_tolerances(&mut self, position: f64, angle: f64) -> Result<(), Error> {
-        let settings =
-            Settings { tolerance_position: position, tolerance_angle: angle, ..Settings::default() };
-        settings.checked()?;
-        self.hierarchy.set_tolerance(TipDeviation { distance: position, angle });
+    /// As [`TipTolerance::checked`].
+    pub fn set_tolerance(&mut self, tolerance: TipTolerance) -> Result<(), Error> {
+        self.hierarchy.set_tolerance(tolerance.checked()?);
         Ok(())
     }
 
@@ -343,5 +380,6 @@ fn resolution(hierarchy: &Hierarchy) -> Resolution {
         degree: settings.degree,
         method: Method::Potential,
         error_estimate: hierarchy.error_estimate(),
+        beyond_tolerance: hierarchy.is_beyond_tolerance(),
     }
 }

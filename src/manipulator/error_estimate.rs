@@ -100,6 +100,11 @@ impl ErrorEstimate {
         changes.into_iter().chain(forces).chain(stops).fold(0.0, f64::max)
     }
 
+    /// Distance of the tip from its unloaded place when the estimate was made, m; `model` is any of the device.
+    pub(super) fn tip_travel(&self, model: &Equilibrium) -> f64 {
+        model.tip_travel(&self.inputs, &self.tip)
+    }
+
     /// Whether a new estimate is due at that age: the smaller the error relative to the tolerance, the older it may be, unless the
     /// shape is soft.
     pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {

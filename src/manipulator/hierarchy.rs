@@ -16,8 +16,9 @@ use serde::{Deserialize, Serialize};
 
 use super::error_estimate::{CLIMB, ErrorEstimate};
 use super::models::Models;
+use super::tolerance::TipTolerance;
 use crate::design::Design;
-use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, TipDeviation};
+use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, Solution, TipDeviation};
 use crate::error::Error;
 use crate::magnetics::Sources;
 use crate::vessel::Vessel;
@@ -48,8 +49,7 @@ pub(super) struct Hierarchy {
     length: f64,
     fold_margin: f64,
     time_budget: f64,
-    /// Tolerance of the tip: position (m) and angle (rad).
-    tolerance: TipDeviation,
+    tolerance: TipTolerance,
     /// Residual tolerance of the richest model.
     residual: f64,
 }
@@ -100,7 +100,7 @@ impl Hierarchy {
         settings: Settings,
         shape_points: usize,
     ) -> Result<Self, Error> {
-        let mut out = Self {
+        Ok(Self {
             models: Models::new(design, sources, &settings, shape_points)?,
             present: 0,
             estimate: None,
@@ -109,14 +109,9 @@ impl Hierarchy {
             length: design.length(),
             fold_margin: settings.fold_margin,
             time_budget: settings.time_budget,
-            tolerance: TipDeviation {
-                distance: settings.tolerance_position,
-                angle: settings.tolerance_angle,
-            },
+            tolerance: TipTolerance::of(&settings),
             residual: settings.tolerance,
-        };
-        out.relax();
-        Ok(out)
+        })
     }
 
     /// All models in a vessel.
@@ -124,9 +119,10 @@ impl Hierarchy {
         Self { models: self.models.in_vessel(vessel), ..self }
     }
 
-    /// Relaxes the residual tolerances of the cheaper models to a small part of the tip tolerances.
+    /// Relaxes the residual tolerances of the cheaper models to a small part of the tip tolerances, at the last error estimate.
     fn relax(&mut self) {
-        let TipDeviation { distance, angle } = self.tolerance;
+        let travel = self.estimate.as_ref().map(|estimate| estimate.tip_travel(self.present()));
+        let TipDeviation { distance, angle } = self.tolerance.after(travel.unwrap_or(f64::INFINITY));
         let residual = RESIDUAL * (distance / self.length).min(angle);
         let residual = residual.clamp(self.residual, RELAXED * self.residual);
         self.models.cheaper().iter_mut().for_each(|model| model.set_tolerance(residual));
@@ -155,11 +151,22 @@ impl Hierarchy {
     }
 
     /// Sets the tolerances; the next solve estimates the error anew.
-    pub(super) fn set_tolerance(&mut self, tolerance: TipDeviation) {
+    pub(super) fn set_tolerance(&mut self, tolerance: TipTolerance) {
         if self.tolerance != tolerance {
             (self.tolerance, self.estimate) = (tolerance, None);
-            self.relax();
         }
+    }
+
+    /// Whether the estimated error is larger than what is allowed.
+    pub(super) fn is_beyond_tolerance(&self) -> bool {
+        let (Some(estimate), Some(inputs)) = (&self.estimate, self.present().inputs()) else { return false };
+        self.allowed(inputs).room(&estimate.error(self.age), 1.0) < 1.0
+    }
+
+    /// The tolerance of the tip of the present model.
+    fn allowed(&self, inputs: &Inputs) -> TipDeviation {
+        let model = self.present();
+        self.tolerance.after(model.tip_travel(inputs, &model.tip()))
     }
 
     /// Sets the coefficient of friction between the device and the wall of its vessel, as [`Equilibrium::set_friction`].
@@ -204,6 +211,7 @@ impl Hierarchy {
     /// As [`Equilibrium::solve`].
     pub(super) fn solve_before(&mut self, deadline: &Deadline, inputs: &Inputs) -> Result<Report, Error> {
         let (from, richest) = (self.present, self.models.richest());
+        self.relax();
         let Some(before) = self.present().inputs() else {
             return self.ascend(0, inputs, deadline, |models, level, from| {
                 if let Some(from) = from
@@ -308,7 +316,7 @@ impl Hierarchy {
         let from = self.present;
         // One step of the cheaper model tells of most that are rejected, before any is solved.
         let apart = self.models.deviation(from - 1, from);
-        if apart.is_none_or(|apart| self.tolerance.room(&apart, DESCEND) < 1.0) {
+        if apart.is_none_or(|apart| self.allowed(inputs).room(&apart, DESCEND) < 1.0) {
             self.wait = self.wait.longer();
             return Ok(report);
         }
@@ -348,7 +356,7 @@ impl Hierarchy {
     /// would not help. No estimate is made for a solution of the richest model that used up the time budget.
     fn is_within(&mut self, inputs: &Inputs, part: f64, deadline: &Deadline) -> Result<bool, Error> {
         let late = self.present >= self.models.richest() && deadline.has_passed();
-        let tolerance = self.tolerance;
+        let tolerance = self.allowed(inputs);
         let within = |error: &TipDeviation| tolerance.room(error, part) >= 1.0;
         let error = if late { None } else { self.models.error(self.present, within)? };
         let unknown = TipDeviation { distance: self.length, angle: core::f64::consts::PI };
@@ -371,7 +379,7 @@ impl Hierarchy {
     fn has_changed(&mut self, inputs: &Inputs) -> bool {
         let Some(estimate) = &self.estimate else { return true };
         self.age = estimate.age(self.models.at(self.present), inputs, self.length);
-        estimate.is_old(self.age, &self.tolerance)
+        estimate.is_old(self.age, &self.allowed(inputs))
     }
 
     /// The state.

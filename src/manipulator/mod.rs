@@ -14,7 +14,9 @@ mod pushed;
 mod scene;
 mod sensitivities;
 mod solve;
+mod tolerance;
 mod variation;
+mod way;
 
 pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
@@ -26,5 +28,7 @@ pub use outputs::{Outputs, Status};
 pub use scene::{FeedMode, Scene, SceneFile, Uncertainty};
 pub use sensitivities::Sensitivities;
 pub use solve::Solve;
+pub use tolerance::TipTolerance;
 pub(crate) use variation::Number;
 pub use variation::Variant;
+pub use way::{Way, WayRow};

@@ -145,7 +145,7 @@ impl Models {
     /// Estimated deviation of the tip of model `from`, which is solved, from that of model `to`, by one step of `to`, which is left
     /// at its end; `None` as for [`Equilibrium::deviation_of`].
     pub(super) fn deviation(&mut self, to: usize, from: usize) -> Option<TipDeviation> {
-        self.with_pair([to, from], |to, from| to.deviation_of(from)).flatten()
+        self.with_pair([to, from], Equilibrium::deviation_of).flatten()
     }
 
     /// Acts on two different models; `None` where they are not.
@@ -207,12 +207,12 @@ impl Models {
     /// shape. The model two refinements finer tells.
     fn error_of_soft(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
         let settings = self.at(number).settings().refined().refined();
-        let mut judge = match self.judge.take().filter(|(of, _)| *of == number) {
-            Some((_, judge)) => judge,
-            None => {
-                let (design, sources) = &*self.design;
-                Refinement::new(self.at(number), settings, design, sources, self.shape_points)?
-            }
+        let known = self.judge.take().filter(|(of, _)| *of == number);
+        let mut judge = if let Some((_, judge)) = known {
+            judge
+        } else {
+            let (design, sources) = &*self.design;
+            Refinement::new(self.at(number), settings, design, sources, self.shape_points)?
         };
         let error = judge.error_of(self.at_mut(number));
         self.judge = Some((number, judge));
@@ -252,6 +252,8 @@ pub fn models_of_auto(settings: &Settings, has_rings: bool) -> Vec<Settings> {
         out.push(coarse(COARSE, cheap(Interaction::Rings)));
         out.push(cheap(Interaction::Rings));
         out.push(coarse(COARSE_FULL, Settings { iterations, ..richest }));
+    } else {
+        out.push(cheap(Interaction::None));
     }
     out.push(richest);
     out

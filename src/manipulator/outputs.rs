@@ -63,7 +63,8 @@ pub struct Outputs {
     /// Push that holds the shaft in its port, N: derivative of the potential energy with respect to the inserted length; `None`
     /// without a shaft.
     pub feed_reaction: Option<f64>,
-    /// Whether the equilibrium is stable; `None` when the model has no potential or the method does not compute it.
+    /// Whether the equilibrium is stable; `None` where the method does not compute it. Where loads have no potential, by the eigenvalues of
+    /// the whole stiffness matrix.
     pub stable: Option<bool>,
     /// Smallest eigenvalue of the Hessian in the elastic norm of the variation of the strains at the shape: 1 without loads and
     /// interaction, 0 at a fold.
@@ -98,6 +99,9 @@ pub struct Outputs {
     /// far below the tolerance), and grows in between. It equals the length where no estimate is available, as for a neutral
     /// shape, and 0 for a comparison method, which computes none.
     pub error_estimate: f64,
+    /// Whether the estimated error of the tip's position or angle is larger than its tolerance, as close to a fold, where the finest
+    /// discretisation is not enough.
+    pub beyond_tolerance: bool,
 }
 
 /// Interaction level, degree, method and error estimate of a solution.
@@ -108,6 +112,8 @@ pub(super) struct Resolution {
     pub(super) method: Method,
     /// Estimated distance of the tip from the converged model, m.
     pub(super) error_estimate: f64,
+    /// Whether it is larger than what is allowed.
+    pub(super) beyond_tolerance: bool,
 }
 
 impl Outputs {
@@ -115,7 +121,7 @@ impl Outputs {
     pub(super) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
         let zero = Vector3::zeros();
         let (shape_arc_length, shape) = solution.shape().unzip();
-        let Resolution { interaction, degree, method, error_estimate } = resolution;
+        let Resolution { interaction, degree, method, error_estimate, beyond_tolerance } = resolution;
         Self {
             tip_angle: 0.0,
             tip: solution.tip(),
@@ -147,6 +153,7 @@ impl Outputs {
             interaction,
             degree,
             error_estimate,
+            beyond_tolerance,
             method,
         }
     }
@@ -173,9 +180,9 @@ impl Outputs {
         places.zip(solution.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
         self.rings.iter_mut().zip(solution.rings()).for_each(|(slot, pose)| *slot = pose);
         self.core_angles.iter_mut().zip(solution.core_angles()).for_each(|(slot, angle)| *slot = angle);
-        let Resolution { interaction, degree, method, error_estimate } = resolution;
+        let Resolution { interaction, degree, method, error_estimate, beyond_tolerance } = resolution;
         (self.interaction, self.degree, self.method) = (interaction, degree, method);
-        self.error_estimate = error_estimate;
+        (self.error_estimate, self.beyond_tolerance) = (error_estimate, beyond_tolerance);
     }
 
     /// Records how a solve ended; without a solution, the previous shape and its quantities are kept.

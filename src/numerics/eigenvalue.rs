@@ -140,7 +140,9 @@ impl Lanczos {
         if self.basis.len() < most || self.image.len() != size {
             for vectors in [&mut self.basis, &mut self.weighted] {
                 vectors.resize(most, Vec::new());
-                vectors.iter_mut().for_each(|vector| vector.resize(size, 0.0));
+                for vector in vectors.iter_mut() {
+                    vector.resize(size, 0.0);
+                }
             }
             self.image.resize(size, 0.0);
             self.product.resize(size, 0.0);

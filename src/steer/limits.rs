@@ -71,8 +71,10 @@ pub enum Limit {
     Snap,
     /// Beyond it no shape was found.
     NoShape(Outcome),
-    /// No limit: nearer the moves cannot bring it from here.
+    /// No limit: a local optimum, from which no small step of what may move brings it nearer.
     Nearest,
+    /// No limit: the search has ended while steps still brought it nearer, but less and less.
+    Slow,
     /// No way without a snap was found in so many tries.
     NoWay(usize),
 }
@@ -89,7 +91,8 @@ impl fmt::Display for Limit {
             Self::NoShape(outcome) => {
                 write!(f, "beyond it there is no shape ({})", outcome.name().replace('_', " "))
             }
-            Self::Nearest => f.write_str("what may move cannot bring it nearer"),
+            Self::Nearest => f.write_str("from there no small step of what may move brings it nearer"),
+            Self::Slow => f.write_str("steps still bring it nearer, but ever less: the search has ended"),
             Self::NoWay(tries) => write!(f, "no way without a snap was found in {tries} tries"),
         }
     }

@@ -3,14 +3,17 @@
 //! [`Steering`] walks: every step is solved from the shape before, so that what it finds can be driven. It uses the exact Jacobian of the
 //! device, keeps to [`Limits`], and says which of them stops it.
 
+mod aim;
 mod approach;
 mod bounds;
 mod limits;
+mod linear;
 mod moves;
 mod plan;
 mod quadratic;
 mod state;
 mod steering;
+mod stride;
 mod target;
 mod track;
 mod tree;

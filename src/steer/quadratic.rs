@@ -21,29 +21,45 @@ pub(super) struct Found {
 }
 
 /// Least squares `|rates step - errors|` with the least step, no entry of it beyond 1, within the bounds.
-///
-/// Where the free step is short enough and meets no bound, it is the answer; otherwise an interior-point method finds it. `None` where
-/// it fails.
+/// `None` where none is found.
 pub(super) fn solve(rates: &DMatrix<f64>, errors: &DVector<f64>, bounds: &[Bound]) -> Option<Found> {
     let count = rates.ncols();
-    let mut matrix = rates.tr_mul(rates);
+    let matrix = rates.tr_mul(rates);
     let weight = SHORTEST * matrix.diagonal().max();
     if weight.is_nan() || weight <= 0.0 {
         return Some(Found { step: DVector::zeros(count), met: Vec::new() });
     }
-    for entry in 0..count {
-        matrix[(entry, entry)] += weight;
-    }
-    let slope = rates.tr_mul(errors);
-    let free = Cholesky::new(matrix.clone())?.solve(&slope);
+    minimum(&(matrix + DMatrix::identity(count, count) * weight), &rates.tr_mul(errors), bounds)
+}
+
+/// Corrects a step that has missed what it should have left by `missed`: least squares `|rates (out - step) - missed|` within the bounds,
+/// where a correction of one longest step counts as much as all that was missed, so that it changes what little it can.
+pub(super) fn correct(
+    rates: &DMatrix<f64>,
+    missed: &DVector<f64>,
+    bounds: &[Bound],
+    step: &DVector<f64>,
+) -> Option<DVector<f64>> {
+    let (count, weight) = (rates.ncols(), missed.norm_squared());
+    let matrix = rates.tr_mul(rates) + DMatrix::identity(count, count) * weight;
+    let slope = &matrix * step + rates.tr_mul(missed);
+    minimum(&matrix, &slope, bounds).map(|found| found.step)
+}
+
+/// Minimum of `step . matrix step / 2 - slope . step` within the bounds, no entry beyond 1.
+///
+/// Where the free minimum is short enough and meets no bound, it is the answer; otherwise an interior-point method finds it. `None` where
+/// that fails.
+fn minimum(matrix: &DMatrix<f64>, slope: &DVector<f64>, bounds: &[Bound]) -> Option<Found> {
+    let free = Cholesky::new(matrix.clone())?.solve(slope);
     let inside = |bound: &Bound| bound.slack + bound.gradient.dot(&free) >= 0.0;
     if free.amax() <= 1.0 && bounds.iter().all(inside) {
         return Some(Found { step: free, met: Vec::new() });
     }
-    constrained(&(matrix / weight), &(slope / weight), bounds)
+    constrained(matrix, slope, bounds)
 }
 
-/// Minimum of `step . matrix step / 2 - slope . step` within the bounds, no entry beyond 1.
+/// The minimum by an interior-point method.
 fn constrained(matrix: &DMatrix<f64>, slope: &DVector<f64>, bounds: &[Bound]) -> Option<Found> {
     let count = slope.len();
     // To a size near 1, which the solver's tolerances are made for.

@@ -1,8 +1,10 @@
 //! A device that is steered.
 
-use super::approach::{Attempt, Linear, Step, approach};
+use super::aim::Aim;
+use super::approach::{Attempt, Step, approach};
 use super::bounds::Bodies;
 use super::limits::{Limit, Limits};
+use super::linear::Linear;
 use super::moves::{Move, freedoms};
 use super::state::{Rules, State};
 use super::target::{Residual, Target, Tolerances};
@@ -154,9 +156,17 @@ impl Steering {
         Ok(self.settle(target, found))
     }
 
+    /// What a walk to this target is after.
+    pub(super) fn aim<'a>(&'a self, target: &'a Target) -> Aim<'a> {
+        Aim { target, tolerances: &self.tolerances, rules: &self.rules }
+    }
+
     /// A direct walk, from the present state.
     pub(super) fn approach(&mut self, target: &Target) -> Result<Attempt, Error> {
-        approach(&self.state, target, &self.tolerances, &self.rules, &mut self.linear)
+        let mut linear = self.linear.take();
+        let found = approach(&self.state, &self.aim(target), &mut linear);
+        self.linear = linear;
+        found
     }
 
     /// The best of the walks by way of other states, and of the direct one.
@@ -167,19 +177,18 @@ impl Steering {
             let from = tree.nearest(&self.rules, &goal);
             tree.extend(from, &goal, &self.rules, APART)?;
         }
-        let misfit = |state: &State| target.misfit(state.outputs(), &self.tolerances);
+        let aim = self.aim(target);
         let mut starts: Vec<(usize, f64)> =
-            tree.states().map(|(index, state)| (index, misfit(state))).collect();
+            tree.states().map(|(index, state)| (index, aim.misfit(state))).collect();
         starts.sort_by(|(_, a), (_, b)| a.total_cmp(b));
         let mut best = direct;
         for (start, _) in starts.into_iter().take(STARTS) {
-            let mut attempt =
-                match approach(tree.state(start), target, &self.tolerances, &self.rules, &mut None) {
-                    Ok(attempt) => attempt,
-                    // Another start is not at a fold.
-                    Err(Error::NoDerivatives(_)) => continue,
-                    Err(error) => return Err(error),
-                };
+            let mut attempt = match approach(tree.state(start), &aim, &mut None) {
+                Ok(attempt) => attempt,
+                // Another start is not at a fold.
+                Err(Error::NoDerivatives(_)) => continue,
+                Err(error) => return Err(error),
+            };
             if attempt.misfit < best.misfit {
                 let mut way = tree.way(start);
                 way.append(&mut attempt.way);

@@ -1,6 +1,7 @@
 //! Targets one after the other.
 
-use super::approach::{Attempt, Linear, Step, approach};
+use super::approach::{Attempt, Step, approach};
+use super::linear::Linear;
 use super::state::State;
 use super::steering::{Answer, Steering};
 use super::target::Target;
@@ -49,11 +50,12 @@ impl Steering {
         let Some(gradient) = measured.margin_gradient(&freedoms)?.filter(|_| margin < COMFORTABLE) else {
             return Ok(found);
         };
-        let linear = Linear::at(&measured, target, &self.tolerances, &self.rules)?;
+        let aim = self.aim(target);
+        let linear = Linear::at(&measured, &aim)?;
         let Some(direction) = linear.free(&gradient) else { return Ok(found) };
         let step = &direction * (ASIDE / direction.amax());
         let Ok(moved) = measured.stepped(&self.rules, &freedoms, &step)? else { return Ok(found) };
-        let back = approach(&moved, target, &self.tolerances, &self.rules, &mut Some(linear))?;
+        let back = approach(&moved, &aim, &mut Some(linear))?;
         if back.limit.is_some() || margin_of(&back.state) <= margin {
             return Ok(found);
         }

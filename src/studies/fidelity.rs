@@ -98,8 +98,13 @@ impl Walk {
         }
         for tolerance in TOLERANCES {
             let (tolerance_position, tolerance_angle) = (tolerance * self.length, tolerance);
-            let settings =
-                Settings { interaction: Interaction::Auto, tolerance_position, tolerance_angle, ..base };
+            let settings = Settings {
+                interaction: Interaction::Auto,
+                tolerance_position,
+                tolerance_angle,
+                tolerance_relative: 0.0,
+                ..base
+            };
             rows.push(("auto".to_owned(), Some(tolerance), settings));
         }
         let richest = models.last().copied().unwrap_or(base).as_discretised();

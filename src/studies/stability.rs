@@ -10,7 +10,7 @@ use super::scenes::{LEVELS, SEGMENTS};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Scene, Status};
+use crate::manipulator::{Inputs, Scene, Status, Way};
 use crate::methods::{self, Method};
 use verification::{FineModel, Known};
 
@@ -99,6 +99,7 @@ impl Ray {
         let mut out = Vec::new();
         for (method, name) in Method::ALL.iter().filter(|row| row.0.supports(self.interaction)) {
             let scene = Scene {
+                way: Way::default(),
                 specification: Specification::paper(self.segments),
                 vessel: None,
                 shaft: None,

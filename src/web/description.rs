@@ -123,9 +123,9 @@ impl Description {
     /// That of a packed design.
     pub(super) fn of(package: &Package) -> Result<Self, Error> {
         let (table, start) = (package.table(), package.start());
-        let rows = |causality| {
-            let of_kind = table.variables().iter().filter(move |row| row.causality == causality);
-            of_kind
+        let rows = |listed: fn(&Variable) -> bool| {
+            let listed = table.variables().iter().filter(move |row| listed(row));
+            listed
                 .map(|variable| Row::of(variable, variable.host_value(start).and_then(Value::real)))
                 .collect()
         };
@@ -145,8 +145,8 @@ impl Description {
         });
         Ok(Self {
             level: start.settings.interaction.name(),
-            inputs: rows(Causality::Input),
-            outputs: rows(Causality::Output),
+            inputs: rows(|row| row.causality == Causality::Input),
+            outputs: rows(Variable::is_result),
             shape_points: table.counts().shape_points,
             bodies: bodies(&design),
             shaft: design

@@ -46,10 +46,11 @@ const SECONDS: f64 = 5.0;
 /// ```
 #[derive(Debug)]
 pub struct Device {
-    package: Arc<Package>,
+    pub(super) file: Arc<SceneFile>,
+    pub(super) package: Arc<Package>,
     instance: Instance,
     level: Interaction,
-    inputs: Vec<u32>,
+    pub(super) inputs: Vec<u32>,
     outputs: Vec<u32>,
     said: Arc<Mutex<Vec<String>>>,
 }
@@ -74,28 +75,28 @@ impl Device {
             (POINTS_PER_SEGMENT * design.segments().len() + 1).clamp(FEWEST_POINTS, MOST_POINTS - shaft);
         let package = Package::of(&file, points + shaft)?;
         let level = package.start().settings.interaction;
-        Ok(Self::of(Arc::new(package), level))
+        Ok(Self::of(Arc::new(file), Arc::new(package), level))
     }
 
     /// The same device, not yet loaded, by another level of the model.
     #[must_use]
     pub fn at_level(&self, level: Interaction) -> Self {
-        Self::of(Arc::clone(&self.package), level)
+        Self::of(Arc::clone(&self.file), Arc::clone(&self.package), level)
     }
 
-    fn of(package: Arc<Package>, level: Interaction) -> Self {
+    fn of(file: Arc<SceneFile>, package: Arc<Package>, level: Interaction) -> Self {
         let said = Arc::new(Mutex::new(Vec::new()));
         let heard = Arc::clone(&said);
         let sink = move |_: Ending, _: _, message: &str| {
             heard.lock().unwrap_or_else(PoisonError::into_inner).push(message.to_owned());
         };
         let rows = (0..).zip(package.table().variables());
-        let of =
-            |causality| rows.clone().filter(move |(_, row)| row.causality == causality).map(|(at, _)| at);
-        let (inputs, outputs) = (of(Causality::Input).collect(), of(Causality::Output).collect());
+        let inputs = rows.clone().filter(|(_, row)| row.causality == Causality::Input).map(|(at, _)| at);
+        let outputs = rows.clone().filter(|(_, row)| row.is_result()).map(|(at, _)| at);
+        let (inputs, outputs) = (inputs.collect(), outputs.collect());
         let instance =
             Instance::new(Interface::CoSimulation, Arc::clone(&package), Log::new(Box::new(sink), false));
-        Self { package, instance, level, inputs, outputs, said }
+        Self { file, package, instance, level, inputs, outputs, said }
     }
 
     /// What a page draws and offers to set, as JSON.
@@ -156,7 +157,7 @@ impl Device {
     #[must_use]
     pub fn outputs(&self) -> Vec<f64> {
         let table = self.package.table();
-        let value = |&at: &u32| table.find(at)?.output(self.instance.outputs()?).map(number);
+        let value = |&at: &u32| self.instance.result(table.find(at)?).map(number);
         self.outputs.iter().map(|at| value(at).unwrap_or(f64::NAN)).collect()
     }
 

@@ -29,6 +29,8 @@ struct Desk {
     text: Vec<u8>,
     grid: Vec<u8>,
     inputs: Vec<f64>,
+    /// Rows of inputs, one after the other.
+    way: Vec<f64>,
     /// What the last call has left for the page.
     said: String,
     outputs: Vec<f64>,
@@ -67,6 +69,15 @@ pub extern "C" fn mcm_inputs(count: usize) -> *mut f64 {
     at_desk(|desk| {
         desk.inputs = vec![0.0; count];
         desk.inputs.as_mut_ptr()
+    })
+}
+
+/// Room for the rows of a way.
+#[unsafe(no_mangle)]
+pub extern "C" fn mcm_way(count: usize) -> *mut f64 {
+    at_desk(|desk| {
+        desk.way = vec![0.0; count];
+        desk.way.as_mut_ptr()
     })
 }
 
@@ -155,7 +166,27 @@ pub extern "C" fn mcm_measure(number: u32) -> u32 {
     at_desk(|desk| desk.answer(number, |device, _| device.measure()))
 }
 
+/// Leaves the text of a device's scene at the inputs in the room for them, with the way to them.
+#[unsafe(no_mangle)]
+pub extern "C" fn mcm_scene_at(number: u32) -> u32 {
+    at_desk(|desk| desk.write(number, Device::scene_at))
+}
+
+/// Leaves the text of the way to the inputs in the room for them.
+#[unsafe(no_mangle)]
+pub extern "C" fn mcm_way_text(number: u32) -> u32 {
+    at_desk(|desk| desk.write(number, Device::way_text))
+}
+
 impl Desk {
+    fn write(&mut self, number: u32, text: fn(&Device, &[f64], &[f64]) -> Result<String, Error>) -> u32 {
+        let nothing = || Err(Error::Unsupported(format!("there is no device {number}")));
+        let written = self.devices.get(&number).map_or_else(nothing, |it| text(it, &self.inputs, &self.way));
+        let went_well = written.is_ok();
+        self.said = written.unwrap_or_else(|error| error.to_string());
+        u32::from(went_well)
+    }
+
     fn answer(&mut self, number: u32, go: fn(&mut Device, &[f64]) -> bool) -> u32 {
         let Some(device) = self.devices.get_mut(&number) else {
             self.said = format!("there is no device {number}");

@@ -34,7 +34,7 @@ const found = { cold: 0, costs: [], tips: [] };
 let [place, tip] = [0, []];
 worker.onmessage = ({ data }) => {
     if (data.kind === "ready") {
-        worker.postMessage({ kind: "open", scene });
+        worker.postMessage({ kind: "open", scene, inputs: {} });
     } else if (data.kind === "opened") {
         const at = (of, name) => data.description[of].findIndex((variable) => variable.name === name);
         tip = [1, 2, 3].map((k) => at("outputs", `tip.position[${k}]`));

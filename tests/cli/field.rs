@@ -58,7 +58,6 @@ fn external_field_adds_up_in_the_world_frame() {
 #[test]
 fn bad_points_are_refused_with_their_line() {
     for (points, expected) in [
-        ("x_m,y_m,z_m\n0,0,0.01\n0.002,0,0.0005\n", "points.csv, line 3: the field at"),
         ("x_m,y_m,z_m\n0,zero,0.01\n", "points.csv, line 2: y_m = \"zero\" is not a finite number"),
         ("x_m,y_m,z_m\n0,nan,0.01\n", "points.csv, line 2: y_m = \"nan\" is not a finite number"),
         ("x_m,y_m,z_m\n0,0\n", "cannot read points.csv: CSV error"),
@@ -73,6 +72,58 @@ fn bad_points_are_refused_with_their_line() {
     let (_, output) = run("no_ring", rod, "x_m,y_m,z_m\n0,0,0\n", &["--ring"]);
     assert_status(&output, 1);
     assert!(stderr(&output).contains("has no ring"));
+}
+
+/// The columns of a row after those of its point.
+fn cells(row: &std::collections::HashMap<String, String>) -> Vec<&str> {
+    row.iter()
+        .filter(|(title, _)| title.ends_with("_t") || title.contains("_t_"))
+        .map(|(_, cell)| &cell[..])
+        .collect()
+}
+
+#[test]
+fn a_point_on_an_edge_costs_its_own_row_and_is_named_as_the_table_has_it() {
+    // The ring lies at the origin: here the frames are one.
+    let (here, output) = run("edge", "", "x_m,y_m,z_m\n0,0,0.01\n0.002,0,0.0005\n0,0,0.02\n", &["--ring"]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("field.csv"));
+    assert_eq!(rows.len(), 3);
+    assert!(cells(&rows[1]).iter().all(|cell| cell.is_empty()), "{:?}", rows[1]);
+    assert_eq!((cells(&rows[1]).len(), &rows[1]["x_m"][..]), (12, "0.002"));
+    assert!([0, 2].iter().all(|row| cells(&rows[*row]).iter().all(|cell| cell.parse::<f64>().is_ok())));
+    assert!(
+        stderr(&output).contains("points.csv, line 3, (0.002, 0, 0.0005) m has no field"),
+        "{}",
+        stderr(&output)
+    );
+
+    // A magnet of two cylinders, turned and elsewhere: its second cylinder ends at 15 mm along its axis, the world's y.
+    let scene = "[magnet]\nposition_mm = [0.0, -100.0, 0.0]\norientation_wxyz = [0.7071067811865476, -0.7071067811865475, 0.0, 0.0]\n\
+                 cylinders = [{ radius_mm = 8, length_mm = 10, offset_mm = -10, remanence_t = 1 }, { radius_mm = 4, length_mm = 10, offset_mm = 10, remanence_t = 1 }]\n";
+    let (here, output) = run("turned edge", scene, "x_m,y_m,z_m\n0.004,-0.085,0\n0,0,0\n", &[]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("field.csv"));
+    assert!(cells(&rows[0]).iter().all(|cell| cell.is_empty()), "{:?}", rows[0]);
+    assert!(rows[1]["By_t"].parse::<f64>().unwrap() > 0.0);
+    let told = stderr(&output);
+    let told: Vec<&str> = told.split("the field at (").collect();
+    assert!(told[1].starts_with("0.004 m, -0.085 m, 0 m)"), "{told:?}");
+}
+
+#[test]
+fn a_point_within_an_iron_core_costs_its_own_row() {
+    let scene = "[[coil]]\nposition_mm = [0.0, 100.0, 0.0]\ninner_radius_mm = 20\nouter_radius_mm = 40\nlength_mm = 60\n\
+                 turns = 600\ncurrent_a = 1\nmultipoles = [1e-7]\n";
+    let (here, output) = run("core", scene, "x_m,y_m,z_m\n0,0.1,0\n0,0,0\n", &[]);
+    assert_status(&output, 0);
+    let rows = table(&here.join("field.csv"));
+    assert!(cells(&rows[0]).iter().all(|cell| cell.is_empty()) && !rows[1]["Bx_t"].is_empty());
+    assert!(
+        stderr(&output).contains("points.csv, line 2, (0, 0.1, 0) m has no field"),
+        "{}",
+        stderr(&output)
+    );
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod init;
 mod mesh;
 mod multipoles;
 mod pack;
+mod picture;
 mod plot;
 mod reference;
 mod solve;

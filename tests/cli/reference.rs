@@ -185,8 +185,8 @@ fn markdown(root: &Value, printed: &str) -> String {
             (Some(least), Some(most)) => writeln!(out, "\nFrom {least} to {most}.").unwrap(),
             _ => {}
         }
-        let each = &node["additionalProperties"];
-        if each.is_object() {
+        let inside = [&node["additionalProperties"], &node["items"]["additionalProperties"]];
+        if let Some(each) = inside.into_iter().find(|each| each.is_object()) {
             writeln!(out, "\nAllowed: {}.", allowed(each)).unwrap();
         } else {
             out += "\n| key | unit | default | allowed | meaning |\n| --- | --- | --- | --- | --- |\n";

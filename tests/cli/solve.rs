@@ -157,7 +157,7 @@ fn bad_numbers_are_refused_with_quantity_and_range() {
 
 #[test]
 fn past_the_last_fold_no_shape_is_shown_but_why() {
-    // The attraction of rings and helix pulls one segment shut at 35.86 mT: there is no shape at 60 mT.
+    // The attraction of rings and helix pulls one segment shut at 35.82 mT: there is no shape at 60 mT.
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
     let answer = json("shut", scene, 2);
     assert_eq!(answer["converged"], false);
@@ -328,6 +328,17 @@ fn a_bent_shape_without_load_is_explained() {
     ] {
         assert!(told(test, scene).is_empty(), "{test}");
     }
+    // Nothing attracts, but the wall of a bent vessel holds the device bent.
+    let bent = "[[vessel.branch]]\nname = \"bent\"\npoints_mm = [[0, 0, -10], [0, 0, 0], [0, 1, 6], [0, 4, 14]]\nradius_mm = 2.2\n";
+    for (test, part) in [
+        ("rest in a vessel", "[design.ring]\nremanence_t = 0"),
+        ("rest alone", "[model]\ninteraction = \"none\""),
+    ] {
+        let scene = format!("[design]\nsegments = 2\nspiral = \"axisymmetric\"\n{part}\n{bent}");
+        let answer = json(test, &scene, 0);
+        assert!(answer["alpha_rad"].as_f64().unwrap() > 0.1 && answer["contact_count"].as_u64() > Some(0));
+        assert!(told(test, &scene).is_empty(), "{test}");
+    }
     let answer = json("rest json", "[design]\nsegments = 3", 0);
     assert!(answer.as_object().unwrap().keys().all(|key| !key.contains("note") || key == "jacobian_note"));
 }
@@ -345,4 +356,39 @@ fn the_wrench_of_sources_on_one_another_is_told_where_it_is_asked_for() {
     assert_eq!(answer["mutual_torques_nm"].as_array().unwrap().len(), 2);
     let (_, output) = with_scene("mutual table", &asked, &["solve", "scene.toml"]);
     assert!(stdout(&output).contains("force on 2 by others"), "{}", stdout(&output));
+}
+
+#[test]
+fn numbers_that_look_like_those_of_another_unit_are_warned_of() {
+    let metres = "[design]\nsegments = 1\n[design.ring]\nlength_mm = 0.001\n[magnet]\nposition_mm = [0, -200, 0]\n\
+                  cylinders = [{ radius_mm = 20, length_mm = 30, remanence_t = -14.5 }]\n";
+    let (_, output) = with_scene("units", metres, &["solve", "scene.toml", "--json"]);
+    assert_status(&output, 0);
+    let told = stderr(&output);
+    let warned: Vec<&str> = told.lines().filter(|line| line.starts_with("warning: scene.toml: ")).collect();
+    assert_eq!(warned.len(), 2, "{told}");
+    assert!(
+        told.contains("design.ring.length_mm = 0.001: ") && told.contains("if it was meant in m, it is 1 mm")
+    );
+    assert!(
+        told.contains("magnet.cylinders[1].remanence_t = -14.5: ") && told.contains("in kG, it is -1.45 T")
+    );
+    for grade in ["N35 1.17 to 1.22", "N42 1.28 to 1.32", "N52 1.43 to 1.48"] {
+        assert!(told.contains(grade), "{told}");
+    }
+    let answer: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    let listed = answer["warnings"].as_array().unwrap();
+    assert!(
+        listed.iter().zip(&warned).all(|(odd, line)| line.ends_with(odd.as_str().unwrap())),
+        "{listed:?}"
+    );
+    assert!(json("usual units", ONE_SEGMENT, 0)["warnings"].is_null());
+
+    let sweep = |range: &str| {
+        let arguments = ["sweep", "scene.toml", "--vary", range, "--out", "out.csv"];
+        stderr(&with_scene("swept units", ONE_SEGMENT, &arguments).1)
+    };
+    let told = sweep("design.ring.remanence_t=1.2:12:2");
+    assert!(told.contains("warning: --vary design.ring.remanence_t = 12: no permanent magnet"), "{told}");
+    assert!(!sweep("design.ring.remanence_t=1.2:1.3:2").contains("warning"));
 }

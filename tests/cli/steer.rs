@@ -69,6 +69,13 @@ fn what_stops_it_is_told_and_the_way_written() {
         stderr(&output)
     );
     assert!(stdout(&output).starts_with("nearest: angle "), "{}", stdout(&output));
+    // How far it is stands beside why.
+    let told = stderr(&output);
+    let off = told
+        .split_once("; angle ")
+        .and_then(|(_, rest)| rest.split_once(" deg off"))
+        .unwrap_or_else(|| panic!("{told}"));
+    assert!(off.0.parse::<f64>().unwrap() > 1.0, "{told}");
     assert!(table(&here.join("way.csv")).len() > 2);
 }
 

@@ -190,10 +190,6 @@ fn during_initialisation_parameters_have_derivatives() {
         assert_eq!(instance.directional_derivative(&unknowns, &knowns[..1], &[1.0]), Err(Ending::Error));
         assert!(last(&told).contains("initialisation is over"), "{}", last(&told));
     }
-    let (mut instance, package, told) = at(None);
-    let [angle, density] = ["tip.angle", "design.helix.density"].map(|name| reference(package.table(), name));
-    assert_eq!(instance.directional_derivative(&[angle], &[density], &[1.0]), Err(Ending::Error));
-    assert!(last(&told).contains("stands for the rule of its material"), "{}", last(&told));
 }
 
 /// A straight rod under its buckling load has no derivatives.

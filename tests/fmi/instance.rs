@@ -74,7 +74,10 @@ fn bad_values_are_refused_by_name_and_the_instance_goes_on() {
     let angle = get(&mut instance, &table, "tip.angle");
     assert_eq!(set(&mut instance, &table, "magnet.position[1]", f64::NAN), Ending::Error);
     assert!(last(&told).contains("magnet.position[1] = NaN"), "{}", last(&told));
-    assert_eq!(set(&mut instance, &table, "base.orientation[2]", 0.5), Ending::Ok, "component by component");
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Error, "a value was refused");
+    assert!(last(&told).contains("the last value of magnet.position[1] was refused"), "{}", last(&told));
+    assert_eq!(set(&mut instance, &table, "magnet.position[1]", 0.0), Ending::Ok);
+    assert_eq!(set(&mut instance, &table, "base.orientation[2]", 5.0), Ending::Ok, "component by component");
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Error);
     assert!(last(&told).contains("base.orientation"), "{}", last(&told));
     assert_eq!(set(&mut instance, &table, "base.orientation[2]", 0.0), Ending::Ok);
@@ -108,15 +111,16 @@ fn a_bad_value_in_the_middle_of_a_call_changes_nothing() {
     let (mut instance, package, told) = instance(BENT);
     let table = package.table();
     instance.enter_initialization();
-    let state = |instance: &mut Instance| {
-        assert_eq!(instance.save(1), Ending::Ok);
-        instance.serialised(1).unwrap()
-    };
-    let before = state(&mut instance);
     let of = |name: &str| reference(table, name);
     let (strength, length, stop) =
         (of("magnet.strength"), of("design.helix.length"), of("model.bending_stop"));
     let (level, angle) = (of("model.interaction"), of("tip.angle"));
+    let state = |instance: &mut Instance| {
+        let reals = instance.get(&[strength, length], "Real", Value::real).unwrap();
+        let truth = instance.get(&[stop], "Boolean", Value::boolean).unwrap();
+        (reals, truth, instance.get(&[level], "Enumeration", Value::integer).unwrap())
+    };
+    let before = state(&mut instance);
     let good = [Value::Real(0.5), Value::Real(0.0045), Value::Boolean(true)];
     let bad = [
         (strength, Value::Real(f64::NAN), "magnet.strength = NaN"),
@@ -137,6 +141,7 @@ fn a_bad_value_in_the_middle_of_a_call_changes_nothing() {
         assert_eq!(instance.set_input_derivatives(&[strength; 3], &orders, &rates), Ending::Error);
         assert_eq!(state(&mut instance), before, "{}", last(&told));
     }
+    assert_eq!(set(&mut instance, table, "magnet.strength", 1.0), Ending::Ok);
     assert_eq!(instance.set(&[strength, length, stop], good.into_iter()), Ending::Ok);
     assert_ne!(state(&mut instance), before);
 }
@@ -332,4 +337,20 @@ fn spirals_are_turned_by_parameters() {
     assert_eq!(ending, Ending::Error);
     let message = last(&told);
     assert!(message.contains("spiral of segment 2 (rad)) = 7 is not allowed"), "{message}");
+}
+
+#[test]
+fn the_relative_tolerance_can_be_changed_between_steps() {
+    let scene =
+        "[design]\nsegments = 2\n[field]\nuniform_mt = [0.0, 4.0, 0.0]\n[model]\ntolerance_relative = 0.0\n";
+    let (mut instance, table, _) = initialised(scene);
+    let estimate = |instance: &mut Instance| get(instance, &table, "model.error_estimate");
+    let before = estimate(&mut instance);
+    assert_eq!(set(&mut instance, &table, "model.tolerance_relative", 1e-5), Ending::Ok);
+    assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
+    let after = estimate(&mut instance);
+    let way = get(&mut instance, &table, "tip.position[2]");
+    assert!(way > 1e-4 && before > 1e-5 * way && after <= 1.1e-5 * way, "{before}, {after}, {way}");
+    assert_eq!(set(&mut instance, &table, "model.tolerance_relative", -1.0), Ending::Ok);
+    assert_eq!(instance.do_step(0.1, 0.1), Ending::Error);
 }

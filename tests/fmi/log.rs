@@ -3,6 +3,8 @@
 use std::sync::{Arc, Mutex};
 
 use mcm::fmi::log::Log;
+use mcm::fmi::state::Ending;
+use mcm::fmi::value::Value;
 
 /// A log into a list.
 fn log(events: bool) -> (Log, Arc<Mutex<Vec<String>>>) {
@@ -16,7 +18,7 @@ fn log(events: bool) -> (Log, Arc<Mutex<Vec<String>>>) {
 
 fn heard(log: &Log, told: &Mutex<Vec<String>>) -> [bool; 3] {
     told.lock().unwrap().clear();
-    log.forget_repetitions();
+    log.step_done();
     log.event("e");
     log.notice("w");
     log.error("x");
@@ -54,7 +56,50 @@ fn a_message_that_repeats_itself_falls_silent() {
     log.error("another");
     log.error("the same");
     assert_eq!(told.lock().unwrap().len(), 12, "another message in between");
-    log.forget_repetitions();
+    log.step_done();
     log.error("the same");
     assert_eq!(told.lock().unwrap().len(), 13, "after a success");
+}
+
+#[test]
+fn numbers_that_look_like_those_of_another_unit_are_told_once() {
+    let heard = |told: &super::Told| {
+        let told = told.lock().unwrap();
+        told.iter().filter(|line| line.contains("if it was meant in")).cloned().collect::<Vec<_>>()
+    };
+    let scene = "[design]\nsegments = 1\n[design.ring]\nlength_mm = 0.001\n[model]\ninteraction = \"none\"";
+    let (mut instance, package, told) = super::instance(scene);
+    let of_scene = "logStatusWarning: design.ring.length_mm = 0.001: ";
+    assert!(matches!(&heard(&told)[..], [only] if only.starts_with(of_scene)), "{:?}", heard(&told));
+
+    // What the host sets is in the unit of the variable.
+    told.lock().unwrap().clear();
+    for (name, value) in [("design.ring.remanence", 12.0), ("magnet.design.cylinder[1].radius", 22.5)] {
+        let reference = super::instance::reference(package.table(), name);
+        assert_eq!(instance.set(&[reference], [Value::Real(value)].into_iter()), Ending::Ok);
+    }
+    assert_eq!(instance.enter_initialization(), Ending::Ok);
+    assert_eq!(instance.exit_initialization(), Ending::Ok);
+    let odd = heard(&told);
+    assert!(
+        odd[0].contains("design.ring.remanence = 12: ") && odd[0].contains("in kG, it is 1.2 T"),
+        "{odd:?}"
+    );
+    assert!(
+        odd[1].contains("magnet.design.cylinder[1].radius = 22.5: ")
+            && odd[1].contains("in mm, it is 22.5 mm")
+    );
+    assert_eq!(odd.len(), 2, "the scene's own has been told");
+
+    // And where it is refused, too.
+    let (mut instance, package, told) = super::instance(super::BENT);
+    let reference = super::instance::reference(package.table(), "design.helix.length");
+    assert_eq!(instance.set(&[reference], [Value::Real(4.0)].into_iter()), Ending::Ok);
+    assert_eq!(instance.enter_initialization(), Ending::Ok);
+    assert_eq!(instance.exit_initialization(), Ending::Error);
+    assert!(
+        super::last(&told).contains("it must be > 0 and <= 1; if it was meant in mm, it is 4 mm"),
+        "{}",
+        super::last(&told)
+    );
 }

@@ -16,6 +16,8 @@ mod model_exchange;
 
 mod package;
 
+mod refused;
+
 mod serialise;
 
 mod sources;
@@ -23,6 +25,8 @@ mod sources;
 mod state;
 
 mod table;
+
+mod unknowns;
 
 mod vessel;
 
@@ -37,7 +41,7 @@ const BENT: &str =
     "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 10.0, 0.0]\n[model]\ninteraction = \"none\"";
 
 /// What an instance has told its host.
-type Told = Arc<Mutex<Vec<String>>>;
+pub(crate) type Told = Arc<Mutex<Vec<String>>>;
 
 /// An instance of a scene with five shape points, and its log.
 fn instance(scene: &str) -> (Instance, Package, Told) {
@@ -45,7 +49,7 @@ fn instance(scene: &str) -> (Instance, Package, Told) {
 }
 
 /// An instance of a package, and its log.
-fn instance_of(package: Package) -> (Instance, Package, Told) {
+pub(crate) fn instance_of(package: Package) -> (Instance, Package, Told) {
     instance_for(Interface::CoSimulation, package)
 }
 

@@ -12,7 +12,7 @@ use super::{BENT, Told, instance_for, last};
 const SNAPPING: &str = "[design]\nsegments = 9\n[magnet]\nposition_mm = [0, -120, -80]\nturn_deg = 180\n\
                         [model]\ninteraction = \"none\"";
 
-/// The attraction of rings and helix pulls one segment shut at 35.86 mT.
+/// The attraction of rings and helix pulls one segment shut at 35.82 mT.
 const SHUT: &str =
     "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 20, 0]";
 
@@ -56,10 +56,11 @@ fn values_and_derivatives_are_those_of_co_simulation() {
 
 #[test]
 fn what_was_tried_leaves_no_trace() {
-    let (mut instance, table, told) = running(SNAPPING);
+    let (mut instance, table, told) = running(&format!("{SNAPPING}\ntime_budget_s = 20.0"));
     let place = |instance: &mut Instance, z: f64| {
         assert_eq!(set(instance, &table, "magnet.position[3]", z), Ending::Ok);
-        get(instance, &table, "tip.angle")
+        let angle = instance.get(&[reference(&table, "tip.angle")], "Real", Value::real);
+        angle.unwrap_or_else(|_| panic!("{}", last(&told)))[0]
     };
     let here = place(&mut instance, -0.079);
     let beyond = place(&mut instance, 0.07);
@@ -129,4 +130,37 @@ fn each_interface_refuses_the_calls_and_states_of_the_other() {
     assert!(last(&told).contains("gravity[3] (tunable parameter) cannot be set in continuous-time mode"));
     assert_eq!(exchange.enter_event_mode(), Ending::Ok);
     assert_eq!(set(&mut exchange, &table, "gravity[3]", -9.81), Ending::Ok);
+}
+
+/// IPOPT tries many poses, each beyond the fold or without an equilibrium, before it takes a step.
+#[test]
+fn trials_are_told_of_once_a_step() {
+    let said =
+        |told: &Told, words: &str| told.lock().unwrap().iter().filter(|line| line.contains(words)).count();
+    let patient = format!("{SNAPPING}\ntime_budget_s = 20.0");
+    let (mut instance, table, told) = running(&patient);
+    for step in 1..=2 {
+        for trial in 0..20 {
+            let z = 0.06 + 0.0005 * f64::from(trial);
+            assert_eq!(set(&mut instance, &table, "magnet.position[3]", z), Ending::Ok);
+            assert!(get(&mut instance, &table, "tip.angle").is_finite());
+            assert_eq!(whole(&mut instance, &table, "stability.snaps"), Ok(1));
+        }
+        assert_eq!(said(&told, "snapped to another branch"), step, "{:?}", told.lock().unwrap());
+        assert_eq!(set(&mut instance, &table, "magnet.position[3]", -0.079), Ending::Ok);
+        assert_eq!(instance.completed_integrator_step(), Ok(false));
+    }
+    let (mut instance, table, told) = running(SHUT);
+    for step in 1..=2 {
+        for trial in 0..20 {
+            let field = 0.04 + 0.001 * f64::from(trial);
+            assert_eq!(set(&mut instance, &table, "field.uniform[2]", field), Ending::Ok);
+            assert_eq!(whole(&mut instance, &table, "solver.status"), Ok(3));
+            let angle = instance.get(&[reference(&table, "tip.angle")], "Real", Value::real);
+            assert_eq!(angle, Err(Ending::Discard));
+        }
+        assert_eq!(said(&told, "% of the way"), step, "{:?}", told.lock().unwrap());
+        assert_eq!(set(&mut instance, &table, "field.uniform[2]", 0.02), Ending::Ok);
+        assert_eq!(instance.completed_integrator_step(), Ok(false));
+    }
 }

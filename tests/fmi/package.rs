@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use mcm::fmi::Package;
-use mcm::fmi::instance::identify;
 use mcm::fmi::location::paths;
+use mcm::fmi::package::identify;
 
 use super::BENT;
 

@@ -8,12 +8,15 @@ use mcm::fmi::units::{QUANTITIES, UNITS};
 use mcm::fmi::value::{DataType, Value};
 use mcm::fmi::variable::{Access, Availability, Causality, Variability, Variable};
 
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 5] = [
     "",
     "[design]\nsegments = 2\nbase_magnet = false\n[design.backbone]\nouter_radius_mm = 0.74\ninner_radius_mm = 0.7\n\
      elastic_modulus_mpa = 500.0\npoisson = 0.46",
     "[design]\nkind = \"cylinder\"\nlength_mm = 10.0\nradius_mm = 1.0\nshore_a = 33.0",
     "[design]\nkind = \"cylinder\"\nlength_mm = 10.0\nradius_mm = 1.0\nelastic_modulus_mpa = 1.0\nremanence_t = 0.2",
+    "[design]\nsegments = 1\n[feed]\nmode = \"insertion\"\n[feed.shaft]\nouter_radius_mm = 0.75\ninner_radius_mm = 0.25\n\
+     elastic_modulus_mpa = 1.0\npoisson = 0.45\n[vessel]\n[[vessel.branch]]\nname = \"tube\"\n\
+     points_mm = [[0, 0, -20], [0, 0, 40], [0, 0, 100]]\nradius_mm = 3.5",
 ];
 
 fn packages() -> impl Iterator<Item = Package> {
@@ -51,6 +54,9 @@ fn the_names_that_users_rely_on_are_there() {
         "ring[10].load_force[3]",
         "gravity[3]",
         "model.interaction",
+        "model.tolerance_position",
+        "model.tolerance_angle",
+        "model.tolerance_relative",
         "design.ring.recoil_permeability",
         "design.spiral_start[9]",
         "magnet.design.cylinder[2].remanence",
@@ -140,7 +146,7 @@ fn tags_of_a_variable_fit_together() {
             let fits = match (row.causality, row.variability) {
                 (Causality::Input, Variability::Continuous) => role.is_known(),
                 (Causality::Output, Variability::Continuous) => role.is_unknown(),
-                (Causality::Output, Variability::Discrete) | (Causality::Parameter, Variability::Fixed) => {
+                (Causality::Local, Variability::Discrete) | (Causality::Parameter, Variability::Fixed) => {
                     role == DerivativeRole::None
                 }
                 (Causality::Parameter, Variability::Tunable) => !role.is_unknown(),
@@ -151,7 +157,7 @@ fn tags_of_a_variable_fit_together() {
             let continuous = row.variability == Variability::Continuous;
             assert!(!continuous || matches!(row.data_type, DataType::Real(_)), "{name}");
             let by_host = row.host_value(package.start()).is_some();
-            assert_eq!(by_host, row.causality != Causality::Output, "{name}");
+            assert_eq!(by_host, !row.is_result(), "{name}");
         }
     }
     // The search for an equilibrium is described by six outputs; one output is measured when it is read.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use mcm::equilibrium::{Input, Output};
-use mcm::fmi::instance::identify;
+use mcm::fmi::package::identify;
 use mcm::fmi::state::Ending;
 use mcm::fmi::variables::Table;
 use mcm::fmi::{Instance, Package};

@@ -1,6 +1,7 @@
 //! Fields at many points, beside those at single points.
 
 use mcm::error::Error;
+use mcm::geometry::Pose;
 use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Jet};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
@@ -172,4 +173,27 @@ fn the_field_scales_with_the_size_of_all() {
             );
         }
     }
+}
+
+#[test]
+fn an_edge_is_named_in_the_frame_of_the_question() {
+    let cylinder =
+        |offset| AxialMagnet { radius: 4e-3, inner_radius: 0.0, length: 10e-3, offset, remanence: 1.0 };
+    let magnet = Assembly::new(vec![cylinder(-10e-3), cylinder(10e-3)]).expect("allowed");
+    let edge = Vector3::new(4e-3, 0.0, 15e-3);
+    let told = |refused: Error| match refused {
+        Error::OnEdge { x, y, z } => Vector3::new(x, y, z),
+        other => panic!("{other}"),
+    };
+    assert_eq!(told(magnet.field(&edge).expect_err("an edge")), edge);
+    assert_eq!(told(magnet.field_gradient(&edge).expect_err("an edge")), edge);
+    assert_eq!(told(magnet.jet(&edge).expect_err("an edge")), edge);
+    for count in [1, 13] {
+        let points = vec![edge; count];
+        assert_eq!(told(magnet.field_gradients(&points, &mut Vec::new()).expect_err("an edge")), edge);
+        assert_eq!(told(magnet.jets(&points, &mut Vec::new()).expect_err("an edge")), edge);
+    }
+    let pose = Pose::new([0.1, 0.2, 0.3], [0.5, 0.5, 0.5, 0.5]).expect("a unit quaternion");
+    let there = pose.position + pose.rotation * edge;
+    assert_eq!(told(magnet.field_gradient_from(&pose, &there).expect_err("an edge")), there);
 }

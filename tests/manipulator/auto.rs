@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use mcm::design::{Cylinder, CylinderMaterial, Design, Segmented, Specification, SpiralKind};
 use mcm::equilibrium::{Interaction, Settings, TipDeviation};
 use mcm::geometry::RotationVector;
-use mcm::manipulator::{Inputs, Manipulator, Outputs, Status};
+use mcm::manipulator::{Inputs, Manipulator, Outputs, Status, TipTolerance};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -49,6 +49,7 @@ impl Scene {
             interaction: Interaction::Auto,
             tolerance_position,
             tolerance_angle: 100.0 * tolerance_position,
+            tolerance_relative: 0.0,
             time_budget: 60.0, // what is compared must not depend on the machine
             ..Settings::default()
         };
@@ -154,6 +155,7 @@ fn closing_windings_call_for_a_new_estimate() {
             interaction: Interaction::Auto,
             tolerance_position: tolerance * design.length(),
             tolerance_angle: tolerance,
+            tolerance_relative: 0.0,
             ..Settings::default()
         };
         let device = |settings| Manipulator::new(&design, None, settings, 2).unwrap();
@@ -211,6 +213,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             interaction: Interaction::Auto,
             tolerance_position: tolerance * length,
             tolerance_angle: tolerance,
+            tolerance_relative: 0.0,
             ..Settings::default()
         };
         let manipulator = |settings| Manipulator::new(&design, Some(&pair()), settings, 2).unwrap();
@@ -220,7 +223,8 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
         for step in (0..=90).chain((0..90).rev()) {
             // The host asks for ten times as much for a while, which the coarse models cannot give.
             let asked = if step % 60 < 30 { 1.0 } else { 0.1 };
-            own.set_tolerances(asked * auto.tolerance_position, asked * auto.tolerance_angle).unwrap();
+            let [position, angle] = [auto.tolerance_position, auto.tolerance_angle].map(|most| asked * most);
+            own.set_tolerance(TipTolerance { position, angle, relative: 0.0 }).unwrap();
             let [y, z]: [f64; 2] = core::array::from_fn(|i| start[i] + pace[i] * f64::from(step));
             inputs.magnet.position = Vector3::new(0.0, y, z);
             let a = own.solve(&inputs).unwrap().clone();

@@ -21,6 +21,12 @@ mod sources;
 
 mod steps;
 
+mod tolerances;
+
 mod walks;
 
+mod way;
+
 mod uncertainty;
+
+mod units;

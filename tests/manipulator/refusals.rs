@@ -216,7 +216,7 @@ fn what_is_out_of_range_is_named_as_the_file_writes_it() {
 }
 
 /// Paths of all numbers.
-fn numbers(value: &toml::Value, path: &str) -> Vec<String> {
+pub(super) fn numbers(value: &toml::Value, path: &str) -> Vec<String> {
     match value {
         toml::Value::Float(_) | toml::Value::Integer(_) => vec![path.to_owned()],
         toml::Value::Table(table) => {
@@ -247,4 +247,73 @@ fn a_key_of_a_missing_table_says_so_and_an_optional_number_can_be_set() {
     assert!(file.to_toml().unwrap().contains("density_kg_m3 = 1.5"));
     let refused = with("", "design.helix.densitty_kg_m3").unwrap_err();
     assert!(refused.starts_with("unknown key `design.helix.densitty_kg_m3`; known here:"), "{refused}");
+}
+
+#[test]
+fn what_is_known_is_what_a_device_of_that_kind_has() {
+    let known = |text: &str| {
+        let refused = refusal(text);
+        let (_, known) = refused.split_once("known here: ").unwrap_or_else(|| panic!("{refused}"));
+        known.split(", ").map(str::to_owned).collect::<Vec<_>>()
+    };
+    let segments = [
+        "kind",
+        "segments",
+        "base_magnet",
+        "tip_magnet",
+        "spiral",
+        "spiral_start_deg",
+        "helix",
+        "ring",
+        "backbone",
+    ];
+    assert_eq!(known("[design]\nxyzzy = 1"), segments);
+    assert_eq!(known("[design]\nxyzzy = 1\nkind = \"segments\""), segments);
+    let rod = "[design]\nkind = \"cylinder\"\nlength_mm = 40\nradius_mm = 2\n";
+    let of_rod = [
+        "kind",
+        "length_mm",
+        "radius_mm",
+        "inner_radius_mm",
+        "shore_a",
+        "elastic_modulus_mpa",
+        "poisson",
+        "volume_fraction",
+        "particle_remanence_t",
+        "remanence_t",
+        "density_kg_m3",
+    ];
+    assert_eq!(known(&format!("{rod}xyzzy = 1")), of_rod);
+    // What is near is of that kind, too.
+    assert!(refusal(&format!("{rod}segmens = 1")).contains("known here: kind, length_mm"));
+    assert!(refusal(&format!("{rod}shor_a = 1")).ends_with("did you mean `shore_a`?"));
+    // A path names keys that the file leaves out, too.
+    for (text, own) in [("", &segments[..]), (rod, &of_rod[..])] {
+        let refused = SceneFile::parse(text, "test").unwrap().number("design.xyzzy").unwrap_err().to_string();
+        assert!(refused.ends_with(&own.join(", ")), "{refused}");
+    }
+}
+
+#[test]
+fn what_is_wrong_besides_the_mesh_is_told_before_it_is_sampled() {
+    let mesh = "[vessel]\nmesh_stl = \"vessel.stl\"\n";
+    for (text, expected) in [
+        ("[feed]\nmode = \"insertion\"\n", "test: feed.shaft is missing"),
+        ("[design.helix]\nshore_a = 120\n", "test, line 4: design.helix.shore_a = 120 is not allowed"),
+        ("wall_modulus_mpa = -1\n", "test, line 3: vessel.wall_modulus_mpa = -1 is not allowed"),
+        ("friction = 11\n", "test, line 3: vessel.friction = 11 is not allowed"),
+        (
+            "[[vessel.branch]]\nname = \"b\"\npoints_mm = [[0, 0, 0], [0, 0, 9]]\nradius_mm = 3\n",
+            "vessel.mesh_stl has no meaning",
+        ),
+    ] {
+        let sampled = std::cell::Cell::new(false);
+        let refused = SceneFile::parse_with(&format!("{mesh}{text}"), "test", |_| {
+            sampled.set(true);
+            Err(mcm::error::Error::Unsupported("sampled".into()))
+        });
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains(expected), "{refused}");
+        assert!(!sampled.get(), "{text}");
+    }
 }

@@ -82,6 +82,10 @@ class Device:
         """Reads `solver.status`."""
         return self.slave.getInteger(self.references(["solver.status"]))[0]
 
+    def outcome(self) -> int:
+        """Reads `solver.outcome`."""
+        return self.slave.getInteger(self.references(["solver.outcome"]))[0]
+
     def start(self, values: dict[str, float] | None = None) -> "Device":
         """From instantiation to the first communication point."""
         self.slave.setupExperiment(startTime=0.0)
@@ -145,3 +149,32 @@ def solve(tmp_path: Path) -> Callable[[str, int], dict]:
         return json.loads(done.stdout)
 
     return solved
+
+
+@pytest.fixture(scope="session")
+def live_page(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page, built by `fmu/live` from another folder."""
+    folder = tmp_path_factory.mktemp("live page")
+    done = subprocess.run(
+        [PACKAGE / "fmu" / "live"], cwd=folder, capture_output=True, text=True, check=False, timeout=900
+    )
+    assert done.returncode == 0, done.stderr
+    return folder / "mcm_live.html"
+
+
+@pytest.fixture
+def open_page(live_page: Path, tmp_path: Path) -> Iterator[Callable[..., object]]:
+    """Opens the page; at the end no test may leave complaints in the console."""
+    from page import LAPTOP, Page  # noqa: PLC0415  # needs a browser, and this module
+
+    opened: list[Page] = []
+
+    def made(size: tuple[int, int] = LAPTOP, more: str = "") -> Page:
+        opened.append(Page(live_page, tmp_path, size, more))
+        return opened[-1]
+
+    yield made
+    complaints = [page.complaints() for page in opened]
+    for page in opened:
+        page.browser.quit()
+    assert complaints == [[] for _ in opened]

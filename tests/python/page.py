@@ -10,6 +10,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions import interaction
 from selenium.webdriver.common.actions.pointer_input import PointerInput
 from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.remote.webelement import WebElement
 from selenium.webdriver.support.ui import Select, WebDriverWait
 
@@ -83,9 +84,22 @@ class Page:
         return self.find(name).text
 
     def press(self, name: str) -> None:
-        """Presses a button, wherever it is scrolled to."""
-        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", self.find(name))
+        """Presses a button, wherever it is scrolled to, and in whatever part of the panel."""
+        open_and_scroll = """
+            for (let each = arguments[0]; each !== null; each = each.parentElement) {
+                each.toggleAttribute("open", each.tagName === "DETAILS" || each.hasAttribute("open"));
+            }
+            arguments[0].scrollIntoView({ block: "center" });
+        """
+        self.browser.execute_script(open_and_scroll, self.find(name))
         self.find(name).click()
+
+    def enter(self, rows: str, row: int, text: str) -> None:
+        """Types a number into one of the rows of a part of the panel, wherever it is scrolled to."""
+        field = self.find(rows).find_elements(By.CSS_SELECTOR, "input[type=number]")[row]
+        self.browser.execute_script("arguments[0].scrollIntoView({block: 'center'})", field)
+        field.clear()
+        field.send_keys(text, Keys.ENTER)
 
     def drag(self, moves: int, pointer: str = interaction.POINTER_MOUSE) -> None:
         """Drags the magnet by the middle of its gizmo, by mouse or finger, upwards to the right and back."""

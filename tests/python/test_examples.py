@@ -189,6 +189,19 @@ def test_c_under_valgrind(
     assert difference(table(tmp_path / "driven.csv"), few) < SLACK
 
 
+def test_c_from_a_relative_folder_with_a_scene_of_ones_own(
+    pack: Callable[..., Archive], compile_c: Callable[..., Path], tmp_path: Path
+) -> None:
+    """As the first lines of the program say: `./drive unpacked ...`."""
+    archive = pack('[design]\nsegments = 2\n[magnet]\n[model]\ninteraction = "none"')
+    (tmp_path / "unpacked").symlink_to(archive.folder)
+    (tmp_path / "drive").symlink_to(compile_c())
+    command = ["./drive", "unpacked", EXAMPLES / "magnet_pass.csv", "driven.csv"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert np.ptp(table(tmp_path / "driven.csv")["tip.angle"]) > 0.1
+
+
 def test_c_says_what_is_wrong(default: Archive, compile_c: Callable[..., Path], tmp_path: Path) -> None:
     program = compile_c()
     (tmp_path / "unknown.csv").write_text("time,magnet.colour\n0,1\n1,1\n")

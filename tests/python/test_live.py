@@ -6,13 +6,13 @@ Leaves screenshots in `target/live` for looking at.
 import csv
 import json
 import subprocess
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from conftest import PACKAGE, Archive, Device, run
-from page import LAPTOP, PATIENCE, PHONE, Page
+from page import PATIENCE, PHONE, Page
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions import interaction
 from selenium.webdriver.common.by import By
@@ -22,33 +22,6 @@ from test_vessel import SCENE, tube
 
 # Largest difference of tip positions between page and FMU on the same path, m: other sines and cosines, same steps.
 SAME_TIP = 1e-9
-
-
-@pytest.fixture(scope="module")
-def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page, built by `fmu/live` from another folder."""
-    folder = tmp_path_factory.mktemp("live page")
-    done = subprocess.run(
-        [PACKAGE / "fmu" / "live"], cwd=folder, capture_output=True, text=True, check=False, timeout=900
-    )
-    assert done.returncode == 0, done.stderr
-    return folder / "mcm_live.html"
-
-
-@pytest.fixture
-def open_page(file: Path, tmp_path: Path) -> Iterator[Callable[..., Page]]:
-    """Opens the page; at the end no test may leave complaints in the console."""
-    opened: list[Page] = []
-
-    def made(size: tuple[int, int] = LAPTOP, more: str = "") -> Page:
-        opened.append(Page(file, tmp_path, size, more))
-        return opened[-1]
-
-    yield made
-    complaints = [page.complaints() for page in opened]
-    for page in opened:
-        page.browser.quit()
-    assert complaints == [[] for _ in opened]
 
 
 TIP = [f"tip.position[{k}]" for k in (1, 2, 3)]
@@ -85,8 +58,10 @@ def tips(columns: dict[str, np.ndarray]) -> np.ndarray:
     return np.column_stack([columns[name] for name in TIP])
 
 
-def test_the_page_is_one_small_file_and_ready_at_once(file: Path, open_page: Callable[..., Page]) -> None:
-    assert file.stat().st_size < 3_000_000
+def test_the_page_is_one_small_file_and_ready_at_once(
+    live_page: Path, open_page: Callable[..., Page]
+) -> None:
+    assert live_page.stat().st_size < 3_000_000
     page = open_page()
     first = page.at_rest()
     assert first["status"] == 0
@@ -98,7 +73,7 @@ def test_the_page_is_one_small_file_and_ready_at_once(file: Path, open_page: Cal
     ]
     assert elsewhere == []
     page.shot("demo")
-    print(f"core ready after {page.ready:.3f} s, {file.stat().st_size / 1e6:.2f} MB")
+    print(f"core ready after {page.ready:.3f} s, {live_page.stat().st_size / 1e6:.2f} MB")
 
 
 def test_the_mouse_moves_the_magnet_and_the_fmu_agrees(

@@ -8,7 +8,7 @@ from conftest import Archive, Device
 from fmpy.fmi1 import FMICallException
 
 NOT_SOLVED = 3  # `solver.status`
-CONTACT = 3  # `solver.outcome`
+CONTACT, INPUT_REFUSED = 3, 6  # `solver.outcome`
 
 # Nine segments, and a magnet that passes by with its field against them: they turn over, and back later.
 PASSING = """
@@ -60,13 +60,17 @@ def test_number_that_is_none(device: Device, value: float) -> None:
     message = refused(device, "setReal", device.references(["magnet.position[2]"]), [value])
     assert "magnet.position[2]" in message
     assert "finite" in message
-    device.step(0.1)
+    assert "magnet.position[2] was refused" in refused(device, "doStep", 0.0, 0.1)
+    assert (device.status(), device.outcome()) == (NOT_SOLVED, INPUT_REFUSED)
+    assert device.get(["tip.angle"]) == angle
+    device.step(0.1, {"magnet.position[2]": -0.12})
+    assert (device.status(), device.outcome()) == (0, 0)
     assert device.get(["tip.angle"]) == pytest.approx(angle, rel=1e-9)
 
 
 def test_quaternion_that_is_no_rotation(device: Device) -> None:
     device.start()
-    device.set({"magnet.orientation[1]": 0.5})
+    device.set({"magnet.orientation[1]": 2.5})
     assert "magnet.orientation" in refused(device, "doStep", 0.0, 0.1)
     device.step(0.1, {"magnet.orientation[1]": 0.0})
 
@@ -158,7 +162,7 @@ def test_first_pose_inside_the_magnet(device: Device) -> None:
     assert "mm deep in cylinder" in message
     assert "last good" not in message
     assert device.status() == NOT_SOLVED
-    assert device.slave.getInteger(device.references(["solver.outcome"])) == [CONTACT]
+    assert device.outcome() == CONTACT
     assert "no equilibrium was found yet" in refused(device, "getReal", device.references(["tip.angle"]))
     device.slave.reset()
     device.start()

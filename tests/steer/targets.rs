@@ -1,6 +1,6 @@
 //! Targets that can be reached are reached, without a snap.
 
-use mcm::geometry::RotationVector;
+use mcm::geometry::{Pose, RotationVector};
 use mcm::manipulator::{Inputs, Scene, Status};
 use mcm::steer::{Limits, Move, Steering, Target};
 use nalgebra::Vector3;
@@ -151,4 +151,66 @@ fn a_circle_of_the_tip_is_followed() {
     let way: Vec<_> = answers.iter().flat_map(|answer| answer.way.clone()).collect();
     answers.iter().for_each(reached);
     assert_walked(&solved(&scene), &way);
+}
+
+/// Tips that a solve gives at one pose of the magnet, asked for from another, both in mm and as quaternions: once called unreachable, at up
+/// to 10 um from the target, where the tip moves a thousand times less along one direction than along the others.
+#[test]
+fn tips_beside_a_flat_optimum_are_met() {
+    struct Case {
+        segments: usize,
+        from: ([f64; 3], [f64; 4]),
+        to: ([f64; 3], [f64; 4]),
+        /// Gap that is kept, mm.
+        gap: f64,
+        directed: bool,
+    }
+    let cases = [
+        Case {
+            segments: 3,
+            from: ([0.0, -120.0, 9.0], [0.0, 1.0, 0.0, 0.0]),
+            to: ([-21.97, -118.34, 25.0], [0.0823, 0.9966, 0.0, 0.0]),
+            gap: 60.0,
+            directed: false,
+        },
+        Case {
+            segments: 3,
+            from: ([24.2676, -119.2360, -20.1121], [0.003_219, 0.954_567, 0.240_847, -0.175_456]),
+            to: ([14.5233, -97.6810, 35.7496], [0.146_931, 0.970_704, -0.182_172, 0.054_383]),
+            gap: 60.0,
+            directed: false,
+        },
+        Case {
+            segments: 9,
+            from: ([-38.9712, -128.6949, 66.6164], [0.135_685, -0.981_766, 0.067_594, -0.114_698]),
+            to: ([-10.7735, -156.7993, -12.7581], [0.203_377, -0.963_245, 0.068_226, 0.161_683]),
+            gap: 60.0,
+            directed: true,
+        },
+        Case {
+            segments: 9,
+            from: ([-8.5532, -124.5786, 63.9244], [0.007_811, -0.969_965, -0.216_337, -0.110_929]),
+            to: ([4.1554, -121.7711, -0.2148], [0.104_378, -0.981_895, 0.105_748, -0.117_493]),
+            gap: 1.0,
+            directed: true,
+        },
+    ];
+    for Case { segments, from, to, gap, directed } in cases {
+        let scene = scene(segments);
+        let pose = |(position, orientation): ([f64; 3], [f64; 4])| {
+            let norm = orientation.iter().map(|part| part * part).sum::<f64>().sqrt();
+            Pose::new(position.map(|x| x / 1e3), orientation.map(|part| part / norm)).unwrap()
+        };
+        let there = Inputs { magnet: pose(to), ..scene.inputs.clone() };
+        let tip = scene.manipulator(2).unwrap().solve(&there).unwrap().tip;
+        let direction = directed.then(|| tip.axis());
+        let target = Target { position: Some(tip.position), direction, ..Target::default() };
+
+        let limits = Limits { distance: gap / 1e3, ..Limits::default() };
+        let start = Scene { inputs: Inputs { magnet: pose(from), ..scene.inputs.clone() }, ..scene };
+        let answer = Steering::new(&start, &POSE, limits).unwrap().to(&target).unwrap();
+        println!("S = {segments}: {} steps, {:?}", answer.way.len(), answer.residual);
+        reached(&answer);
+        assert_walked(&solved(&start), &answer.way);
+    }
 }

@@ -9,7 +9,7 @@
    are set, then the step is taken: a row of the outputs is the answer to the inputs of the same time. Half-way the state
    is saved; at the end it is restored and the second half is driven again, which must give the same numbers. */
 
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* POSIX, with realpath */
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -195,15 +195,19 @@ static void write_outputs(const char *path, double kept[][OUTPUT_COUNT])
 int main(int count, char **arguments)
 {
     if (count != 4) stop("usage", "drive UNPACKED_FMU INPUTS.csv OUTPUTS.csv");
-    void *library = load(arguments[1]);
-    char *xml = description(arguments[1]);
+    /* The URI of the resources needs the absolute path: in file://unpacked/resources, `unpacked` would be the name of a host. */
+    char *folder = realpath(arguments[1], NULL);
+    if (!folder) stop("there is no folder", arguments[1]);
+    void *library = load(folder);
+    char *xml = description(folder);
     read_inputs(arguments[2], xml);
     fmi2ValueReference outputs[OUTPUT_COUNT];
     for (size_t k = 0; k < OUTPUT_COUNT; ++k) outputs[k] = reference(xml, OUTPUTS[k]);
     char id[128], resources[LONGEST_LINE];
     guid(xml, id, sizeof id);
-    snprintf(resources, sizeof resources, "file://%s/resources", arguments[1]);
+    snprintf(resources, sizeof resources, "file://%s/resources", folder);
     free(xml);
+    free(folder);
 
     const fmi2CallbackFunctions callbacks = {logger, calloc, free, NULL, NULL};
     fmi2Component device =

@@ -7,6 +7,8 @@ interface Exports {
     mcm_text(bytes: number): number;
     mcm_grid(bytes: number): number;
     mcm_inputs(count: number): number;
+    mcm_way(count: number): number;
+    mcm_scene_at(number: number): number;
     mcm_said(): number;
     mcm_said_bytes(): number;
     mcm_outputs(): number;
@@ -59,6 +61,20 @@ export class Core {
         this.exports.mcm_open_at_level(number, other, level);
     }
 
+    /** The text of a device's scene at these inputs, with the way to them. */
+    sceneAt(number: number, inputs: Float64Array, points: Float64Array[]): string {
+        this.numbers(this.exports.mcm_inputs(inputs.length), inputs.length).set(inputs);
+        const count = points.length * inputs.length;
+        const way = this.numbers(this.exports.mcm_way(count), count);
+        points.forEach((point, row) => way.set(point, row * inputs.length));
+        const written = this.exports.mcm_scene_at(number);
+        const said = this.said();
+        if (written === 0) {
+            throw new Refusal(said);
+        }
+        return said;
+    }
+
     close(number: number): void {
         this.exports.mcm_close(number);
     }
@@ -94,6 +110,10 @@ export class Core {
 
     private said(): string {
         return new TextDecoder().decode(this.bytes(this.exports.mcm_said(), this.exports.mcm_said_bytes()));
+    }
+
+    private numbers(place: number, length: number): Float64Array {
+        return new Float64Array(this.exports.memory.buffer, place, length);
     }
 
     private bytes(place: number, length: number): Uint8Array {

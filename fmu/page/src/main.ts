@@ -7,6 +7,7 @@ import { Editor } from "./panel/editor";
 import { element } from "./panel/element";
 import { offerExports } from "./panel/exports";
 import { inspectionOf } from "./panel/inspection";
+import { Keeping } from "./panel/keeping";
 import { listenToKeys } from "./panel/keys";
 import type { Linked } from "./panel/link";
 import { inputsOf, MagnetTurns, poseOf } from "./panel/magnet";
@@ -16,6 +17,7 @@ import { Session } from "./panel/session";
 import { Sheet } from "./panel/sheet";
 import { missing, stop } from "./panel/support";
 import { Appearance } from "./panel/theme";
+import { textOf } from "./panel/trail";
 import { Toolbar } from "./panel/toolbar";
 import { Warnings } from "./panel/warnings";
 import { Plots } from "./plots/plots";
@@ -42,7 +44,8 @@ function begin(): void {
     new Warnings(session, banners, plots.seconds);
     const scenes = new Scenes(session, editor, (why) => banners.show("notice", why));
     new Deck(session, banners, () => scenes.preset);
-    offerExports(view, editor, banners);
+    const keeping = new Keeping(session);
+    offerExports(view, { session, editor, keeping, banners });
 
     // The page is connected from here on, so that a change of any part can be written to the address.
     const toolbar = new Toolbar(view, () => address.later());
@@ -56,9 +59,17 @@ function begin(): void {
             : {
                   scene: session.scene,
                   inputs: session.moved(),
+                  way: keeping.rows(),
                   overlays: toolbar.overlays,
                   theme: appearance.chosen,
               };
+    const tried = async () => {
+        const kept = await keeping.kept();
+        const linked = state();
+        return kept === null || linked === null
+            ? null
+            : { linked: { ...linked, way: kept.rows }, remark: kept.remark };
+    };
     const open = (linked: Linked | null) => {
         if (linked === null) {
             scenes.openFirst();
@@ -66,9 +77,9 @@ function begin(): void {
         }
         appearance.choose(linked.theme);
         toolbar.show(linked.overlays);
-        editor.open(linked.scene, linked.inputs);
+        editor.open(linked.scene + textOf(linked.way), linked.inputs);
     };
-    const address = new Address(state, open, banners);
+    const address = new Address(state, tried, open, banners);
     element("theme", HTMLButtonElement).addEventListener("click", () => address.later());
 
     const help = element("help", HTMLDialogElement);

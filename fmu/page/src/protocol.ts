@@ -130,15 +130,37 @@ export interface Answer {
     cost: number;
 }
 
+/** A row of a scene's way: inputs by name. */
+export type WayRow = Record<string, number>;
+
 /** From the page to the worker. */
 export type Request =
-    /** Reads a scene and loads the device at its start. Answered by `opened` and `answer`, or by `refused`. */
-    | { kind: "open"; scene: string }
+    /** Reads a scene and loads the device at its start, where `inputs` do not say otherwise. Answered by `opened` and `answer`, or by
+     * `refused`. */
+    | { kind: "open"; scene: string; inputs: Record<string, number> }
+    /** Asks which of several ways leads a new device to these inputs and to the shape of these outputs. Answered by `carried`. */
+    | { kind: "carry"; scene: string; ways: Carriage[]; inputs: Float64Array; outputs: Float64Array }
     /** Loads the device anew, at these inputs. */
     | { kind: "restart"; inputs: Float64Array }
     /** Moves on to these inputs. The newest wins where they come faster than answers, unless `every` is set: then each is solved,
      * by the model that the scene asks for, in turn. */
     | { kind: "move"; inputs: Float64Array; every: boolean };
+
+/** A way that a scene could carry: its text as tables of a scene, and its rows of all inputs. */
+export interface Carriage {
+    text: string;
+    points: Float64Array[];
+}
+
+/** What a scene carries. */
+export interface Carried {
+    /** Which of the ways it is: the first one that leads to the shape, or else the last. */
+    way: number;
+    /** Largest distance of the centreline to which it leads from that of the device, m; not a number where it leads nowhere. */
+    apart: number;
+    /** The text of the scene with this way at these inputs. */
+    scene: string;
+}
 
 /** From the worker to the page. */
 export type Reply =
@@ -148,6 +170,7 @@ export type Reply =
     /** The scene is not read, and the one before goes on; a line for each fault. */
     | { kind: "refused"; message: string }
     | { kind: "answer"; answer: Answer }
+    | { kind: "carried"; carried: Carried }
     /** The core failed in a way that it should not; the page must be loaded anew. */
     | { kind: "broken"; message: string };
 

@@ -13,6 +13,11 @@ const NEGLIGIBLE: Record<string, number> = {
     "1": 0.01,
 };
 
+/** Factors by which inputs are measured in such deviations. */
+export function scalesOf(inputs: Variable[]): number[] {
+    return inputs.map((input) => 1 / (NEGLIGIBLE[input.unit] ?? 1e-3));
+}
+
 /** The most points that wait; beyond that the oldest ones are left out. */
 const MOST = 500;
 
@@ -24,7 +29,7 @@ export class Way {
     private readonly scales: number[];
 
     constructor(inputs: Variable[]) {
-        this.scales = inputs.map((input) => 1 / (NEGLIGIBLE[input.unit] ?? 1e-3));
+        this.scales = scalesOf(inputs);
     }
 
     get length(): number {

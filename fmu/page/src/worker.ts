@@ -2,7 +2,8 @@
 
 import { Core, Refusal } from "./core";
 import { unpacked } from "./packed";
-import { type Answer, type Reply, type Request, startOf } from "./protocol";
+import { carried } from "./carry";
+import { type Answer, Places, type Reply, type Request, startOf } from "./protocol";
 import { Schedule } from "./schedule";
 
 /** What the page sends first, packed: the core's code, and the distance grid of the mesh that comes with the page (empty for none). */
@@ -27,18 +28,23 @@ function answered(answer: Answer): void {
     reply({ kind: "answer", answer });
 }
 
-function open(text: string): void {
+function open(text: string, wanted: Record<string, number>): void {
     const description = core.open(0, text, grid);
     schedule = new Schedule(core, description);
     scene = text;
     reply({ kind: "opened", description });
-    schedule.load(startOf(description), answered);
+    const inputs = startOf(description);
+    new Places(description).put(inputs, wanted);
+    schedule.load(inputs, answered);
 }
 
 function take(request: Request): void {
     switch (request.kind) {
         case "open":
-            open(request.scene);
+            open(request.scene, request.inputs);
+            break;
+        case "carry":
+            reply({ kind: "carried", carried: carried(core, grid, request) });
             break;
         case "restart":
             schedule?.load(request.inputs, answered);
@@ -97,7 +103,7 @@ async function revive(reason: string): Promise<void> {
         core = await Core.start(module);
         reply({ kind: "refused", message: `the core ended (${reason}) and was started anew` });
         if (scene !== "") {
-            open(scene);
+            open(scene, {});
         }
     } catch (error) {
         reply({ kind: "broken", message: `${reason}; ${String(error)}` });

@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::failure::Failure;
 use super::files::{bad_table, open_table, read_scene, refuse_same};
-use super::output::Table;
+use super::output::{Table, warn};
 
 /// Columns of the points.
 const POINT: [&str; 3] = ["x_m", "y_m", "z_m"];
@@ -31,13 +31,18 @@ const FIELD: [&str; 12] = [
     "dBz_dz_t_per_m",
 ];
 
+/// Most points without a field that are named one by one.
+const MOST_TOLD: usize = 20;
+
 /// Evaluates the external field (world frame) and its gradient at points of a CSV file.
 #[derive(clap::Args)]
 #[command(
     after_help = "POINTS.csv has the columns x_m, y_m, z_m; FIELD.csv repeats them and adds Bx_t, By_t, Bz_t and \
 the nine dBi_dxj_t_per_m, in full precision.\n\
-A point on an edge of a magnet is refused: the field is infinite there.\n\n\
-Example: mcm field scene.toml --at points.csv --out field.csv"
+Where the field is infinite, on an edge of a magnet, and where it is not known, within the reach of an iron core, the row has the point \
+alone, and a warning names it.\n\n\
+Example: mcm field scene.toml --at points.csv --out field.csv\n\n\
+Exit status: 0 done, also with such rows, 1 bad input."
 )]
 pub(crate) struct Field {
     /// Scene file (TOML)
@@ -62,17 +67,39 @@ impl Field {
         let source = if self.ring { Source::ring(&scene)? } else { Source::external(scene)? };
         let points = self.points()?;
         table.header(POINT.iter().chain(&FIELD))?;
+        let mut lost = Vec::new();
         for (line, point) in points {
-            let (field, gradient) = source
-                .field_gradient(&point)
-                .map_err(|error| Failure(format!("{}, line {line}: {error}", self.at.display())))?;
-            // Matrices are stored by column; the table lists dBx_dx, dBx_dy, ... by row.
-            let row: Vec<f64> =
-                [point, field].iter().flatten().chain(&gradient.transpose()).copied().collect();
-            table.row(row)?;
+            match source.field_gradient(&point) {
+                Ok((field, gradient)) => {
+                    // Matrices are stored by column; the table lists dBx_dx, dBx_dy, ... by row.
+                    let numbers = [point, field];
+                    let row: Vec<f64> =
+                        numbers.iter().flatten().chain(&gradient.transpose()).copied().collect();
+                    table.row(row)?;
+                }
+                Err(error) => {
+                    let empty = FIELD.map(|_| None);
+                    let row: Vec<Option<f64>> = point.iter().copied().map(Some).chain(empty).collect();
+                    table.row(row)?;
+                    let [x, y, z] = point.into();
+                    lost.push(format!("line {line}, ({x}, {y}, {z}) m has no field: {error}"));
+                }
+            }
         }
         table.complete()?;
+        self.tell(&lost);
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Warns of points that have no field.
+    fn tell(&self, lost: &[String]) {
+        let file = self.at.display();
+        for each in lost.iter().take(MOST_TOLD) {
+            warn(&format!("{file}, {each}"));
+        }
+        if lost.len() > MOST_TOLD {
+            warn(&format!("{file}: {} more points have no field", lost.len() - MOST_TOLD));
+        }
     }
 
     /// The points (m) with their line numbers in the file.

@@ -9,16 +9,20 @@ use mcm::manipulator::SceneFile;
 use super::doing::Doing;
 use super::failure::Failure;
 use super::nearest::nearest;
-use super::output::{folder, place};
+use super::output::{folder, place, warn};
 
 /// Largest length of a scene, bytes.
 const LONGEST_TEXT: u64 = 10_000_000;
 
-/// Reads a scene file, and the mesh that it may name.
+/// Reads a scene file, and the mesh that it may name; warns of what is odd about it.
 pub(crate) fn read_scene(path: &Path) -> Result<SceneFile, Failure> {
     let text = read_text(path)?;
     let _doing = Doing::now(format!("reading {} and its vessel", path.display()));
-    Ok(SceneFile::parse_in(&text, &path.display().to_string(), folder(path))?)
+    let file = SceneFile::parse_in(&text, &path.display().to_string(), folder(path))?;
+    for odd in file.warnings()? {
+        warn(&format!("{}: {odd}", path.display()));
+    }
+    Ok(file)
 }
 
 /// Reads a text file, or as much from a pipe.

@@ -40,6 +40,9 @@ pub(crate) struct Pack {
     /// Shared library for another platform (linux64, linux32, win64, win32 or darwin64); may be repeated
     #[arg(long, value_name = "PLATFORM=FILE")]
     binary: Vec<Binary>,
+    /// Leave out terminalsAndIcons.xml, for hosts that refuse it, as some versions of FMI Library
+    #[arg(long)]
+    no_terminals: bool,
     /// The FMU to write
     #[arg(long, value_name = "FMU")]
     out: PathBuf,
@@ -58,13 +61,15 @@ impl Pack {
         let mut files: Vec<(String, Vec<u8>)> = vec![
             ("modelDescription.xml".into(), package.model_description(Some(&now()?))?.into()),
             ("model.png".into(), ICON.into()),
-            ("terminalsAndIcons/terminalsAndIcons.xml".into(), package.terminals()?.into()),
-            ("terminalsAndIcons/icon.png".into(), ICON.into()),
             ("documentation/index.html".into(), package.documentation().into()),
             ("documentation/licenses/license.txt".into(), LICENSE.into()),
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
             ("documentation/licenses/crates.txt".into(), CRATES_LICENSES.into()),
         ];
+        if !self.no_terminals {
+            files.push(("terminalsAndIcons/terminalsAndIcons.xml".into(), package.terminals()?.into()));
+            files.push(("terminalsAndIcons/icon.png".into(), ICON.into()));
+        }
         files.extend(binary::entries(self.library.as_deref(), &self.binary)?);
         for (name, content) in package.resources()? {
             files.push((format!("resources/{name}"), content));

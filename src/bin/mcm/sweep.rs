@@ -10,6 +10,8 @@ mod way;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use mcm::manipulator::SceneFile;
+
 use super::failure::{Failure, NOT_CONVERGED, STOPPED};
 use super::files::{read_scene, refuse_same};
 use super::interrupt;
@@ -34,7 +36,9 @@ Examples, a field that grows, for three core lengths; a field that turns there a
 mcm sweep scene.toml --vary 'field.uniform_mt[2]=0:25:26' --vary design.helix.length_mm=3:5:3 --out sweep.csv\n    \
 mcm sweep scene.toml --vary field.turn_deg=0:170:171 --back --folds folds.csv --out sweep.csv\n    \
 mcm sweep scene.toml --vary magnet.turn_deg=0:90:91 --out sweep.csv\n\n\
-Rows that did not converge have no shape: outcome says why, progress how far the last step to them got.\n\n\
+Rows that did not converge have no shape: outcome says why, progress how far the last step to them got; the next row starts \
+from the unloaded shape. The time budget of the scene (model.time_budget_s) covers all steps to a row and the search for folds; \
+reason says what was left out, and where the error of a shape is larger than its tolerance.\n\n\
 Until all rows are there they are in OUT.csv.part, in the order in which they were found: after Ctrl-C, a crash or with a full \
 disk the same command with --resume goes on from there and ends with the same table.\n\n\
 Exit status: 0 done, 1 bad input, 2 some rows did not converge (all files are written), 130 stopped by Ctrl-C."
@@ -67,6 +71,7 @@ impl Sweep {
         refuse_same(&[&self.scene], &written.into_iter().flatten().collect::<Vec<_>>())?;
         let total = self.count()?;
         let file = read_scene(&self.scene)?;
+        self.warn_of_values(&file)?;
         let checking = progress_bar(total, "values checked");
         let plan = Plan::new(file, self.vary.split_at(1), self.back, || checking.inc(1))?;
         checking.finish_and_clear();
@@ -116,6 +121,22 @@ impl Sweep {
         Ok(walks)
     }
 
+    /// Warns of keys with values that look like those of another unit, while the scene's own does not.
+    fn warn_of_values(&self, file: &SceneFile) -> Result<(), Failure> {
+        let own = file.warnings()?;
+        for Range { key, values } in &self.vary {
+            // Of values in a row the first or the last is the oddest.
+            for value in values.first().into_iter().chain(values.last()) {
+                let varied = file.with(key, *value)?.warnings()?;
+                if let Some(odd) = varied.into_iter().find(|odd| !own.contains(odd)) {
+                    warn(&format!("--vary {odd}"));
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn keys(&self) -> Vec<&str> {
         self.vary.iter().map(|range| range.key.as_str()).collect()
     }
@@ -142,6 +163,16 @@ impl Sweep {
         let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
         let told: String = walks.iter().map(|walk| summary::describe(&keys, walk)).collect();
         print(format!("{}: {} rows, folds met: {folds}\n{told}", self.out.display(), rows().count()))?;
+        let noted = rows().filter(|row| row.converged() && row.is_noted());
+        if let Some(first) = noted.clone().next() {
+            let (count, value) = (noted.count(), first.value());
+            warn(&format!(
+                "{count} of {} rows have a reason for doubt; first {} = {value}: {}",
+                rows().count(),
+                keys[0],
+                first.reason()
+            ));
+        }
         let lost = rows().filter(|row| !row.converged());
         let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
         warn(&format!(

@@ -31,9 +31,20 @@ pub(crate) fn stability(outputs: &Outputs) -> Option<&'static str> {
     })
 }
 
-/// What happened and what to do about it; `None` where an equilibrium was found that is not neutral.
+/// What happened and what to do about it; `None` where an equilibrium was found that is not neutral, within the tolerance.
 pub(crate) fn reason(outputs: &Outputs) -> Option<String> {
-    (outputs.outcome != Outcome::Solved).then(|| outputs.outcome.to_string())
+    if outputs.outcome == Outcome::Solved {
+        return doubt(outputs);
+    }
+    Some(outputs.outcome.to_string())
+}
+
+/// That the error of a shape is larger than its tolerance; `None` where it is not.
+pub(crate) fn doubt(outputs: &Outputs) -> Option<String> {
+    (converged(outputs) && outputs.beyond_tolerance).then(|| {
+        let error = 1e3 * outputs.error_estimate;
+        format!("the tip may be off by {error:.3} mm, which is more than the tolerances of the model allow")
+    })
 }
 
 /// Exit status and warning for a shape that was not found, or is unstable or neutral; otherwise `None`.

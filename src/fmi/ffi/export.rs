@@ -1,5 +1,5 @@
-//! The macro by which every C function is defined, so that none goes without the guard against panics, the checks of its
-//! pointers and the comparison of its signature with the official header.
+//! The macro by which every C function is defined, so that none goes without the guard against panics, the default floating-point
+//! environment, the checks of its pointers and the comparison of its signature with the official header.
 
 /// Defines C functions of the standard.
 ///
@@ -38,7 +38,9 @@ macro_rules! export {
                 )+)?
                 $body
             };
-            status(registry::on(component.addr(), stringify!($name), Call::$call, work))
+            in_default_environment(|| {
+                status(registry::on(component.addr(), stringify!($name), Call::$call, work))
+            })
         }
         const _: $type = Some($name);
     )*};
@@ -60,7 +62,7 @@ macro_rules! export {
                 )+
                 $body
             };
-            guarded(work).unwrap_or($otherwise)
+            in_default_environment(|| guarded(work)).unwrap_or($otherwise)
         }
         const _: $type = Some($name);
     };
@@ -70,7 +72,7 @@ macro_rules! export {
         #[doc = concat!("`", stringify!($name), "` of FMI 2.0.")]
         #[unsafe(no_mangle)]
         pub extern "C" fn $name($($argument: $of),*) -> $result {
-            guarded(|| $body).unwrap_or($otherwise)
+            in_default_environment(|| guarded(|| $body)).unwrap_or($otherwise)
         }
         const _: $type = Some($name);
     )*};

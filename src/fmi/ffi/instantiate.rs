@@ -1,12 +1,14 @@
 //! The work of `fmi2Instantiate`.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::super::bindings::{fmi2CallbackFunctions, fmi2Type};
 use super::super::guard::guarded;
-use super::super::instance::{Instance, identify};
+use super::super::instance::Instance;
 use super::super::location;
 use super::super::log::{Category, Log};
+use super::super::package::identify;
 use super::super::registry;
 use super::super::state::{Ending, Interface};
 use super::logger::Logger;
@@ -54,8 +56,22 @@ fn make(arguments: Arguments, logger: Logger) -> Result<usize, String> {
         location => location.map_err(|flaw| format!("the resource location {flaw}")),
     }?;
     let paths = location::paths(location).map_err(|error| error.to_string())?;
-    let package = identify(guid, &paths).map_err(|error| error.to_string())?;
+    let package =
+        identify(guid, &paths).map_err(|error| with_location(&error.to_string(), location, &paths))?;
     let sink = Box::new(move |ending, category, message: &str| logger.tell(ending, category, message));
     let log = Log::new(sink, arguments.logging_on);
     Ok(registry::enter(Instance::new(interface, Arc::new(package), log)))
+}
+
+/// A reason for which no design was found, with what is wrong about the location of its resources.
+///
+/// A `file:` URI has an absolute path. Of a relative one with two slashes, as `file://unpacked/resources`, the first part is the name of a
+/// host (RFC 8089, section 2).
+fn with_location(reason: &str, location: &str, paths: &[PathBuf]) -> String {
+    match location::named_host(location) {
+        Some(host) if !paths.iter().any(|path| path.is_dir()) => format!(
+            "{reason}; in {location}, {host} is the name of a host: a file URI is file:// and an absolute path"
+        ),
+        _ => reason.to_owned(),
+    }
 }

@@ -33,13 +33,11 @@ impl Logger {
     /// Tells the host a message.
     pub(super) fn tell(&self, ending: Ending, category: Category, message: &str) {
         let Some(call) = self.call else { return };
-        let (category, message) = (c_string(category.name()), c_string(message));
+        let (category, format) = (c_string(category.name()), c_string(&message.replace('%', "%%")));
         let name = self.instance_name.as_ptr();
-        // SAFETY: the host has given this function with this signature, and all strings outlive the call. The format is
-        // "%s", so that no `%` in a message is taken for a conversion.
-        unsafe {
-            call(self.environment, name, status(ending), category.as_ptr(), c"%s".as_ptr(), message.as_ptr());
-        }
+        // SAFETY: the host has given this function with this signature, and all strings outlive the call. The format is the text
+        // itself, without a conversion: some hosts do not format, and would show "%s".
+        unsafe { call(self.environment, name, status(ending), category.as_ptr(), format.as_ptr()) }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::super::dependency::Dependency;
 use super::super::derivative_role::DerivativeRole;
+use super::super::search_report::SearchReport;
 use super::super::units::{
     ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
 };
@@ -10,29 +11,7 @@ use super::super::variable::{Access, Availability, Index, Request};
 use super::Counts;
 use super::parameters::INTERACTION;
 use super::rows::{Draft, Rows};
-use crate::manipulator::{Outcome, Output, Outputs, Status};
-
-/// The number of a status. `solver.status` is an Integer and no Enumeration because some hosts hide enumerations.
-fn status_number(status: Status) -> i32 {
-    match status {
-        Status::Solved => 0,
-        Status::NearFold => 1,
-        Status::Snapped => 2,
-        Status::NotSolved => 3,
-    }
-}
-
-/// The number of an outcome, for `solver.outcome`.
-fn outcome_number(outcome: Outcome) -> i32 {
-    match outcome {
-        Outcome::Solved => 0,
-        Outcome::Neutral => 1,
-        Outcome::BranchEnds => 2,
-        Outcome::Contact(_) => 3,
-        Outcome::OutOfBudget(_) => 4,
-        Outcome::Wedged => 5,
-    }
-}
+use crate::manipulator::{Outcome, Output, Outputs};
 
 pub(super) fn count(number: u32) -> i32 {
     i32::try_from(number).unwrap_or(i32::MAX)
@@ -44,15 +23,27 @@ pub(super) fn real(
     description: &str,
     get: fn(&Outputs, Index) -> f64,
 ) -> Draft {
-    Draft::output(name, quantity, description, Access::RealOutput(get))
+    Draft::result(name, quantity, description, Access::RealOutput(get))
 }
 
 pub(super) fn integer(name: &str, description: &str, get: fn(&Outputs) -> i32) -> Draft {
-    Draft::output(name, DataType::Integer, description, Access::IntegerOutput(get))
+    Draft::result(name, DataType::Integer, description, Access::IntegerOutput(get))
+}
+
+/// A number that describes the search for an equilibrium, and that can always be read.
+fn count_of_search(name: &str, description: &str, get: fn(&SearchReport) -> i32) -> Draft {
+    let draft = Draft::result(name, DataType::Integer, description, Access::IntegerOfSearch(get));
+    draft.availability(Availability::Always)
+}
+
+/// A ratio that describes the search for an equilibrium, and that can always be read.
+fn ratio_of_search(name: &str, description: &str, get: fn(&SearchReport) -> f64) -> Draft {
+    let draft = Draft::result(name, RATIO, description, Access::RealOfSearch(get));
+    draft.availability(Availability::Always)
 }
 
 fn boolean(name: &str, description: &str, get: fn(&Outputs) -> bool) -> Draft {
-    Draft::output(name, DataType::Boolean, description, Access::BooleanOutput(get))
+    Draft::result(name, DataType::Boolean, description, Access::BooleanOutput(get))
 }
 
 impl Rows {
@@ -190,31 +181,34 @@ impl Rows {
         let description = "Smallest eigenvalue of the Hessian in the elastic norm of the strains: 1 without loads and interaction, 0 at a fold";
         let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
         self.scalar(margin.availability(Availability::OnRequest(Request::Margin)));
-        let snaps =
-            integer("stability.snaps", "Jumps to another branch since initialisation", |o| count(o.snaps));
-        self.scalar(snaps.min(0.0).availability(Availability::Always));
+        let description = "Jumps to another branch since initialisation";
+        self.scalar(count_of_search("stability.snaps", description, |report| count(report.snaps)).min(0.0));
     }
 
     fn solver(&mut self) {
-        let mut always = |draft: Draft| self.scalar(draft.availability(Availability::Always));
-        let description = "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved (the other outputs are the last good ones)";
-        always(integer("solver.status", description, |o| status_number(o.status)).min(0.0).max(3.0));
-        let description = "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget, 5 wedged";
-        always(integer("solver.outcome", description, |o| outcome_number(o.outcome)).min(0.0).max(5.0));
+        let description = "0 solved, 1 near a fold, 2 snapped in this step, 3 not solved or input refused (the other outputs are the last good ones)";
+        self.scalar(count_of_search("solver.status", description, |report| report.status).min(0.0).max(3.0));
+        let description = "0 solved, 1 solved but neutral; not solved: 2 the branch ends, 3 bodies touch, 4 out of budget, 5 wedged, 6 input refused";
+        self.scalar(
+            count_of_search("solver.outcome", description, |report| report.outcome).min(0.0).max(6.0),
+        );
         let description = "Newton iterations of the last solve";
-        always(integer("solver.iterations", description, |o| count(o.iterations)).min(0.0));
+        self.scalar(
+            count_of_search("solver.iterations", description, |report| count(report.iterations)).min(0.0),
+        );
         let description =
             "How far along the last change of inputs an equilibrium was found: 1 where it is solved";
-        always(real("solver.progress", RATIO, description, |o, _| o.progress).min(0.0).max(1.0));
+        self.scalar(
+            ratio_of_search("solver.progress", description, |report| report.progress).min(0.0).max(1.0),
+        );
         let description = "Residual of the last solve relative to the elastic forces";
-        // The residual is infinite when a solve could not begin; FMI has no infinity.
-        always(real("solver.residual", RATIO, description, |o, _| o.residual.min(f64::MAX)).min(0.0));
+        self.scalar(ratio_of_search("solver.residual", description, |report| report.residual).min(0.0));
     }
 
     fn model_outputs(&mut self) {
         let description = "Level of local interaction that was used";
         let level = Access::IntegerOutput(|o| o.interaction as i32);
-        self.scalar(Draft::output("model.level", DataType::Enumeration(&INTERACTION), description, level));
+        self.scalar(Draft::result("model.level", DataType::Enumeration(&INTERACTION), description, level));
         let description = "Estimated distance of the tip from the converged answer of the model";
         self.scalar(real("model.error_estimate", LENGTH, description, |o, _| o.error_estimate).min(0.0));
     }

@@ -3,7 +3,7 @@
 use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
-use super::super::units::{ACCELERATION, ANGLE, LENGTH, REMANENCE, TIME};
+use super::super::units::{ACCELERATION, ANGLE, LENGTH, RATIO, REMANENCE, TIME};
 use super::super::value::{DataType, Enumeration, Item};
 use super::super::variable::Access;
 use super::access;
@@ -70,14 +70,20 @@ impl Rows {
         self.scalar(Draft::parameter("model.interaction", data_type, description, interaction));
 
         let position = access!(|values| values.settings.tolerance_position);
-        let description = "How far the tip may be from the converged answer of the model";
+        let description = "How far the tip may be from the converged answer of the model; the relative tolerance may ask for less";
         let draft = Draft::parameter("model.tolerance_position", LENGTH, description, position);
-        self.scalar(draft.min(0.0).tunable());
+        self.scalar(draft.min(0.0).tunable().known(Known::Accuracy));
 
         let angle = access!(|values| values.settings.tolerance_angle);
         let description = "How far the tip may be turned against the converged answer of the model";
         let draft = Draft::parameter("model.tolerance_angle", ANGLE, description, angle);
-        self.scalar(draft.min(0.0).tunable());
+        self.scalar(draft.min(0.0).tunable().known(Known::Accuracy));
+
+        let relative = access!(|values| values.settings.tolerance_relative);
+        let description = "How far the tip may be from the converged answer of the model, relative to its distance from its \
+                           unloaded place; 0: the other two alone count";
+        let draft = Draft::parameter("model.tolerance_relative", RATIO, description, relative);
+        self.scalar(draft.min(0.0).max(1.0).tunable().known(Known::Accuracy));
 
         let bending_stop = Access::Boolean {
             get: |values| values.settings.has_bending_stop(),
@@ -89,6 +95,7 @@ impl Rows {
 
         let budget = access!(|values| values.settings.time_budget);
         let description = "Processor time that a solve may take before it ends as out of budget";
-        self.scalar(Draft::parameter("model.time_budget", TIME, description, budget).min(0.0));
+        let draft = Draft::parameter("model.time_budget", TIME, description, budget);
+        self.scalar(draft.min(0.0).known(Known::Accuracy));
     }
 }

@@ -72,15 +72,15 @@ impl Draft {
         row.tagged(Causality::Parameter, Variability::Fixed)
     }
 
-    /// A discrete output.
-    pub(super) fn output(
+    /// A result without derivatives: it is local, since some hosts read every output as a Real and ask for its derivatives.
+    pub(super) fn result(
         name: impl Into<String>,
         data_type: impl Into<DataType>,
         description: &str,
         access: Access,
     ) -> Self {
         let row = Self::new(name, data_type.into(), description, access);
-        row.tagged(Causality::Output, Variability::Discrete)
+        row.tagged(Causality::Local, Variability::Discrete)
     }
 
     /// A constant.
@@ -95,9 +95,9 @@ impl Draft {
         self.with(|row| row.variability = Variability::Tunable)
     }
 
-    /// An output that has derivatives.
+    /// The result as an output, which has derivatives.
     pub(super) fn continuous(self, role: DerivativeRole) -> Self {
-        self.with(|row| row.variability = Variability::Continuous).derivative_role(role)
+        self.tagged(Causality::Output, Variability::Continuous).derivative_role(role)
     }
 
     pub(super) fn derivative_role(self, role: DerivativeRole) -> Self {

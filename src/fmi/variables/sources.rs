@@ -1,7 +1,7 @@
 //! Further magnets and coils: their poses and strengths, the wrenches on them, and those of all sources on one another.
 
 use super::super::dependency::{Dependency, Known};
-use super::super::derivative_role::DerivativeRole;
+use super::super::derivative_role::{DerivativeRole, WrenchPart};
 use super::super::host_values::HostValues;
 use super::super::units::{CURRENT, FORCE, MOMENT, POSITION, RATIO};
 use super::super::variable::{Availability, Request};
@@ -72,19 +72,22 @@ impl Rows {
     fn mutual_wrenches(&mut self, start: &HostValues) {
         let further = start.source_names().map(|(name, _)| name);
         for (number, name) in std::iter::once("magnet".to_owned()).chain(further).enumerate() {
-            let mut add = |draft: Draft| {
+            let mut add = |draft: Draft, part: WrenchPart| {
+                let draft = draft.continuous(DerivativeRole::MutualWrench(part));
                 let draft = draft.availability(Availability::OnRequest(Request::MutualWrenches));
                 self.array_of(number, 3, &draft.dependency(Dependency::Sources));
             };
             let what = if name.starts_with("coil") { "coil" } else { "magnet" };
             let description = format!("Force of all other magnets and coils on the {what}");
-            add(real(format!("{name}.mutual_force"), FORCE, &description, |o, index| {
+            let draft = real(format!("{name}.mutual_force"), FORCE, &description, |o, index| {
                 o.mutual_wrenches.get(index.item).map_or(f64::NAN, |wrench| wrench.force[index.component])
-            }));
+            });
+            add(draft, WrenchPart::Force);
             let description = format!("Torque of all other magnets and coils on the {what} about its centre");
-            add(real(format!("{name}.mutual_torque"), MOMENT, &description, |o, index| {
+            let draft = real(format!("{name}.mutual_torque"), MOMENT, &description, |o, index| {
                 o.mutual_wrenches.get(index.item).map_or(f64::NAN, |wrench| wrench.torque[index.component])
-            }));
+            });
+            add(draft, WrenchPart::Torque);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Variables of shaft, guidewire and vessel: only the FMU of a scene that has them has these.
 
+use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
 use super::super::host_values::HostValues;
 use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS, RATIO};
@@ -84,7 +85,7 @@ impl Rows {
             let friction = access!(|values| values.friction);
             let description = "Coefficient of Coulomb friction between the device and the wall";
             let draft = Draft::parameter("vessel.friction", RATIO, description, friction);
-            self.scalar(draft.min(0.0).max(10.0).tunable());
+            self.scalar(draft.min(0.0).max(10.0).tunable().known(Known::Friction));
         }
     }
 
@@ -95,13 +96,13 @@ impl Rows {
             self.scalar(
                 real("feed.length", LENGTH, description, |o, _| o.feed_length.unwrap_or(0.0))
                     .min(0.0)
-                    .derivative_role(DerivativeRole::Output(Output::FeedLength)),
+                    .continuous(DerivativeRole::Output(Output::FeedLength)),
             );
             let description =
                 "Push that holds the shaft: derivative of the potential energy by the inserted length";
             let draft =
                 real("feed.reaction_force", FORCE, description, |o, _| o.feed_reaction.unwrap_or(0.0));
-            self.scalar(draft.derivative_role(DerivativeRole::Output(Output::FeedReaction)));
+            self.scalar(draft.continuous(DerivativeRole::Output(Output::FeedReaction)));
         }
         if start.vessel.is_none() {
             return;
@@ -116,19 +117,21 @@ impl Rows {
         let force = real("contact.force", FORCE, "Total force of the wall", |o, index| {
             o.wall.as_ref().map_or(0.0, |wall| wall.force[index.component])
         });
-        self.array(3, &force);
+        self.array(3, &force.continuous(DerivativeRole::Neighbours));
         let description = "Force of the contact with the largest one";
         let largest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_force);
-        self.scalar(real("contact.largest_force", FORCE, description, largest).min(0.0));
+        let draft = real("contact.largest_force", FORCE, description, largest).min(0.0);
+        self.scalar(draft.continuous(DerivativeRole::Neighbours));
         let description = "Largest depth in the wall";
         let deepest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_indentation);
-        self.scalar(real("contact.largest_indentation", LENGTH, description, deepest).min(0.0));
+        let draft = real("contact.largest_indentation", LENGTH, description, deepest).min(0.0);
+        self.scalar(draft.continuous(DerivativeRole::Neighbours));
         for ring in 0..counts.rings {
             let name = format!("ring[{}].contact_force", ring + 1);
             let force = real(name, FORCE, "Force of the wall on the ring", |o, index| {
                 o.wall.as_ref().map_or(0.0, |wall| wall.rings[index.item][index.component])
             });
-            self.array_of(ring, 3, &force);
+            self.array_of(ring, 3, &force.continuous(DerivativeRole::Neighbours));
         }
     }
 }

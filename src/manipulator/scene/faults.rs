@@ -7,7 +7,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use toml::{Spanned, Value};
 
 use super::SceneFile;
-use super::path::{entry, suggestion};
+use super::path::{entry, numbers, suggestion};
 use crate::error::Error;
 use crate::vessel::Lumen;
 
@@ -38,13 +38,20 @@ pub(super) fn read(
     }
     let file = faults.types_and_keys(&root);
     let Some(mut file) = file else { return Err(faults.all()) };
-    file.find_mesh(lumen_of);
     if let Err(error) = file.find_multipoles(text_of) {
         let named = root.get_ref().get("coil").map(|coils| coils.span().start);
         faults.add(named, error.to_string());
         return Err(faults.all());
     }
-    faults.values(root.get_ref(), &file)?;
+    if file.has_mesh() {
+        // To sample a mesh may take half a minute: what is wrong besides is told before.
+        faults.values(root.get_ref(), &file, SceneFile::check_before_mesh)?;
+        if !faults.found.is_empty() {
+            return Err(faults.all());
+        }
+        file.find_mesh(lumen_of);
+    }
+    faults.values(root.get_ref(), &file, |file| file.scene().map(|_| ()))?;
     if faults.found.is_empty() { Ok(file) } else { Err(faults.all()) }
 }
 
@@ -84,7 +91,8 @@ impl Faults<'_> {
             let span = error.span().unwrap_or(0..0);
             let path = entries(root.get_ref()).into_iter().rfind(|entry| entry.is_at(&span));
             let path = path.map(|entry| entry.path);
-            self.add(Some(span.start), explained(error.message().trim_end(), path.as_deref()));
+            let kind = kind_of(root.get_ref());
+            self.add(Some(span.start), explained(error.message().trim_end(), path.as_deref(), &kind));
             if !remove(kept.get_mut(), &span) || self.found.len() == MOST {
                 return None;
             }
@@ -105,11 +113,16 @@ impl Faults<'_> {
         Some(file)
     }
 
-    /// Finds values out of their range.
-    fn values(&mut self, root: &DeTable<'_>, file: &SceneFile) -> Result<(), Error> {
+    /// Finds values out of their range, those that `check` refuses.
+    fn values(
+        &mut self,
+        root: &DeTable<'_>,
+        file: &SceneFile,
+        check: impl Fn(&SceneFile) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let mut table = Value::Table(file.table()?);
         let mut rest = file.clone();
-        for (path, number) in infinite(&table, "") {
+        for (path, number) in numbers(&table, "").into_iter().filter(|(_, number)| !number.is_finite()) {
             self.add(start_of(root, &path), Error::range(path.as_str(), number, "finite").to_string());
             forget(&mut table, &path);
             // Nothing can be read without an entry that has no default.
@@ -118,7 +131,7 @@ impl Faults<'_> {
         }
         let mut told: Vec<String> = Vec::new();
         while self.found.len() < MOST {
-            let Err(error) = rest.scene() else { return Ok(()) };
+            let Err(error) = check(&rest) else { return Ok(()) };
             // A combination proves nothing once a part of it has been left out, nor a count where the design is not known.
             let proves = match error {
                 // A syntax error is that of a mesh, which depends on nothing else.
@@ -156,12 +169,24 @@ impl Faults<'_> {
     }
 }
 
-/// The reason of an error of serde, with the full path of the key.
-fn explained(message: &str, path: Option<&str>) -> String {
+/// The kind of the device that the text states; empty where it states none.
+fn kind_of(root: &DeTable<'_>) -> String {
+    let stated = entries(root).into_iter().find(|entry| entry.path == "design.kind");
+    match stated.map(|entry| entry.value) {
+        Some(DeValue::String(name)) => name.to_string(),
+        _ => String::new(),
+    }
+}
+
+/// The reason of an error of serde, with the full path of the key, in a scene of a device of this kind.
+fn explained(message: &str, path: Option<&str>, kind: &str) -> String {
     // serde writes the key in backquotes, then the known keys.
     match (message.strip_prefix("unknown field `"), path) {
         (Some(rest), path) => {
-            let (key, known) = given_and_known(rest);
+            let (key, mut known) = given_and_known(rest);
+            if path.is_some_and(|path| path.strip_prefix("design.") == Some(key)) {
+                known = SceneFile::keys_of_device(kind);
+            }
             format!("unknown key `{}`{}", path.unwrap_or(key), suggestion(key, &known))
         }
         (None, Some(path)) => format!("`{path}`: {}", in_words(message)),
@@ -260,22 +285,6 @@ fn remove_in(value: &mut Spanned<DeValue<'_>>, span: &Range<usize>) -> Option<bo
         _ => None,
     };
     inside.or(meant)
-}
-
-/// Paths and values of numbers that are not finite.
-fn infinite(value: &Value, path: &str) -> Vec<(String, f64)> {
-    match value {
-        Value::Float(number) if !number.is_finite() => vec![(path.to_owned(), *number)],
-        Value::Table(table) => {
-            let inside = |key: &String| if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            table.iter().flat_map(|(key, value)| infinite(value, &inside(key))).collect()
-        }
-        Value::Array(array) => {
-            let numbered = array.iter().enumerate();
-            numbered.flat_map(|(index, value)| infinite(value, &format!("{path}[{}]", index + 1))).collect()
-        }
-        _ => Vec::new(),
-    }
 }
 
 /// Removes a key, so that its default takes its place; an array as a whole. Where there is no such key, the table around it.

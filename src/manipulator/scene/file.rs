@@ -9,8 +9,10 @@ use super::pose::TURN_AXIS;
 use super::sources::{CoilEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
 use super::tube::{BackboneEntries, GuidewireEntries};
+use super::units::MM_PER_M;
 use super::vessel::{FeedEntries, VesselEntries};
 use crate::equilibrium::{Interaction, Settings};
+use crate::manipulator::way::WayRow;
 use crate::methods::Method;
 use crate::vessel::Lumen;
 
@@ -60,6 +62,11 @@ pub struct SceneFile {
     /// The bodies that it is in need a lumen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) guidewire: Option<GuidewireEntries>,
+    /// The way to the inputs of the scene, which decides between several shapes.
+    ///
+    /// Left out: directly from the unloaded shape.
+    #[serde(skip_serializing_if = "StartEntries::are_none")]
+    pub(super) start: StartEntries,
     /// Standard deviations of any numbers of the scene, for `mcm solve --uncertainty`.
     ///
     /// A key in quotes names a number by its table and key, with indices from 1: `"field.uniform_mt[2]"`; the deviation has the unit of that key.
@@ -73,6 +80,24 @@ pub struct SceneFile {
     /// The lumen of the mesh that the vessel names, or why there is none.
     #[serde(skip)]
     pub(super) mesh: Option<Result<Lumen, crate::error::Error>>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct StartEntries {
+    /// Inputs that are solved before the scene's own, table by table; at most 200.
+    ///
+    /// The keys are names of inputs in the FMU, in quotes, the numbers in SI units: `"magnet.position[3]" = -0.01`. An input that a row does
+    /// not name is as the scene states it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) way: Vec<WayRow>,
+}
+
+impl StartEntries {
+    fn are_none(&self) -> bool {
+        self.way.is_empty()
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -321,8 +346,18 @@ pub(super) struct ModelEntries {
     /// Whether windings that touch stop the bending; left out: the level decides, `auto` has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) bending_stop: Option<bool>,
+    /// How far the tip may be from the converged answer of the model.
+    pub(super) tolerance_position_mm: f64,
+    /// How far the tip may be turned against the converged answer of the model.
+    pub(super) tolerance_angle_deg: f64,
+    /// How far the tip may be from the converged answer, relative to its distance from its unloaded place; 0: any.
+    ///
+    /// The smaller of this and `tolerance_position_mm` holds, where this is never less than 1e-5 mm.
+    pub(super) tolerance_relative: f64,
     /// Processor time that one solve may take.
     pub(super) time_budget_s: f64,
+    /// Number of iterations that one solve may take.
+    pub(super) iterations: usize,
     /// Whether the wrench of magnets and coils on one another is computed as well.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub(super) mutual_wrenches: bool,
@@ -330,11 +365,16 @@ pub(super) struct ModelEntries {
 
 impl Default for ModelEntries {
     fn default() -> Self {
+        let settings = Settings::default();
         Self {
             interaction: Interaction::Auto,
             method: Method::Potential,
             bending_stop: None,
-            time_budget_s: Settings::default().time_budget,
+            tolerance_position_mm: settings.tolerance_position * MM_PER_M,
+            tolerance_angle_deg: settings.tolerance_angle.to_degrees(),
+            tolerance_relative: settings.tolerance_relative,
+            time_budget_s: settings.time_budget,
+            iterations: settings.iterations as usize,
             mutual_wrenches: false,
         }
     }

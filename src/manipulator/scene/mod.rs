@@ -1,9 +1,11 @@
 //! A scene as text (TOML, units in the names): the design, its inputs and the model.
 
 mod choices;
+mod device;
 mod faults;
 mod file;
 mod mesh;
+mod moved;
 mod multipoles;
 mod names;
 mod path;
@@ -19,6 +21,7 @@ mod tube;
 mod uncertainty;
 mod units;
 mod vessel;
+mod warnings;
 
 pub use file::SceneFile;
 pub use uncertainty::Uncertainty;
@@ -26,7 +29,7 @@ pub use vessel::FeedMode;
 
 use std::path::Path;
 
-use super::{Compared, Inputs, Manipulator, Solve};
+use super::{Compared, Inputs, Manipulator, Solve, Way};
 use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
@@ -67,6 +70,8 @@ pub struct Scene {
     pub guidewire: Option<Guidewire>,
     /// Fields, loads, base pose, insertion and the guidewire's reach.
     pub inputs: Inputs,
+    /// How the device comes to these inputs.
+    pub way: Way,
     /// Model settings and solver settings of the potential method.
     pub settings: Settings,
     /// Solution method, and the resolution of the comparison methods.
@@ -135,6 +140,7 @@ impl Scene {
             )));
         }
         let made = Manipulator::new(&self.design()?, &self.sources()?, self.settings, shape_points)?;
+        let made = made.on_way(self.way.clone());
         Ok(match &self.vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,
@@ -165,6 +171,10 @@ impl Scene {
             return Err(Error::Unsupported(format!(
                 "a vessel and a shaft need method \"potential\", not \"{given}\""
             )));
+        }
+        if !self.way.is_empty() {
+            let given = self.solver.method.name();
+            return Err(Error::Unsupported(format!("start.way needs method \"potential\", not \"{given}\"")));
         }
         let (design, sources) = (self.design()?, self.sources()?);
         Ok(Compared::new(&design, &sources, self.settings, self.solver, shape_points)?.into())

@@ -13,7 +13,7 @@ use crate::vessel::{Wall, friction};
 
 /// Unit of a number in a scene file.
 #[derive(Debug, Clone, Copy)]
-enum Unit {
+pub(super) enum Unit {
     /// That of the library.
     Same,
     Millimetre,
@@ -23,7 +23,7 @@ enum Unit {
 
 impl Unit {
     /// That of a key, which its name ends with.
-    fn of(key: &str) -> Self {
+    pub(super) fn of(key: &str) -> Self {
         match key.rsplit('_').next() {
             Some("mm") => Self::Millimetre,
             Some("deg") => Self::Degree,
@@ -43,7 +43,7 @@ impl Unit {
     }
 
     /// How many of it make the unit of the library.
-    fn per_si(self) -> f64 {
+    pub(super) fn per_si(self) -> f64 {
         match self {
             Self::Same => 1.0,
             Self::Millimetre => MM_PER_M,
@@ -152,7 +152,9 @@ pub(super) fn as_written(error: Error, file: &Value) -> Error {
     for key in candidates {
         let unit = Unit::of(&key);
         if let Some(number) = written(&key).filter(|number| unit.si(*number).total_cmp(value).is_eq()) {
-            return Error::range(key, number, unit.range(allowed));
+            let guess = Unit::rule(&key).and_then(|(rule, unit)| rule.guess(number, unit.per_si()));
+            let guess = guess.map_or_else(String::new, |guess| format!("; {guess}"));
+            return Error::range(key, number, unit.range(allowed) + &guess);
         }
     }
     if quantity == HEIGHT { Error::range(format!("design.helix: {HEIGHT}"), *value, allowed) } else { error }

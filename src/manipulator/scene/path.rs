@@ -2,6 +2,7 @@
 
 use toml::Value;
 
+use super::SceneFile;
 use crate::error::Error;
 
 /// Similarity (1: equal) below which no correction is suggested; lower values suggest nonsense.
@@ -41,7 +42,10 @@ pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value
                     "no key `{path}`: this scene has no table [{optional}]"
                 )));
             }
-            let known: Vec<&str> = table.keys().map(String::as_str).collect();
+            let known: Vec<&str> = match table.get("kind").and_then(Value::as_str) {
+                Some(kind) => SceneFile::keys_of_device(kind),
+                None => table.keys().map(String::as_str).collect(),
+            };
             return Err(Error::Unsupported(format!("unknown key `{path}`{}", suggestion(key, &known))));
         }
         here = &mut table[key];
@@ -50,6 +54,22 @@ pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value
         }
     }
     Ok(here)
+}
+
+/// Paths and values of all numbers that are not whole.
+pub(super) fn numbers(value: &Value, path: &str) -> Vec<(String, f64)> {
+    match value {
+        Value::Float(number) => vec![(path.to_owned(), *number)],
+        Value::Table(table) => {
+            let inside = |key: &String| if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            table.iter().flat_map(|(key, value)| numbers(value, &inside(key))).collect()
+        }
+        Value::Array(array) => {
+            let numbered = array.iter().enumerate();
+            numbered.flat_map(|(index, value)| numbers(value, &format!("{path}[{}]", index + 1))).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The entry of an array at `1]` or `1][3]`.

@@ -3,24 +3,23 @@
 use nalgebra::Vector3;
 use toml::Value;
 
-use super::file::{
-    DesignEntries, DesignKind, FieldEntries, HelixEntries, ModelEntries, RingEntries, SceneFile, SpiralName,
-};
+use super::file::{FieldEntries, ModelEntries, SceneFile};
 use super::pose::{in_metres, pose, turn, turned};
-use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TIME_BUDGET, TURN};
+use super::ranges::{
+    GUIDEWIRE_INSERTION, INSERTION, ITERATIONS, TIME_BUDGET, TOLERANCE_ANGLE, TOLERANCE_POSITION,
+    TOLERANCE_RELATIVE, TURN,
+};
 use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
-use super::units::{MM_PER_M, MT_PER_T, PA_PER_MPA};
-use super::vessel::FeedMode;
+use super::units::{MM_PER_M, MT_PER_T};
+use super::vessel::{FeedMode, VesselEntries};
 use super::{Scene, names};
-use crate::design::{
-    Backbone, Cylinder, CylinderMaterial, Design, Helix, RingMagnet, Segmented, Specification, SpiralKind,
-    SpiralStart,
-};
+use crate::design::{Backbone, Design, Segmented, Specification};
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
 use crate::magnetics::Assembly;
 use crate::manipulator::Inputs;
+use crate::manipulator::way::{Counts, Way};
 use crate::methods;
 use crate::vessel::Vessel;
 
@@ -40,13 +39,27 @@ impl SceneFile {
     /// # Errors
     /// See [`Scene::parse`].
     pub fn scene(&self) -> Result<Scene, Error> {
-        self.in_si().map_err(|error| match self.table() {
+        self.as_written(self.in_si(|vessel| vessel.si(self.mesh.as_ref()).map(Some)))
+    }
+
+    /// Checks all that does not depend on the mesh of a vessel, before that is sampled.
+    pub(super) fn check_before_mesh(&self) -> Result<(), Error> {
+        self.as_written(self.in_si(|vessel| vessel.check_before_mesh().map(|()| None))).map(|_| ())
+    }
+
+    /// The same with errors as the file writes its keys and numbers.
+    fn as_written<T>(&self, found: Result<T, Error>) -> Result<T, Error> {
+        found.map_err(|error| match self.table() {
             Ok(table) => names::as_written(error, &Value::Table(table)),
             Err(_) => error,
         })
     }
 
-    fn in_si(&self) -> Result<Scene, Error> {
+    /// The scene with the vessel that `vessel_of` makes of its table.
+    fn in_si(
+        &self,
+        vessel_of: impl FnOnce(&VesselEntries) -> Result<Option<Vessel>, Error>,
+    ) -> Result<Scene, Error> {
         let specification = self.design.specification()?;
         let design = Design::new(specification.clone())?;
         let inputs = self.inputs(&design)?;
@@ -65,7 +78,7 @@ impl SceneFile {
         let (magnets, further_magnets) = (all.next(), all.collect());
         let coils = (1..).zip(&self.coil).map(|(number, coil)| coil.si(&format!("coil[{number}]")));
         let coils = coils.collect::<Result<_, _>>()?;
-        let vessel = self.vessel.as_ref().map(|entries| entries.si(self.mesh.as_ref())).transpose()?;
+        let vessel = self.vessel.as_ref().map(vessel_of).transpose()?.flatten();
         let shaft = self.shaft(&specification)?;
         let guidewire = self.guidewire.map(GuidewireEntries::si);
         design.clone().with(shaft.as_ref(), guidewire.as_ref())?;
@@ -75,6 +88,17 @@ impl SceneFile {
         let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         let settings = self.settings()?;
         self.uncertainty()?;
+        let way = Way::new(
+            &self.start.way,
+            Counts {
+                rings: design.rings().count(),
+                further_magnets: self.magnet.0.len().saturating_sub(1),
+                coils: self.coil.len(),
+                shaft: shaft.is_some(),
+                guidewire: guidewire.is_some(),
+            },
+            &inputs,
+        )?;
         let scene = Scene {
             specification,
             magnets,
@@ -84,6 +108,7 @@ impl SceneFile {
             shaft,
             guidewire,
             inputs,
+            way,
             settings,
             solver,
         };
@@ -187,137 +212,24 @@ impl SceneFile {
     }
 
     fn settings(&self) -> Result<Settings, Error> {
-        let ModelEntries { interaction, method: _, bending_stop, time_budget_s, mutual_wrenches } =
-            self.model;
-        let time_budget = TIME_BUDGET.check("model.time_budget_s", time_budget_s)?;
-        Ok(Settings { interaction, bending_stop, time_budget, mutual_wrenches, ..Settings::default() })
-    }
-}
+        let ModelEntries { interaction, method: _, bending_stop, mutual_wrenches, .. } = self.model;
+        let position =
+            TOLERANCE_POSITION.check("model.tolerance_position_mm", self.model.tolerance_position_mm)?;
+        let angle = TOLERANCE_ANGLE.check("model.tolerance_angle_deg", self.model.tolerance_angle_deg)?;
+        let relative = TOLERANCE_RELATIVE.check("model.tolerance_relative", self.model.tolerance_relative)?;
+        ITERATIONS.check("model.iterations", self.model.iterations as f64)?;
 
-/// A key of the table `[design]`, and whether it is there.
-pub(super) type DesignKey = (&'static str, fn(&DesignEntries) -> bool);
-
-impl DesignEntries {
-    const SEGMENTS: usize = 9;
-
-    /// Fills in the defaults that do not depend on other entries.
-    pub(super) fn complete(&mut self) {
-        if self.kind == DesignKind::Segments {
-            self.segments.get_or_insert(Self::SEGMENTS);
-            self.base_magnet.get_or_insert(true);
-            self.tip_magnet.get_or_insert(true);
-            self.spiral.get_or_insert(SpiralName::Helical);
-            self.spiral_start_deg.get_or_insert(SpiralStartEntry::Same(0.0));
-            self.helix.get_or_insert_default();
-            self.ring.get_or_insert_default();
-        } else {
-            self.inner_radius_mm.get_or_insert(0.0);
-        }
-    }
-
-    fn specification(&self) -> Result<Specification, Error> {
-        self.refuse_keys_of_other_kind()?;
-        let segments = self.segments.unwrap_or(Self::SEGMENTS);
-        Ok(match self.kind {
-            DesignKind::Segments => Specification::Segmented(Segmented {
-                segments,
-                base_magnet: self.base_magnet.unwrap_or(true),
-                tip_magnet: self.tip_magnet.unwrap_or(true),
-                spiral: match self.spiral {
-                    Some(SpiralName::Axisymmetric) => SpiralKind::Axisymmetric,
-                    Some(SpiralName::Alternating) => SpiralKind::Alternating,
-                    Some(SpiralName::Helical) | None => SpiralKind::Helical,
-                },
-                spiral_start: match &self.spiral_start_deg {
-                    Some(start) => start.si(segments)?,
-                    None => SpiralStart::Same(0.0),
-                },
-                helix: self.helix.unwrap_or_default().si(),
-                ring: self.ring.unwrap_or_default().si(),
-                backbone: self.backbone.map(|entries| entries.si("design.backbone")).transpose()?,
-            }),
-            DesignKind::Cylinder => Specification::Cylinder(Cylinder {
-                length: required("design.length_mm", self.length_mm)? / MM_PER_M,
-                radius: required("design.radius_mm", self.radius_mm)? / MM_PER_M,
-                inner_radius: self.inner_radius_mm.unwrap_or(0.0) / MM_PER_M,
-                material: self.cylinder_material()?,
-                density: self.density_kg_m3,
-            }),
+        Ok(Settings {
+            interaction,
+            bending_stop,
+            mutual_wrenches,
+            tolerance_position: position / MM_PER_M,
+            tolerance_angle: angle.to_radians(),
+            tolerance_relative: relative,
+            time_budget: TIME_BUDGET.check("model.time_budget_s", self.model.time_budget_s)?,
+            iterations: u32::try_from(self.model.iterations).unwrap_or(u32::MAX),
+            ..Settings::default()
         })
-    }
-
-    /// A composite as in Table 1 by default, or a bulk material when its modulus or remanence is given directly.
-    fn cylinder_material(&self) -> Result<CylinderMaterial, Error> {
-        let table_1 = HelixEntries::default();
-        let poisson = self.poisson.unwrap_or(table_1.poisson);
-        if self.elastic_modulus_mpa.is_none() && self.remanence_t.is_none() {
-            return Ok(CylinderMaterial::Composite {
-                shore_a: self.shore_a.unwrap_or(table_1.shore_a),
-                poisson,
-                volume_fraction: self.volume_fraction.unwrap_or(table_1.volume_fraction),
-                particle_remanence: self.particle_remanence_t.unwrap_or(table_1.particle_remanence_t),
-            });
-        }
-        self.refuse(
-            &Self::OF_COMPOSITE,
-            "has no meaning beside elastic_modulus_mpa and remanence_t: give one or the other",
-        )?;
-        Ok(CylinderMaterial::Bulk {
-            elastic_modulus: required("design.elastic_modulus_mpa", self.elastic_modulus_mpa)? * PA_PER_MPA,
-            poisson,
-            remanence: required("design.remanence_t", self.remanence_t)?,
-        })
-    }
-
-    /// Keys of a chain of segments, and whether they are there.
-    pub(super) const OF_SEGMENTS: [DesignKey; 8] = [
-        ("segments", |design| design.segments.is_some()),
-        ("base_magnet", |design| design.base_magnet.is_some()),
-        ("tip_magnet", |design| design.tip_magnet.is_some()),
-        ("spiral", |design| design.spiral.is_some()),
-        ("spiral_start_deg", |design| design.spiral_start_deg.is_some()),
-        ("helix", |design| design.helix.is_some()),
-        ("ring", |design| design.ring.is_some()),
-        ("backbone", |design| design.backbone.is_some()),
-    ];
-
-    /// The same of a plain rod.
-    pub(super) const OF_CYLINDER: [DesignKey; 10] = [
-        ("length_mm", |design| design.length_mm.is_some()),
-        ("radius_mm", |design| design.radius_mm.is_some()),
-        ("inner_radius_mm", |design| design.inner_radius_mm.is_some()),
-        ("shore_a", |design| design.shore_a.is_some()),
-        ("elastic_modulus_mpa", |design| design.elastic_modulus_mpa.is_some()),
-        ("poisson", |design| design.poisson.is_some()),
-        ("volume_fraction", |design| design.volume_fraction.is_some()),
-        ("particle_remanence_t", |design| design.particle_remanence_t.is_some()),
-        ("remanence_t", |design| design.remanence_t.is_some()),
-        ("density_kg_m3", |design| design.density_kg_m3.is_some()),
-    ];
-
-    /// The same of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
-    pub(super) const OF_COMPOSITE: [DesignKey; 3] = [
-        ("shore_a", |design| design.shore_a.is_some()),
-        ("volume_fraction", |design| design.volume_fraction.is_some()),
-        ("particle_remanence_t", |design| design.particle_remanence_t.is_some()),
-    ];
-
-    fn refuse_keys_of_other_kind(&self) -> Result<(), Error> {
-        match self.kind {
-            DesignKind::Segments => self.refuse(
-                &Self::OF_CYLINDER,
-                "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
-            ),
-            DesignKind::Cylinder => self.refuse(&Self::OF_SEGMENTS, "belongs to kind = \"segments\""),
-        }
-    }
-
-    /// Refuses the first of these keys that is there.
-    fn refuse(&self, keys: &[DesignKey], reason: &str) -> Result<(), Error> {
-        match keys.iter().find(|(_, is_there)| is_there(self)) {
-            Some((key, _)) => Err(Error::Unsupported(format!("design.{key} {reason}"))),
-            None => Ok(()),
-        }
     }
 }
 
@@ -344,37 +256,4 @@ fn fits(design: &Design, vessel: &Vessel, inputs: &Inputs) -> Result<(), Error> 
         &allowed,
     )?;
     Ok(())
-}
-
-fn required(key: &str, value: Option<f64>) -> Result<f64, Error> {
-    value.ok_or_else(|| Error::Unsupported(format!("{key} is missing")))
-}
-
-impl HelixEntries {
-    fn si(self) -> Helix {
-        Helix {
-            length: self.length_mm / MM_PER_M,
-            boundary_angle: self.boundary_angle_deg.to_radians(),
-            radius: self.radius_mm / MM_PER_M,
-            windings: self.windings,
-            core_outer_radius: self.core_outer_radius_mm / MM_PER_M,
-            core_inner_radius: self.core_inner_radius_mm / MM_PER_M,
-            shore_a: self.shore_a,
-            poisson: self.poisson,
-            volume_fraction: self.volume_fraction,
-            particle_remanence: self.particle_remanence_t,
-            density: self.density_kg_m3,
-        }
-    }
-}
-
-impl RingEntries {
-    fn si(self) -> RingMagnet {
-        RingMagnet {
-            length: self.length_mm / MM_PER_M,
-            remanence: self.remanence_t,
-            recoil_permeability: self.recoil_permeability,
-            density: self.density_kg_m3,
-        }
-    }
 }

@@ -9,8 +9,8 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
+use super::device::DesignKey;
 use super::file::DesignEntries;
-use super::resolve::DesignKey;
 use super::sources::{MagnetEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
 use super::{SceneFile, names, ranges};

@@ -89,8 +89,18 @@ pub(super) struct FeedEntries {
 impl VesselEntries {
     /// The vessel; `mesh` is what was found under the name of its mesh.
     pub(super) fn si(&self, mesh: Option<&Result<Lumen, Error>>) -> Result<Vessel, Error> {
-        let wall = Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?.with_friction(self.friction)?;
-        Ok(Vessel { lumen: self.lumen(mesh)?, wall })
+        Ok(Vessel { wall: self.wall()?, lumen: self.lumen(mesh)? })
+    }
+
+    fn wall(&self) -> Result<Wall, Error> {
+        Wall::new(self.wall_modulus_mpa * PA_PER_MPA)?.with_friction(self.friction)
+    }
+
+    /// Checks all but what depends on the mesh.
+    pub(super) fn check_before_mesh(&self) -> Result<(), Error> {
+        self.wall()?;
+        let is_mesh = self.mesh_stl.is_some() && self.branch.is_empty();
+        if is_mesh { Ok(()) } else { self.lumen(None).map(|_| ()) }
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use mcm::fmi::Package;
 use mcm::fmi::value::{DataType, Value};
-use mcm::fmi::variable::Causality;
+use mcm::fmi::variable::{Causality, Variable};
 
 /// Scenes of every kind: rings and none, stop, backbone, every level of interaction, few segments and many.
 /// The first are quick to build and to solve, the next still short.
@@ -54,10 +54,9 @@ impl Design {
             fs::write(folder.join(name), text).unwrap();
         }
         let variables = package.table().variables();
-        let of = |real: bool, causalities: &[Causality]| {
+        let of = |real: bool, listed: fn(&Variable) -> bool| {
             let fits = |row: &usize| {
-                causalities.contains(&variables[*row].causality)
-                    && matches!(variables[*row].data_type, DataType::Real(_)) == real
+                listed(&variables[*row]) && matches!(variables[*row].data_type, DataType::Real(_)) == real
             };
             (0..variables.len()).filter(fits).map(|row| u32::try_from(row).unwrap()).collect::<Vec<_>>()
         };
@@ -65,8 +64,7 @@ impl Design {
             Some(Value::Real(value)) => value,
             _ => 0.0,
         };
-        let others =
-            of(false, &[Causality::Input, Causality::Parameter, Causality::Local, Causality::Output]);
+        let others = of(false, |_| true);
         let is_boolean =
             |&reference: &u32| matches!(variables[reference as usize].data_type, DataType::Boolean);
         let (booleans, integers) = others.into_iter().partition(is_boolean);
@@ -74,9 +72,9 @@ impl Design {
             guid: CString::new(package.guid()).unwrap(),
             location: CString::new(format!("file://{}", folder.display())).unwrap(),
             starts: (0..variables.len()).map(start).collect(),
-            inputs: of(true, &[Causality::Input]),
-            parameters: of(true, &[Causality::Parameter]),
-            outputs: of(true, &[Causality::Output]),
+            inputs: of(true, |variable| variable.causality == Causality::Input),
+            parameters: of(true, |variable| variable.causality == Causality::Parameter),
+            outputs: of(true, Variable::is_result),
             integers,
             booleans,
         }

@@ -14,23 +14,29 @@ fn in_heard<T>(work: impl FnOnce(&mut BTreeMap<usize, Vec<String>>) -> T) -> T {
     work(&mut HEARD.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// The standard's logger is variadic; one that takes the one argument which the FMU always gives is compatible with it in
-/// C's calling convention on every platform that FMUs run on.
+/// The standard's logger is variadic; one that takes no further arguments is compatible with it in C's calling convention on every
+/// platform that FMUs run on, as the FMU gives none.
 unsafe extern "C" fn logger(
     environment: fmi2ComponentEnvironment,
     name: fmi2String,
     _status: fmi2Status,
     category: fmi2String,
     format: fmi2String,
-    message: *const c_char,
 ) {
     // SAFETY: the FMU gives zero-terminated texts.
     let text = |text: *const c_char| unsafe { CStr::from_ptr(text) }.to_string_lossy();
-    let said = format!("{} {} {}: {}", text(name), text(category), text(format), text(message));
+    let said = format!("{} {}: {}", text(name), text(category), printed(&text(format)));
     in_heard(|heard| heard.entry(environment.addr()).or_default().push(said));
 }
 
-/// What an instance of this environment has said: `instance category format: message`.
+/// What C's `printf` makes of a format without arguments.
+fn printed(format: &str) -> String {
+    let conversions = format.replace("%%", "").matches('%').count();
+    assert_eq!(conversions, 0, "a conversion without an argument: {format}");
+    format.replace("%%", "%")
+}
+
+/// What an instance of this environment has said: `instance category: message`.
 pub(crate) fn heard(environment: usize) -> Vec<String> {
     in_heard(|heard| heard.get(&environment).cloned().unwrap_or_default())
 }
@@ -42,14 +48,8 @@ pub(crate) fn take(environment: usize) -> Vec<String> {
 
 /// Callbacks with the logger alone.
 pub(crate) fn callbacks(environment: usize) -> fmi2CallbackFunctions {
-    type Fixed = unsafe extern "C" fn(
-        fmi2ComponentEnvironment,
-        fmi2String,
-        fmi2Status,
-        fmi2String,
-        fmi2String,
-        *const c_char,
-    );
+    type Fixed =
+        unsafe extern "C" fn(fmi2ComponentEnvironment, fmi2String, fmi2Status, fmi2String, fmi2String);
     // SAFETY: see `logger`.
     let logger: fmi2CallbackLogger = unsafe { std::mem::transmute::<Option<Fixed>, _>(Some(logger)) };
     fmi2CallbackFunctions {

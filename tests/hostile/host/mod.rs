@@ -184,7 +184,7 @@ impl<'a> Host<'a> {
         for message in said {
             let known = ["logEvents", "logStatusWarning", "logStatusError"]
                 .iter()
-                .any(|category| message.starts_with(&format!("guest {category} %s: ")));
+                .any(|category| message.starts_with(&format!("guest {category}: ")));
             assert!(known, "{name} says {message}");
             assert!(!message.contains("internal failure"), "{name}: {message}");
         }

@@ -11,9 +11,11 @@ const REST = 600;
 export class Address {
     private timer = 0;
 
-    /** `state` says what a link shall hold; null while nothing is open. `open` takes what an address holds. */
+    /** `state` says what a link shall hold; null while nothing is open. `kept` does so after a trial, with what is not kept as it is.
+     * `open` takes what an address holds. */
     constructor(
         private readonly state: () => Linked | null,
+        private readonly kept: () => Promise<{ linked: Linked; remark: string } | null>,
         private readonly open: (linked: Linked | null) => void,
         private readonly banners: Banners,
     ) {
@@ -42,8 +44,7 @@ export class Address {
         this.timer = window.setTimeout(() => void this.write(), REST);
     }
 
-    private async write(): Promise<string | null> {
-        const state = this.state();
+    private async write(state = this.state()): Promise<string | null> {
         if (state === null) {
             return null;
         }
@@ -60,18 +61,22 @@ export class Address {
     }
 
     private async copy(): Promise<void> {
-        const link = await this.write();
+        const kept = await this.kept();
+        window.clearTimeout(this.timer); // what was tried stays in the address
+        const link = await this.write(kept?.linked ?? null);
         if (link === null) {
             this.banners.show("notice", "This browser cannot pack the state into a link.");
             return;
         }
         try {
             await navigator.clipboard.writeText(link);
-            this.banners.show("notice", "The link is on the clipboard.", null, 4);
+            const remark = kept?.remark ?? "";
+            const seconds = remark === "" ? 4 : 0;
+            this.banners.show("notice", `The link is on the clipboard. ${remark}`.trim(), null, seconds);
         } catch {
             this.banners.show(
                 "notice",
-                "The browser does not allow copying: the link is in the address bar.",
+                `The browser does not allow copying: the link is in the address bar. ${kept?.remark ?? ""}`.trim(),
             );
         }
     }

@@ -5,10 +5,22 @@ import type { Banners } from "./banners";
 import { save } from "./download";
 import { element } from "./element";
 import type { Editor } from "./editor";
+import type { Keeping } from "./keeping";
+import type { Session } from "./session";
 
 /** Connects the buttons. */
-export function offerExports(view: View, editor: Editor, banners: Banners): void {
-    const offer = (id: string, name: string, make: () => Promise<Blob> | string) => {
+export function offerExports(
+    view: View,
+    {
+        session,
+        editor,
+        keeping,
+        banners,
+    }: { session: Session; editor: Editor; keeping: Keeping; banners: Banners },
+): void {
+    // A text that is not applied, and a scene of which nothing has moved, are saved as they are written.
+    const moved = () => editor.text === session.scene && keeping.moved;
+    const offer = (id: string, name: string, make: () => Promise<Blob | string>) => {
         element(id, HTMLButtonElement).addEventListener("click", () => {
             void (async () => {
                 try {
@@ -21,5 +33,11 @@ export function offerExports(view: View, editor: Editor, banners: Banners): void
     };
     offer("save-picture", "mcm.png", () => view.picture());
     offer("save-shape", "mcm.glb", () => view.gltf());
-    offer("save-scene", "scene.toml", () => editor.text);
+    offer("save-scene", "scene.toml", async () => {
+        const kept = moved() ? await keeping.kept() : null;
+        if (kept !== null && kept.remark !== "") {
+            banners.show("notice", kept.remark);
+        }
+        return kept?.scene ?? editor.text;
+    });
 }

@@ -1,6 +1,15 @@
 /** The session with the core: the scene that is open, the inputs asked for, and the newest answer. */
 
-import { type Answer, type Description, Places, type Reply, type Request, startOf } from "../protocol";
+import {
+    type Answer,
+    type Carriage,
+    type Carried,
+    type Description,
+    Places,
+    type Reply,
+    type Request,
+    startOf,
+} from "../protocol";
 
 /** Who changed inputs: the 3-D view, the controls, a way that is played, or a scene that was opened. */
 export type Origin = "view" | "controls" | "way" | "opened";
@@ -23,7 +32,7 @@ export function same(one: Float64Array, other: Float64Array): boolean {
 }
 
 /** What is asked of the device that is open. */
-type DeviceRequest = Exclude<Request, { kind: "open" }>;
+type DeviceRequest = Exclude<Request, { kind: "open" | "carry" }>;
 
 /** What was sent to be opened: the scene, and inputs that shall differ from its start. */
 interface Asked {
@@ -52,6 +61,8 @@ export class Session {
     private frame = 0;
     /** What was asked of the device while another scene was opened: it is of no use to that one, and sent only if the scene is refused. */
     private held: DeviceRequest[] = [];
+    /** Who waits to be told what a scene carries. */
+    private readonly carrying: ((carried: Carried | null) => void)[] = [];
 
     constructor(private readonly send: (request: Request) => void) {}
 
@@ -69,7 +80,23 @@ export class Session {
     /** Opens a scene. Where `inputs` are given, the device is loaded with these in place of the scene's start values. */
     open(scene: string, inputs: Record<string, number> = {}): void {
         this.opening.push({ scene, inputs });
-        this.send({ kind: "open", scene });
+        this.send({ kind: "open", scene, inputs });
+    }
+
+    /** Which of these ways leads a new device to the present shape; null where there is none, or another scene is opened meanwhile. */
+    carry(ways: Carriage[]): Promise<Carried | null> {
+        const answer = this.answer;
+        if (answer === null || this.opening.length > 0) {
+            return Promise.resolve(null);
+        }
+        this.send({
+            kind: "carry",
+            scene: this.scene,
+            ways,
+            inputs: this.inputs.slice(),
+            outputs: answer.outputs,
+        });
+        return new Promise((keep) => this.carrying.push(keep));
     }
 
     /** Loads the device anew at the present inputs, or at others. */
@@ -142,7 +169,11 @@ export class Session {
             case "answer":
                 this.note(reply.answer);
                 break;
+            case "carried":
+                this.carrying.shift()?.(reply.carried);
+                break;
             case "broken":
+                this.carrying.splice(0).forEach((keep) => keep(null));
                 this.tell("broken", reply.message);
                 break;
         }
@@ -163,9 +194,6 @@ export class Session {
         this.places.put(this.inputs, asked.inputs);
         this.tell("opened", description);
         this.tell("changed", "opened");
-        if (!same(this.inputs, this.start)) {
-            this.restart();
-        }
     }
 
     private note(answer: Answer): void {

@@ -9,12 +9,13 @@ use serde_json::{Value, json};
 use crate::verdict;
 
 /// Report of the solve and the shape found; without a shape, all its numbers are null. With
-/// `uncertainty` where it is asked for, null where it cannot be told.
+/// `uncertainty` where it is asked for, null where it cannot be told, and with the `warnings` of a scene that has some.
 pub(super) fn as_json(
     outputs: &Outputs,
     jacobian: &Result<Jacobian, Error>,
     magnet: bool,
     uncertainty: Option<Value>,
+    warnings: &[String],
 ) -> Value {
     let derivatives = jacobian.as_ref().ok().map(|jacobian| {
         json!({
@@ -48,7 +49,8 @@ pub(super) fn as_json(
     let found = shape(outputs).into_iter().chain(mutual).chain(verdict);
     let found = found.map(|(key, value)| (key, if converged { value } else { Value::Null }));
     let uncertainty = uncertainty.map(|told| ("uncertainty", told));
-    found.chain(search).chain(uncertainty).map(|(key, value)| (key.to_owned(), value)).collect()
+    let odd = (!warnings.is_empty()).then(|| ("warnings", json!(warnings)));
+    found.chain(search).chain(uncertainty).chain(odd).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// The wrench of magnets and coils on one another, where it is asked for.

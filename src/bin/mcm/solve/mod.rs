@@ -8,8 +8,10 @@ mod uncertainty;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use mcm::design::Specification;
+use mcm::equilibrium::Interaction;
 use mcm::error::Error;
-use mcm::manipulator::{Inputs, Outputs};
+use mcm::manipulator::{Outputs, Scene};
 use serde_json::Value;
 
 use self::json::as_json;
@@ -32,7 +34,8 @@ jacobian_note says why. With --uncertainty, uncertainty.band_95 holds half the w
 same keys, and uncertainty.sensitivities the derivatives by each number of [uncertainty], in the unit of its key; \
 uncertainty is null where there are none. stability is stable, unstable, neutral (one direction is free, as about the axis of an axisymmetric \
 scene) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
-solve got on the way from the unloaded shape, and all numbers of the shape are null.\n\n\
+solve got on the way from the unloaded shape, and all numbers of the shape are null. warnings, where there are \
+any, names numbers of the scene that look like those of another unit.\n\n\
 Exit status: 0 solved and stable (or stability unknown: any \
 method but \"potential\"), 1 bad input, 2 not converged, \
 3 solved but known to be unstable, 4 solved but neutral.")]
@@ -45,9 +48,12 @@ pub(crate) struct Solve {
     /// Number of centreline points in the shape
     #[arg(long, value_name = "N", default_value_t = 101)]
     shape_points: usize,
-    /// Draw the shape to scale, with rings, vessel, magnets, coils and forces of the wall, in the plane in which it spreads most
+    /// Draw the shape to scale, with rings, vessel, magnets, coils and forces of the wall, in the plane in which it bends
     #[arg(long, value_name = "OUT.svg")]
     picture: Option<PathBuf>,
+    /// With --picture: draw in this plane
+    #[arg(long, value_name = "PLANE", requires = "picture")]
+    view: Option<shape::Plane>,
     /// Bands of 95 % of all outputs, from the standard deviations in the scene's table [uncertainty]
     #[arg(long)]
     uncertainty: bool,
@@ -80,7 +86,7 @@ impl Solve {
         let outputs = manipulator.measure_margin();
         if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
             doing.then("drawing");
-            picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, outputs)?)?;
+            picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, outputs, self.view)?)?;
         }
         let mut outputs = outputs.clone();
         if scene.settings.mutual_wrenches {
@@ -104,16 +110,22 @@ impl Solve {
         }
         print(if self.json {
             let uncertainty = self.uncertainty.then(|| told.as_ref().map_or(Value::Null, Told::as_json));
-            format!("{:#}\n", as_json(&outputs, &jacobian, scene.magnets.is_some(), uncertainty))
+            format!(
+                "{:#}\n",
+                as_json(&outputs, &jacobian, scene.magnets.is_some(), uncertainty, &file.warnings()?)
+            )
         } else {
             let note = told.as_ref().map_or_else(String::new, Told::note);
-            as_table(&outputs, told.as_ref()) + &note + rest_note(&scene.inputs, &outputs)
+            as_table(&outputs, told.as_ref()) + &note + rest_note(&scene, &outputs)
         })?;
         Ok(exit_status(&outputs))
     }
 }
 
 fn exit_status(outputs: &Outputs) -> ExitCode {
+    if let Some(doubt) = verdict::doubt(outputs) {
+        warn(&doubt);
+    }
     let Some((status, message)) = verdict::warning(outputs) else {
         return ExitCode::SUCCESS;
     };
@@ -122,11 +134,22 @@ fn exit_status(outputs: &Outputs) -> ExitCode {
 }
 
 /// Why the manipulator is bent although nothing acts on it; empty where something does or it is nearly straight.
-fn rest_note(inputs: &Inputs, outputs: &Outputs) -> &'static str {
-    let loaded = *inputs != inputs.without_loads();
-    if loaded || !verdict::converged(outputs) || outputs.tip_angle <= REST_ANGLE {
+fn rest_note(scene: &Scene, outputs: &Outputs) -> &'static str {
+    let loaded = scene.inputs != scene.inputs.without_loads();
+    let held = outputs.wall.as_ref().is_some_and(|wall| wall.count > 0);
+    let bent = verdict::converged(outputs) && outputs.tip_angle > REST_ANGLE;
+    if loaded || held || !bent || !attracts(&scene.specification, outputs.interaction) {
         return "";
     }
     "\nnote: bent at rest, without any load: rings attract the spirals beside them off the axis, and the bends of the segments add up; \
      design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that they cancel\n"
+}
+
+/// Whether magnetic parts of the device act on one another at a level: its rings on the particles of the helices, or on other rings.
+fn attracts(specification: &Specification, level: Interaction) -> bool {
+    let Specification::Segmented(chain) = specification else { return false };
+    let helix = &chain.helix;
+    let on_spans = level.acts_on_spans() && helix.volume_fraction * helix.particle_remanence > 0.0;
+    let on_rings = level != Interaction::None;
+    chain.ring.remanence > 0.0 && (on_spans || on_rings)
 }

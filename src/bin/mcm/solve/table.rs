@@ -33,7 +33,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
     };
     let stable = match stability {
         "neutral" => "neutral: one direction is free",
-        "unknown" => "stability unknown: this model has no potential",
+        "unknown" => "stability unknown: this method does not compute it",
         known => known,
     };
     let mut out = format!("{status}; {stable}; {search}\n");

@@ -6,7 +6,7 @@ mod table;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use mcm::manipulator::Scene;
+use mcm::manipulator::{Inputs, Scene};
 use mcm::steer::{Limit, Limits, Move, Residual, Steering, Step, Target, Tolerances};
 use nalgebra::Vector3;
 
@@ -107,6 +107,8 @@ struct Found {
     way: Vec<Step>,
     limit: Option<Limit>,
     note: String,
+    /// How far it is from a target that is not reached.
+    off: Option<String>,
 }
 
 impl Steer {
@@ -138,45 +140,17 @@ impl Steer {
         }
         print(format!("{}\n{} steps, none snaps\n{}", found.note, found.way.len(), here(&moves, &steering)))?;
         let Some(limit) = found.limit else { return Ok(ExitCode::SUCCESS) };
-        warn(&format!("not reached: {limit}"));
+        let off = found.off.map_or_else(String::new, |off| format!("; {off}"));
+        warn(&format!("not reached: {limit}{off}"));
         Ok(NOT_CONVERGED.into())
     }
 
     fn found(&self, steering: &mut Steering, moves: &[Move]) -> Result<Found, Failure> {
         if let Some(goal) = &self.to {
-            let goal = goal_of(steering, &read_scene(goal)?.scene()?, moves);
-            let plan = steering.plan(&goal, None, self.tries)?;
-            let note = match (plan.straight, plan.limit) {
-                (None, _) => "the straight way leads there".into(),
-                (Some(limit), None) => {
-                    format!("a way round was found after {} tries; on the straight one, {limit}", plan.tries)
-                }
-                (Some(limit), Some(_)) => format!("on the straight way, {limit}"),
-            };
-            return Ok(Found { way: plan.way, limit: plan.limit, note });
+            return self.past_folds(steering, &goal_of(steering, &read_scene(goal)?.scene()?, moves));
         }
         if let Some(path) = &self.targets {
-            let targets = targets(path)?;
-            let bar = progress_bar(targets.len() as u64, "targets");
-            let (mut way, mut limit, mut worst) = (Vec::new(), None, 0.0_f64);
-            let mut met = 0;
-            for target in &targets {
-                let answers = steering.track(std::slice::from_ref(target))?;
-                for answer in answers {
-                    limit = answer.limit;
-                    worst = answer.residual.position.unwrap_or(0.0).max(worst);
-                    way.extend(answer.way);
-                }
-                bar.inc(1);
-                if limit.is_some() {
-                    break;
-                }
-                met += 1;
-            }
-            bar.finish_and_clear();
-            let note =
-                format!("{met} of {} targets met, the tip at most {:.4} um off", targets.len(), worst * 1e6);
-            return Ok(Found { way, limit, note });
+            return along(steering, &targets(path)?);
         }
         let target = Target {
             position: self.tip_position_mm.map(|position| position / MM_PER_M),
@@ -185,9 +159,22 @@ impl Steer {
             force: self.magnetic_force_mn.map(|force| force / MM_PER_M),
         };
         let answer = steering.to(&target)?;
-        let note =
-            format!("{}: {}", if answer.reached { "reached" } else { "nearest" }, told(&answer.residual));
-        Ok(Found { way: answer.way, limit: answer.limit, note })
+        let off = told(&answer.residual);
+        let note = format!("{}: {off}", if answer.reached { "reached" } else { "nearest" });
+        Ok(Found { way: answer.way, limit: answer.limit, note, off: Some(off) })
+    }
+
+    /// The way to other inputs.
+    fn past_folds(&self, steering: &mut Steering, goal: &Inputs) -> Result<Found, Failure> {
+        let plan = steering.plan(goal, None, self.tries)?;
+        let note = match (plan.straight, plan.limit) {
+            (None, _) => "the straight way leads there".into(),
+            (Some(limit), None) => {
+                format!("a way round was found after {} tries; on the straight one, {limit}", plan.tries)
+            }
+            (Some(limit), Some(_)) => format!("on the straight way, {limit}"),
+        };
+        Ok(Found { way: plan.way, limit: plan.limit, note, off: None })
     }
 
     fn limits(&self) -> Result<Limits, Failure> {
@@ -214,8 +201,31 @@ impl Steer {
     }
 }
 
+/// The way along targets, up to the first that is not met.
+fn along(steering: &mut Steering, targets: &[Target]) -> Result<Found, Failure> {
+    let bar = progress_bar(targets.len() as u64, "targets");
+    let (mut way, mut limit, mut worst) = (Vec::new(), None, 0.0_f64);
+    let (mut met, mut off) = (0, None);
+    for target in targets {
+        for answer in steering.track(std::slice::from_ref(target))? {
+            limit = answer.limit;
+            worst = answer.residual.position.unwrap_or(0.0).max(worst);
+            off = limit.map(|_| told(&answer.residual));
+            way.extend(answer.way);
+        }
+        bar.inc(1);
+        if limit.is_some() {
+            break;
+        }
+        met += 1;
+    }
+    bar.finish_and_clear();
+    let note = format!("{met} of {} targets met, the tip at most {:.4} um off", targets.len(), worst * 1e6);
+    Ok(Found { way, limit, note, off })
+}
+
 /// The present inputs with the moved ones of another scene.
-fn goal_of(steering: &Steering, goal: &Scene, moves: &[Move]) -> mcm::manipulator::Inputs {
+fn goal_of(steering: &Steering, goal: &Scene, moves: &[Move]) -> Inputs {
     let mut inputs = steering.inputs().clone();
     for each in moves {
         match each {

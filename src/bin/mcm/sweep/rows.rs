@@ -246,6 +246,11 @@ impl Row {
         self.reason.as_deref().unwrap_or(&self.outcome)
     }
 
+    /// Whether there is something to say about its shape.
+    pub(crate) fn is_noted(&self) -> bool {
+        self.reason.is_some()
+    }
+
     /// How far the last step to it got, 0 to 1.
     pub(crate) fn progress(&self) -> f64 {
         self.progress

@@ -4,7 +4,7 @@ use svg::Document;
 use svg::node::element::{Group, Path, Rectangle, SVG};
 
 use super::outline::Outline;
-use super::{INSIDE, Picture};
+use super::{INSIDE, Magnet, Picture, Remark};
 use crate::picture::frame::Frame;
 use crate::picture::style::{
     COLOURS, GREY, GRID, INK, LINE, TITLE, document, line, path, pixels, text, width,
@@ -23,6 +23,9 @@ const LEAST: f64 = 0.02;
 /// Length and half width of an arrow's head, and length of the arrow of the field, pixels.
 const HEAD: [f64; 2] = [11.0, 4.5];
 const FIELD_ARROW: f64 = 52.0;
+
+/// Place of a remark above the lower edge of its source, pixels.
+const REMARK: f64 = 12.0;
 
 /// Most of the width that the scale takes.
 const SCALE: f64 = 0.15;
@@ -52,7 +55,7 @@ impl Picture {
         let mut inside = self.draw_bodies(&frame);
         for [at, (x, y)] in &self.forces {
             let (end, length) = (frame.at(*at), per_newton * x.hypot(*y));
-            if length >= LEAST * ARROW * frame.width.min(frame.height) {
+            if length >= LEAST * per_newton * self.full_force {
                 inside = inside.add(arrow((end.0 - per_newton * x, end.1 + per_newton * y), end, FORCE));
             }
         }
@@ -79,12 +82,12 @@ impl Picture {
         Frame { left: LEFT, top: TOP, width: INSIDE, height, x: [low.0, high.0], y: [low.1, high.1] }
     }
 
-    fn largest_force(&self) -> f64 {
+    pub(super) fn largest_force(&self) -> f64 {
         self.forces.iter().map(|[_, force]| force.0.hypot(force.1)).fold(0.0, f64::max)
     }
 
     fn pixels_per_newton(&self, frame: &Frame) -> f64 {
-        ARROW * frame.width.min(frame.height) / self.largest_force().max(f64::MIN_POSITIVE)
+        ARROW * frame.width.min(frame.height) / self.full_force
     }
 
     fn draw_bodies(&self, frame: &Frame) -> SVG {
@@ -106,8 +109,8 @@ impl Picture {
         for coil in &self.coils {
             out = out.add(area("coil", &[coil], WINDINGS, COIL));
         }
-        for (whole, north, _) in &self.magnet {
-            out = out.add(area("magnet", &[whole], SOUTH, GREY)).add(area("north", &[north], NORTH, GREY));
+        for Magnet { whole, northern, .. } in &self.magnet {
+            out = out.add(area("magnet", &[whole], SOUTH, GREY)).add(area("north", &[northern], NORTH, GREY));
         }
         for shaft in &self.shaft {
             out = out.add(area("shaft", &[shaft], SHAFT, GREY));
@@ -120,9 +123,27 @@ impl Picture {
         for ring in &self.rings {
             out = out.add(area("ring", &[ring], RING, INK));
         }
-        for (.., letter) in &self.magnet {
-            let letter = text("N", frame.at(*letter), "middle").set("font-size", TITLE);
-            out = out.add(letter.set("dominant-baseline", "central"));
+        out.add(self.draw_letters(frame))
+    }
+
+    /// N and S on the magnets, and how far sources are from the plane.
+    fn draw_letters(&self, frame: &Frame) -> Group {
+        let mut out = Group::new();
+        let written = |words: &str, at| text(words, at, "middle").set("dominant-baseline", "central");
+        for Magnet { poles, front, .. } in &self.magnet {
+            let places = poles.map(|pole| frame.at(pole));
+            let apart = (places[0].0 - places[1].0).hypot(places[0].1 - places[1].1);
+            for (number, (letter, at)) in ["N", "S"].into_iter().zip(places).enumerate() {
+                // Of a magnet that is seen along its axis, the pole in front hides the other one.
+                if apart >= TITLE || number == *front {
+                    out = out.add(written(letter, at).set("font-size", TITLE).set("class", "pole"));
+                }
+            }
+        }
+        for Remark { at, words } in &self.remarks {
+            let (x, y) = frame.at(*at);
+            let remark = written(words, (x, y - REMARK)).set("class", "depth").set("paint-order", "stroke");
+            out = out.add(remark.set("stroke", "white").set("stroke-width", 3));
         }
         out
     }
@@ -155,9 +176,15 @@ impl Picture {
             x += 46.0 + width(label);
         }
         let mut arrows = Vec::new();
-        if self.largest_force() > 0.0 {
-            let round = round_below(self.largest_force());
+        let largest = self.largest_force();
+        if largest >= LEAST * self.full_force {
+            let round = round_below(self.full_force);
             arrows.push((FORCE, round * per_newton, format!("wall, {} mN", decimals(1e3 * round, 6))));
+        } else if largest > 0.0 {
+            // An arrow that nobody could see, or one that looks like a force that matters, would both mislead.
+            let words = format!("wall, at most {:.1e} mN: not drawn", 1e3 * largest);
+            out = out.add(name(&words, x));
+            x += 18.0 + width(&words);
         }
         if let Some((_, magnitude)) = self.field {
             arrows.push((FIELD, 26.0, format!("field, {} mT", decimals(magnitude, 2))));

@@ -16,6 +16,7 @@ use svg::Document;
 use crate::failure::Failure;
 use contour::closed_lines;
 use outline::{Grid, Outline};
+pub(crate) use view::Plane;
 use view::View;
 
 /// Size of the plot's inside: its width, and the least and largest height, pixels.
@@ -30,9 +31,38 @@ const VESSEL_AIR: f64 = 15.0;
 /// Length of shaft that is drawn before its port, m.
 const OUTSIDE: f64 = 0.01;
 
-/// The picture of the shape found for a scene with this name.
-pub(crate) fn draw(name: &str, scene: &Scene, outputs: &Outputs) -> Result<Document, Failure> {
-    Ok(Picture::new(name, scene, outputs)?.draw())
+/// Distance of a source from the plane of the picture, in parts of its own size, from which the picture says how far it is.
+const OUT_OF_PLANE: f64 = 0.25;
+
+/// Least force that an arrow of full length stands for, in parts of the largest force on the device as a whole, and N: what is far smaller
+/// decides nothing.
+const FORCE_SHARE: f64 = 0.01;
+const LEAST_FORCE: f64 = 1e-6;
+
+/// The picture of the shape found for a scene with this name, in a plane that is asked for or that of the bend.
+pub(crate) fn draw(
+    name: &str,
+    scene: &Scene,
+    outputs: &Outputs,
+    plane: Option<Plane>,
+) -> Result<Document, Failure> {
+    Ok(Picture::new(name, scene, outputs, plane)?.draw())
+}
+
+/// A cylinder of a magnet.
+struct Magnet {
+    whole: Outline,
+    northern: Outline,
+    /// Places of the letters N and S.
+    poles: [(f64, f64); 2],
+    /// The one that is nearer to the viewer.
+    front: usize,
+}
+
+/// Where a source stands that is not in the plane of the picture.
+struct Remark {
+    at: (f64, f64),
+    words: String,
 }
 
 /// All that is drawn, in the plane, mm.
@@ -43,8 +73,9 @@ struct Picture {
     corners: [(f64, f64); 2],
     /// Outlines of the vessel and of what it leaves free.
     vessel: Vec<Outline>,
-    /// Each cylinder of the magnets, its northern half, and where that ends.
-    magnet: Vec<(Outline, Outline, (f64, f64))>,
+    /// Each cylinder of the magnets.
+    magnet: Vec<Magnet>,
+    remarks: Vec<Remark>,
     /// The coils that carry a current.
     coils: Vec<Outline>,
     shaft: Vec<Outline>,
@@ -53,12 +84,14 @@ struct Picture {
     rings: Vec<Outline>,
     /// Places of contacts and forces (N).
     forces: Vec<[(f64, f64); 2]>,
+    /// The force that an arrow of full length stands for, N.
+    full_force: f64,
     /// The uniform field, mT: its part in the plane, and its magnitude.
     field: Option<((f64, f64), f64)>,
 }
 
 impl Picture {
-    fn new(name: &str, scene: &Scene, outputs: &Outputs) -> Result<Self, Error> {
+    fn new(name: &str, scene: &Scene, outputs: &Outputs, plane: Option<Plane>) -> Result<Self, Error> {
         let design = scene.design()?;
         let inputs = &scene.inputs;
         let sources = scene.sources()?;
@@ -70,7 +103,7 @@ impl Picture {
         let beside =
             on.first().map(|(_, placed)| placed.pose.position).or((field != Vector3::zeros())
                 .then(|| outputs.tip.position + field.normalize() * design.length()));
-        let view = View::of(&outputs.shape, lumen, beside, &inputs.base.axis());
+        let view = View::of(plane, &outputs.shape, lumen, beside, &inputs.base.axis());
         let inserted = outputs.feed_length.unwrap_or(0.0);
         let first = outputs.shape_arc_length.iter().position(|s| *s >= inserted).unwrap_or(0);
         let (pushed, device) = (&outputs.shape[..=first], &outputs.shape[first..]);
@@ -87,10 +120,20 @@ impl Picture {
         let magnet = cylinders.map(|(cylinder, PlacedSource { pose, strength })| {
             let ends = [-0.5, 0.5].map(|share| cylinder.offset + share * cylinder.length);
             let north = if cylinder.remanence * strength > 0.0 { ends[1] } else { ends[0] };
+            let south = ends[0] + ends[1] - north;
             let outline = |ends| outline::of_cylinder(&view, pose, ends, cylinder.radius);
-            let letter = pose.advanced(0.5 * (north + cylinder.offset)).position;
-            (outline(ends), outline([cylinder.offset, north]), view.at(&letter))
+            let letters = [north, south].map(|end| pose.advanced(0.5 * (end + cylinder.offset)).position);
+            let [ahead, behind] = letters.each_ref().map(|letter| view.towards.dot(letter));
+            Magnet {
+                whole: outline(ends),
+                northern: outline([cylinder.offset, north]),
+                poles: letters.map(|letter| view.at(&letter)),
+                front: usize::from(behind > ahead),
+            }
         });
+        let middle = outputs.shape.iter().sum::<Vector3<f64>>() / outputs.shape.len() as f64;
+        let remarks =
+            on.iter().filter_map(|(source, placed)| Remark::of(&view, &middle, source, &placed.pose));
         let coils = on.iter().filter_map(|(source, placed)| {
             let coil = source.coil()?;
             let ends = [-0.5, 0.5].map(|share| share * coil.length);
@@ -107,14 +150,19 @@ impl Picture {
             corners: [(0.0, 0.0); 2],
             vessel: Vec::new(),
             magnet: magnet.collect(),
+            remarks: remarks.collect(),
             coils: coils.collect(),
             shaft,
             device: [radius, core].map(|radius| outline::of_rod(&view, device, radius)),
             rings: outputs.rings.iter().map(body).collect(),
             forces: walls.map(|[at, force]| [view.at(at), flat(force)]).collect(),
+            full_force: 0.0,
             field: (field != Vector3::zeros()).then(|| (view.at(&field), 1e3 * field.norm())),
             view,
         };
+        let whole = [outputs.base_reaction_force, outputs.magnetic_force, inputs.tip_force];
+        let whole = whole.into_iter().map(|force| force.norm()).fold(0.0, f64::max);
+        out.full_force = out.largest_force().max(FORCE_SHARE * whole).max(LEAST_FORCE);
         out.corners = out.corners_around(lumen.is_some());
         if let Some(lumen) = lumen {
             let Grid { first, step, columns, values } =
@@ -128,7 +176,7 @@ impl Picture {
 
     /// Corners of a plot around all but the vessel, with the same scale along both axes.
     fn corners_around(&self, in_vessel: bool) -> [(f64, f64); 2] {
-        let magnet = self.magnet.iter().flat_map(|(whole, ..)| whole);
+        let magnet = self.magnet.iter().flat_map(|magnet| &magnet.whole);
         let all = self
             .shaft
             .iter()
@@ -149,5 +197,25 @@ impl Picture {
         up = up.max(across * HEIGHTS[0] / INSIDE);
         let middle = (0.5 * (low.0 + high.0), 0.5 * (low.1 + high.1));
         [-0.5, 0.5].map(|share| (middle.0 + share * across, middle.1 + share * up))
+    }
+}
+
+impl Remark {
+    /// That of a source at this pose, at its lower edge; `None` where it stands in the plane through a place of the device.
+    fn of(view: &View, device: &Vector3<f64>, source: &Assembly, pose: &Pose) -> Option<Self> {
+        let depth = view.towards.dot(&(pose.position - device));
+        let cylinders: Vec<([f64; 2], f64)> = match source.coil() {
+            Some(coil) => vec![([-0.5, 0.5].map(|share| share * coil.length), coil.outer_radius)],
+            None => (source.magnets().iter())
+                .map(|own| ([-0.5, 0.5].map(|share| own.offset + share * own.length), own.radius))
+                .collect(),
+        };
+        let size = cylinders.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
+        let outlines =
+            cylinders.into_iter().flat_map(|(ends, radius)| outline::of_cylinder(view, pose, ends, radius));
+        let lowest = outlines.map(|(_, y)| y).fold(f64::INFINITY, f64::min);
+        let (side, away) = (if depth > 0.0 { "in front" } else { "behind" }, depth.abs());
+        let words = format!("{:.0} mm {side}", 1e3 * away);
+        (away > OUT_OF_PLANE * size).then(|| Self { at: (view.at(&pose.position).0, lowest), words })
     }
 }
