@@ -1,7 +1,8 @@
 //! Strain modes of an element: a stress resultant times the local compliance.
 //!
 //! One element spans a whole segment, stiff discs and soft core alike. Along the core the resultant is a Legendre polynomial.
-//! Along a disc it keeps the value at the core's end, may vary linearly where required by a distributed couple, and may jump
+//! Along a disc it keeps the value at the core's end, may vary linearly where required by a distributed couple, as a polynomial where
+//! the disc has a considerable share of the compliance, and may jump
 //! where touching windings carry a part of it along the core. The modes are orthogonal in the elastic energy; all but the first
 //! leave the element's ends unchanged.
 
@@ -16,6 +17,8 @@ pub(super) struct Part {
     pub(super) length: f64,
     /// Strain per stress resultant.
     pub(super) compliance: f64,
+    /// Whether the resultant varies beside the core as it does along the core.
+    pub(super) long: bool,
 }
 
 /// Variation of the resultant in the discs relative to that at the core's ends.
@@ -128,7 +131,8 @@ impl Modes {
         }
     }
 
-    /// Raw functions at `s` in part `index`: Legendre polynomials constant outside the core, one slope per disc, and a jump.
+    /// Raw functions at `s` in part `index`: Legendre polynomials constant outside the core, powers of the distance from the core in
+    /// each disc, and a jump.
     fn raw(&self, index: usize, s: f64) -> Vec<f64> {
         let core = self.parts[self.core];
         let x = match index.cmp(&self.core) {
@@ -142,16 +146,25 @@ impl Modes {
             let before = if j > 1 { values[j - 2] } else { 0.0 };
             values.push(((2.0 * n - 1.0) * x * last - (n - 1.0) * before) / n);
         }
-        if self.ends != Ends::Constant {
-            for (other, part) in self.parts.iter().enumerate().filter(|(other, _)| *other != self.core) {
-                let edge = if other < self.core { part.start + part.length } else { part.start };
-                values.push(if other == index { (s - edge) / part.length } else { 0.0 });
+        for (other, part) in self.parts.iter().enumerate().filter(|(other, _)| *other != self.core) {
+            let edge = if other < self.core { part.start + part.length } else { part.start };
+            let along = if other == index { (s - edge) / part.length } else { 0.0 };
+            let mut power = 1.0;
+            for _ in 0..self.powers(part) {
+                power *= along;
+                values.push(power);
             }
         }
         if self.ends == Ends::Jump {
             values.push(if index == self.core { 1.0 } else { 0.0 });
         }
         values
+    }
+
+    /// Highest power of the distance from the core in a disc.
+    fn powers(&self, disc: &Part) -> usize {
+        let slope = usize::from(self.ends != Ends::Constant);
+        if disc.long { self.degree.max(slope) } else { slope }
     }
 
     /// Values of all modes at arc length `s` in part `index`, 1/m.

@@ -23,6 +23,9 @@ const POINTS: (usize, usize) = (2, 1);
 /// The same for references. What limits the others is the spiral, whose third moments four points a section leave out.
 const FINE_POINTS: (usize, usize) = (6, 12);
 
+/// Share of an element's compliance from which the strain along a disc is resolved as that along the core.
+const LONG: f64 = 0.02;
+
 /// Size below which a coefficient of the projection between elements is dropped as rounding.
 const NEGLIGIBLE: f64 = 1e-13;
 
@@ -93,12 +96,15 @@ impl Element {
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
         let (disc_points, extra) = if resolution.fine { FINE_POINTS } else { POINTS };
         let core_points = resolved.max(degree + 1 + extra);
+        let bend = |piece: &Piece<'_>| piece.length / piece.span.stiffness.bending;
+        let all: f64 = pieces.iter().map(bend).sum();
+        let is_long = |piece: &Piece<'_>| piece.span.kind == SpanKind::Disc && bend(piece) > LONG * all;
         let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
                 start += piece.length;
                 let compliance = 1.0 / stiffness(&piece.span.stiffness);
-                Part { start: start - piece.length, length: piece.length, compliance }
+                Part { start: start - piece.length, length: piece.length, compliance, long: is_long(piece) }
             });
             Modes::new(parts.collect(), core, degree, ends)
         };
@@ -121,7 +127,8 @@ impl Element {
         let mut tables = Vec::new();
         let mut first = 0;
         for piece in pieces {
-            let points = if piece.span.kind == SpanKind::Disc { disc_points } else { core_points };
+            let short = piece.span.kind == SpanKind::Disc && !is_long(piece);
+            let points = if short { disc_points } else { core_points };
             tables.push((piece.length, gauss_legendre(points).0, first));
             first += points;
         }

@@ -7,6 +7,7 @@ mod changes;
 mod estimate;
 
 mod jacobian;
+mod long_discs;
 mod near_fold;
 
 mod ranges;

@@ -265,3 +265,6 @@ pub(crate) const TURNED_SPIRALS: f64 = 1e-4;
 
 /// Tip angle of a shape that is its own point reflection, deg, by the default accuracies (reached: 5e-5, S = 12).
 pub(crate) const REFLECTED_DEG: f64 = 1e-4;
+
+/// Tip of a tube with long discs against an independent rod, m.
+pub(crate) const LONG_DISCS: f64 = 1e-7;
