@@ -15,7 +15,7 @@ use super::state::{Interface, State};
 use super::value::Value;
 use super::variable::{Causality, Variable};
 use crate::error::Error;
-use crate::manipulator::{Manipulator, Snapshot};
+use crate::manipulator::{Manipulator, Snapshot, TipTolerance};
 
 const MARK: [u8; 8] = *b"mcmstate";
 
@@ -155,6 +155,7 @@ fn restored(record: Record, package: &Package) -> Result<FmuState, Error> {
         let built = values.with_tunables_of(package.start());
         let mut manipulator = built.manipulator(package.table().counts().shape_points)?;
         // What is refused of them stands in the state, and counts in no solve.
+        let _ = manipulator.set_tolerance(TipTolerance::of(&values.settings));
         let _ = manipulator.set_friction(values.friction);
         if let Some(snapshot) = &record.accepted {
             let mut accepted = manipulator.clone();

@@ -7,7 +7,7 @@ use mcm::manipulator::SceneFile;
 use super::{assert_status, folder, mcm, stderr, stdout};
 
 /// A small cylinder whose length is the root of 3 times its radius has no octupole.
-const CYLINDER_MM: (f64, f64) = (2.0, 3.464_101_615_137_754_6);
+const CYLINDER_MM: (f64, f64) = (4.5, 7.794_228_634_059_948);
 
 fn scene(source: &str) -> String {
     format!("[design]\nsegments = 3\n[model]\ninteraction = \"rings\"\n{source}")
@@ -27,10 +27,10 @@ fn tip(test: &str, scene: &str, table: &str) -> Vec<f64> {
 fn a_table_of_multipoles_makes_the_field_of_its_dipole() {
     // Its moment makes B_r V / (2 pi) = 1.35 T a^2 L / 2 on the axis, times 1 / r^3; with two degrees that are 0.
     let (radius, length) = CYLINDER_MM;
-    let remanence = 200.0;
+    let remanence = 18.0;
     let dipole = 0.5e-9 * remanence * radius * radius * length;
     let core = format!("degree,t_m_per_a\n1,{:e}\n3,0\n", dipole / 4.0);
-    let place = "position_mm = [10.0, 60.0, 9.0]\norientation_wxyz = [0.8, 0.6, 0, 0]\n";
+    let place = "position_mm = [10.0, 75.0, 9.0]\norientation_wxyz = [0.8, 0.6, 0, 0]\n";
     let coil = format!(
         "[[coil]]\n{place}inner_radius_mm = 5\nouter_radius_mm = 10\nlength_mm = 20\nturns = 100\ncurrent_a = 4\n"
     );

@@ -41,7 +41,7 @@ fn helices_out_of_range() {
         (|h| &mut h.core_outer_radius, "core outer radius", &[f64::NAN, 0.0, 2.0e-3, 3e-3]),
         (|h| &mut h.core_inner_radius, "core inner radius", &[f64::NAN, -1e-4, 0.95e-3, 1e-3]),
         (|h| &mut h.volume_fraction, "volume fraction", &[f64::NAN, -0.1, 1.0 / 1.35, 0.8, 1.0]),
-        (|h| &mut h.particle_remanence, "remanence", &[f64::NAN, -1.0, 3.0]),
+        (|h| &mut h.particle_remanence, "remanence", &[f64::NAN, -1.0, 20.1]),
     ];
     for (entry, named, values) in table {
         for &value in values {
@@ -78,7 +78,7 @@ fn chains_and_rings_out_of_range() {
         let ring = RingMagnet { length, ..RingMagnet::paper() };
         refused(&Specification::Segmented(Segmented { ring, ..paper() }), "ring length");
     }
-    for remanence in [f64::NAN, -1.35, 13.5] {
+    for remanence in [f64::NAN, -1.35, 20.1] {
         let ring = RingMagnet { remanence, ..RingMagnet::paper() };
         refused(&Specification::Segmented(Segmented { ring, ..paper() }), "ring remanence");
     }

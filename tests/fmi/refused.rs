@@ -46,6 +46,7 @@ fn a_refused_input_is_reported_until_a_good_one_arrives() {
         (BENT, "magnet.orientation[1]", 3.0, false),
         (BENT, "base.orientation[1]", 0.3, false),
         (BENT, "model.tolerance_position", -1.0, false),
+        (BENT, "model.tolerance_relative", 1.5, false),
         (SHAFT, "feed.insertion", 1.5, false),
         (SHAFT, "feed.insertion", -0.001, false),
         (SHAFT, "guidewire.insertion", 3.0, false),
@@ -152,6 +153,7 @@ fn a_saved_state_knows_what_was_refused() {
         ("field.uniform[2]", f64::NAN, 0.01),
         ("base.orientation[1]", 0.3, 1.0),
         ("model.tolerance_position", 0.0, 1e-4),
+        ("model.tolerance_relative", -1.0, 1e-4),
     ] {
         let (mut instance, table, told) = initialised(BENT);
         set(&mut instance, &table, name, bad);

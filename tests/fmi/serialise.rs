@@ -163,6 +163,25 @@ fn forged_bytes_with_the_right_checksum_do_no_harm() {
 }
 
 #[test]
+fn with_other_tolerances_than_at_the_start_it_goes_on_bit_for_bit() {
+    for (name, value) in [
+        ("model.tolerance_position", 2e-5),
+        ("model.tolerance_angle", 1e-3),
+        ("model.tolerance_relative", 3e-3),
+    ] {
+        let (mut first, table, _) = initialised(BESIDE);
+        assert_eq!(set(&mut first, &table, name, value), Ending::Ok);
+        run(&mut first, &table);
+        let kept = bytes(&mut first);
+        let (mut second, _, told) = instance(BESIDE);
+        assert_eq!(second.deserialise(KEY, &kept), Ending::Ok, "{}", last(&told));
+        assert_eq!(second.restore(KEY), Ending::Ok);
+        assert_eq!(run(&mut second, &table), run(&mut first, &table), "{name}");
+        assert_eq!(bytes(&mut second), bytes(&mut first), "{name}");
+    }
+}
+
+#[test]
 fn a_state_that_is_not_kept_has_no_bytes() {
     let (instance, _, told) = initialised(BENT);
     assert_eq!(instance.serialised(5), Err(Ending::Error));

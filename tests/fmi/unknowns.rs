@@ -157,7 +157,13 @@ fn derivatives_by_parameters_are_those_of_solves_beside_and_zero_by_tolerances()
         assert_column(HEAVY, name, &unknowns, &exact, &differences, 1e-3);
         assert!(differences.iter().any(|value| value.abs() > 1e-9), "{name} has an effect");
     }
-    for name in ["model.tolerance_position", "model.tolerance_angle", "model.time_budget"] {
+    let accuracies = [
+        "model.tolerance_position",
+        "model.tolerance_angle",
+        "model.tolerance_relative",
+        "model.time_budget",
+    ];
+    for name in accuracies {
         let found = instance.directional_derivative(&references, &[reference(table, name)], &[1.0]);
         assert_eq!(found, Ok(vec![0.0; references.len()]), "{name}: {}", last(&told));
     }

@@ -350,7 +350,7 @@ pub(super) struct ModelEntries {
     pub(super) tolerance_position_mm: f64,
     /// How far the tip may be turned against the converged answer of the model.
     pub(super) tolerance_angle_deg: f64,
-    /// How far the tip may be from the converged answer, relative to its distance from its unloaded place; 0: any.
+    /// How far the tip may be from that, relative to its distance from its unloaded place; 0: any.
     ///
     /// The smaller of this and `tolerance_position_mm` holds, where this is never less than 1e-5 mm.
     pub(super) tolerance_relative: f64,
