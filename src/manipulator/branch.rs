@@ -155,7 +155,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// Predicted path parameter of the next fold, extrapolated from the last three targets (two if there are no more).
     ///
     /// The stability margin goes to zero as a power of the distance: 1/2 before a fold, 1 where a symmetric shape loses its
-    /// stability without one, in between where it is nearly symmetric. `None` where the margin grows or is above 0.5.
+    /// stability without one, in between where it is nearly symmetric. `None` where the margin grows or is above 0.35.
     #[must_use]
     pub fn predicted_fold(&self) -> Option<f64> {
         predicted(&self.margins)

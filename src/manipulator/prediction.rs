@@ -6,7 +6,7 @@
 use crate::numerics::bisection::bisect;
 
 /// Margin below which a snap is predicted: farther away it does not yet follow the asymptotic power law.
-const LARGEST_MARGIN: f64 = 0.5;
+const LARGEST_MARGIN: f64 = 0.35;
 
 /// Powers of the distance with which the margin vanishes: at a fold, and without one.
 const POWERS: [f64; 2] = [0.5, 1.0];
