@@ -16,12 +16,13 @@ const MOST: usize = 20;
 
 /// Reads the scene of a text called `what`.
 ///
-/// An entry at fault is left out, and the rest read again, until no more faults are found. `lumen_of` gives the lumen of a mesh,
-/// `text_of` the text of another file that is named.
-pub(super) fn read(
+/// An entry at fault is left out, and the rest read again, until no more faults are found. `mesh_of` gives the mesh of a name, `lumen_of`
+/// its lumen, `text_of` the text of another file that is named.
+pub(super) fn read<Mesh>(
     text: &str,
     what: &str,
-    lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>,
+    mesh_of: impl FnOnce(&str) -> Result<Mesh, Error>,
+    lumen_of: impl FnOnce(&str, Mesh) -> Result<Lumen, Error>,
     text_of: impl Fn(&str) -> Result<String, Error>,
 ) -> Result<SceneFile, Error> {
     let mut faults = Faults { text, what, found: Vec::new() };
@@ -43,13 +44,19 @@ pub(super) fn read(
         faults.add(named, error.to_string());
         return Err(faults.all());
     }
-    if file.has_mesh() {
-        // To sample a mesh may take half a minute: what is wrong besides is told before.
-        faults.values(root.get_ref(), &file, SceneFile::check_before_mesh)?;
-        if !faults.found.is_empty() {
-            return Err(faults.all());
-        }
-        file.find_mesh(lumen_of);
+    if let Some(name) = file.mesh_stl().map(str::to_owned) {
+        let lumen = match mesh_of(&name) {
+            Ok(mesh) => {
+                // To sample a mesh may take half a minute: what is wrong besides is told before.
+                faults.values(root.get_ref(), &file, SceneFile::check_before_mesh)?;
+                if !faults.found.is_empty() {
+                    return Err(faults.all());
+                }
+                lumen_of(&name, mesh)
+            }
+            Err(error) => Err(error),
+        };
+        file.set_mesh(lumen);
     }
     faults.values(root.get_ref(), &file, |file| file.scene().map(|_| ()))?;
     if faults.found.is_empty() { Ok(file) } else { Err(faults.all()) }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::vessel::{BranchEntries, VesselEntries};
 use super::{SceneFile, faults};
 use crate::error::Error;
-use crate::vessel::Lumen;
+use crate::vessel::{Lumen, Mesh};
 
 /// Key of the mesh.
 const KEY: &str = "vessel.mesh_stl";
@@ -17,7 +17,12 @@ impl SceneFile {
     /// # Errors
     /// As [`SceneFile::parse`], as where the mesh is missing or is none: see [`crate::vessel::Mesh`].
     pub fn parse_in(text: &str, what: &str, folder: &Path) -> Result<Self, Error> {
-        faults::read(text, what, |name| read(&folder.join(name)), |name| text_of(&folder.join(name)))
+        let lumen_of = |name: &str, mesh: Mesh| {
+            let refused = |error: Error| refused(&folder.join(name), error.to_string());
+            Lumen::from_mesh(&mesh, None).map_err(refused)
+        };
+        let mesh_of = |name: &str| read(&folder.join(name));
+        faults::read(text, what, mesh_of, lumen_of, |name| text_of(&folder.join(name)))
     }
 
     /// Whether a mesh is named.
@@ -38,16 +43,14 @@ impl SceneFile {
         file
     }
 
-    fn mesh_stl(&self) -> Option<&str> {
+    pub(super) fn mesh_stl(&self) -> Option<&str> {
         self.vessel.as_ref()?.mesh_stl.as_deref()
     }
 
-    /// Gets the lumen of the mesh that is named; what stands in its way is told with the scene's other faults.
-    pub(super) fn find_mesh(&mut self, lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>) {
-        let found = self.mesh_stl().map(lumen_of);
-        self.mesh = found.map(|found| {
-            found.map_err(|error| Error::Syntax { what: KEY.into(), reason: error.to_string() })
-        });
+    /// Sets the lumen of the mesh that is named; what stands in its way is told with the scene's other faults.
+    pub(super) fn set_mesh(&mut self, found: Result<Lumen, Error>) {
+        let at_key = |error: Error| Error::Syntax { what: KEY.into(), reason: error.to_string() };
+        self.mesh = Some(found.map_err(at_key));
     }
 }
 
@@ -73,9 +76,12 @@ impl VesselEntries {
 
 /// The text of a file.
 pub(super) fn text_of(path: &Path) -> Result<String, Error> {
-    let refused =
-        |error: std::io::Error| Error::Syntax { what: path.display().to_string(), reason: error.to_string() };
-    std::fs::read_to_string(path).map_err(refused)
+    std::fs::read_to_string(path).map_err(|error| refused(path, error.to_string()))
+}
+
+/// Why a file is not used.
+fn refused(path: &Path, reason: String) -> Error {
+    Error::Syntax { what: path.display().to_string(), reason }
 }
 
 /// Why a text alone does not tell where a file is that it names.
@@ -86,29 +92,26 @@ pub(super) fn unplaced(name: &str) -> Error {
 }
 
 #[cfg(feature = "stl")]
-fn read(path: &Path) -> Result<Lumen, Error> {
+fn read(path: &Path) -> Result<Mesh, Error> {
     use std::fs::File;
     use std::io::Read;
 
     use super::units::MM_PER_M;
-    use crate::vessel::Mesh;
 
     /// Largest length of an STL file, bytes: twenty million triangles.
     const LONGEST: u64 = 1_000_000_000;
 
-    let refused = |reason: String| Error::Syntax { what: path.display().to_string(), reason };
     let mut bytes = Vec::new();
     let opened = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_end(&mut bytes));
-    opened.map_err(|error| refused(error.to_string()))?;
+    opened.map_err(|error| refused(path, error.to_string()))?;
     if bytes.len() as u64 > LONGEST {
-        return Err(refused(format!("it has more than {LONGEST} bytes")));
+        return Err(refused(path, format!("it has more than {LONGEST} bytes")));
     }
-    let mesh = Mesh::from_stl(&bytes, 1.0 / MM_PER_M);
-    mesh.and_then(|mesh| Lumen::from_mesh(&mesh, None)).map_err(|error| refused(error.to_string()))
+    Mesh::from_stl(&bytes, 1.0 / MM_PER_M).map_err(|error| refused(path, error.to_string()))
 }
 
 #[cfg(not(feature = "stl"))]
-fn read(path: &Path) -> Result<Lumen, Error> {
+fn read(path: &Path) -> Result<Mesh, Error> {
     Err(Error::Unsupported(format!(
         "{} is not read: this build of mcm has no reader for STL files, the feature `stl`",
         path.display()

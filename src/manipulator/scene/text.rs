@@ -33,7 +33,7 @@ impl SceneFile {
         what: &str,
         lumen_of: impl FnOnce(&str) -> Result<Lumen, Error>,
     ) -> Result<Self, Error> {
-        faults::read(text, what, lumen_of, |name| Err(unplaced(name)))
+        faults::read(text, what, |_| Ok(()), |name, ()| lumen_of(name), |name| Err(unplaced(name)))
     }
 
     /// The text of this file with every default written out.
