@@ -178,8 +178,11 @@ pub extern "C" fn mcm_way_text(number: u32) -> u32 {
     at_desk(|desk| desk.write(number, Device::way_text))
 }
 
+/// A text of a device at inputs, with the way to them.
+type TextAt = fn(&Device, &[f64], &[f64]) -> Result<String, Error>;
+
 impl Desk {
-    fn write(&mut self, number: u32, text: fn(&Device, &[f64], &[f64]) -> Result<String, Error>) -> u32 {
+    fn write(&mut self, number: u32, text: TextAt) -> u32 {
         let nothing = || Err(Error::Unsupported(format!("there is no device {number}")));
         let written = self.devices.get(&number).map_or_else(nothing, |it| text(it, &self.inputs, &self.way));
         let went_well = written.is_ok();
