@@ -39,9 +39,10 @@ pub(crate) fn reason(outputs: &Outputs) -> Option<String> {
     Some(outputs.outcome.to_string())
 }
 
-/// That the error of a shape is larger than its tolerance; `None` where it is not.
+/// That the error of a shape is larger than its tolerance; `None` where it is not, and where the shape is free to turn.
 pub(crate) fn doubt(outputs: &Outputs) -> Option<String> {
-    (converged(outputs) && outputs.beyond_tolerance).then(|| {
+    let known = converged(outputs) && outputs.outcome == Outcome::Solved;
+    (known && outputs.beyond_tolerance).then(|| {
         let error = 1e3 * outputs.error_estimate;
         format!("the tip may be off by {error:.3} mm, which is more than the tolerances of the model allow")
     })
