@@ -3,13 +3,13 @@
 use super::history::History;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::potential::{EigenSearch, Potential, THOROUGH};
+use super::potential::THOROUGH;
 use super::search::Search;
 use crate::numerics::eigenvalue::Search as Effort;
 use crate::numerics::trust_region::{Objective, spread};
 
 /// Search effort for the stability margin after every solve: enough to see an approaching fold.
-pub(super) const GLANCE: Effort = Effort { vectors: 6, settled: 0.03 };
+const GLANCE: Effort = Effort { vectors: 6, settled: 0.03 };
 
 /// Weight of all directions that are mixed into the last softest direction before the next search.
 const EVERY_DIRECTION: f64 = 0.3;
@@ -74,7 +74,7 @@ impl Search<'_> {
     }
 
     /// Upper bound of the stability margin at the shape factorised last, computed once; NaN where none is found.
-    pub(super) fn margin_here(&mut self, inputs: &Inputs, search: Effort) -> f64 {
+    fn margin_here(&mut self, inputs: &Inputs, search: Effort) -> f64 {
         let Some(factorisation) = &mut self.work.factorisation else { return f64::NAN };
         if !factorisation.origin().assessed {
             factorisation.set_assessed(true);
@@ -99,11 +99,4 @@ impl Search<'_> {
         (self.scratch.eigen, self.softest) = (eigen, softest);
         margin
     }
-}
-
-/// Stability margin at the shape and with the factorisation of `potential`, to about nine digits.
-pub(super) fn measure(potential: &mut Potential<'_>) -> f64 {
-    let mut softest = vec![0.0; potential.chain.freedoms()];
-    spread(potential.metric, &mut softest, 1.0);
-    potential.margin(&mut EigenSearch::default(), &mut softest, THOROUGH)
 }

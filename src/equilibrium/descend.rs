@@ -4,7 +4,7 @@ use super::inputs::Inputs;
 use super::outcome::Outcome;
 use super::search::{NEARLY, PASSING, ROUNDING, Search};
 use crate::numerics::pseudo_transient::settle;
-use crate::numerics::trust_region::{Minimum, Objective, Region, minimise, norm, spread};
+use crate::numerics::trust_region::{Minimum, Objective, Region, distance, minimise, spread};
 
 /// First radius of the trust region past a fold, in the radian norm: small, so that the path of descent is followed.
 const FIRST_RADIUS: f64 = 0.1;
@@ -165,8 +165,7 @@ impl Search<'_> {
 
     /// Distance of two shapes in the elastic energy norm.
     pub(super) fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
-        let between: Vec<f64> = a.iter().zip(b).map(|(a, b)| a - b).collect();
-        norm(self.model.metric, &between)
+        distance(self.model.metric, a, b)
     }
 
     fn region(&self, tolerance: f64) -> Region {

@@ -13,6 +13,7 @@ use super::free_turn::FreeTurn;
 use super::inputs::Inputs;
 use crate::geometry::Pose;
 use crate::numerics::cholesky;
+use crate::numerics::trust_region::distance;
 use crate::rod::{ElementDerivatives, Load};
 
 /// Total load on a node or element: what the validity of a Hessian depends on.
@@ -305,20 +306,18 @@ impl Factorisation {
 
 /// Change of a shape and of the loads on nodes and elements, on which the Hessian depends, from `before` to `now`, both together in
 /// the radian norm.
-pub(super) fn drift(
+fn drift(
     chain: &Chain,
     before: (&[f64], &[TotalLoad]),
     now: (&[f64], impl Iterator<Item = TotalLoad>),
 ) -> f64 {
-    let changes = now.0.iter().zip(before.0).map(|(a, b)| a - b);
-    let turned: f64 = chain.metric.iter().zip(changes).map(|(k, change)| k * change * change).sum();
-
+    let turned = distance(&chain.metric, now.0, before.0);
     let arm = chain.elements.first().map_or(0.0, |element| element.length);
     let loads = before.1.iter().zip(now.1);
     let loaded: f64 = loads.map(|(before, now)| now.square_from(before, arm)).sum();
 
     let unit = chain.radian_norm();
-    turned.sqrt() / unit + loaded.sqrt() / (unit * unit)
+    turned / unit + loaded.sqrt() / (unit * unit)
 }
 
 /// The row of a node's displacement in the matrix of the nodes, which leaves out the base.

@@ -8,9 +8,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::chain::Chain;
-use super::history::History;
-use super::inputs::Inputs;
-use super::search::Search;
 use crate::numerics::cholesky::dot;
 use crate::numerics::eigenvalue::inner;
 use crate::numerics::trust_region::norm;
@@ -30,7 +27,7 @@ pub(super) struct FreeTurn {
 
 impl FreeTurn {
     /// The turn of this shape; `None` where it is straight.
-    fn of(chain: &Chain, metric: &[f64], unknowns: &[f64]) -> Option<Self> {
+    pub(super) fn of(chain: &Chain, metric: &[f64], unknowns: &[f64]) -> Option<Self> {
         let direction = direction(chain, unknowns);
         if norm(metric, &direction) < STRAIGHT * chain.radian_norm() {
             return None;
@@ -75,38 +72,4 @@ pub(super) fn direction(chain: &Chain, unknowns: &[f64]) -> Vec<f64> {
         }
     }
     out
-}
-
-impl Search<'_> {
-    /// Holds the free turn of the last shape for the way to `target`, unless the loads there are not symmetric.
-    pub(super) fn take_up_turn(&mut self, branch: &History, target: &Inputs) {
-        self.work.free_turn = branch.turn.filter(|_| self.is_symmetric(target));
-        if self.work.free_turn != branch.turn {
-            self.work.factorisation = None;
-        }
-    }
-
-    /// Holds the free turn of a shape from now on, if there is one; returns whether there is.
-    pub(super) fn hold_turn(&mut self, inputs: &Inputs, unknowns: &[f64]) -> bool {
-        let (chain, metric) = (self.model.chain, self.model.metric);
-        let symmetric = self.is_symmetric(inputs);
-        self.work.free_turn = if symmetric { FreeTurn::of(chain, metric, unknowns) } else { None };
-        self.work.free_turn.is_some()
-    }
-
-    /// Whether the loads at `inputs` leave a turn free that is held, if any; else it is no longer held.
-    pub(super) fn is_still_free(&mut self, inputs: &Inputs) -> bool {
-        let free = self.work.free_turn.is_none() || self.is_symmetric(inputs);
-        if !free {
-            (self.work.free_turn, self.work.factorisation) = (None, None);
-        }
-        free
-    }
-
-    /// Whether device and loads are symmetric about the axis of the clamp.
-    pub(super) fn is_symmetric(&mut self, inputs: &Inputs) -> bool {
-        self.model.chain.axisymmetric
-            && !self.work.friction.holds()
-            && self.potential(inputs).terms.are_symmetric_about(&inputs.root())
-    }
 }

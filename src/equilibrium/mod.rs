@@ -24,6 +24,7 @@ mod guidewire;
 mod guidewire_loads;
 mod hessian;
 mod history;
+mod hold_turn;
 mod input_derivatives;
 mod inputs;
 mod interpolation;

@@ -82,15 +82,20 @@ impl Potential<'_> {
         margin
     }
 
+    /// Stability margin of the shape factorised last, to about nine digits.
+    pub(super) fn measured_margin(&mut self) -> f64 {
+        let mut softest = vec![0.0; self.metric.len()];
+        spread(self.metric, &mut softest, 1.0);
+        self.margin(&mut EigenSearch::default(), &mut softest, THOROUGH)
+    }
+
     /// Whether the shape factorised last is stable, as far as its factorisation tells; see [`Potential::margin`]. Where
     /// the symmetric part is positive definite, no displacement gains energy, conservative forces or not.
     pub(super) fn is_stable(&mut self) -> bool {
         if self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite) {
             return true;
         }
-        let mut softest = vec![0.0; self.metric.len()];
-        spread(self.metric, &mut softest, 1.0);
-        self.margin(&mut EigenSearch::default(), &mut softest, THOROUGH) > 0.0
+        self.measured_margin() > 0.0
     }
 
     /// Removes from the gradient at `unknowns` its part along a free turn.

@@ -1,6 +1,5 @@
 //! Stability margin of a shaft whose push is given: its length is free and has no elastic energy of its own.
 
-use super::assessment::measure;
 use super::inputs::Inputs;
 use super::potential::{EigenSearch, Potential, THOROUGH};
 use super::solver::Equilibrium;
@@ -42,7 +41,7 @@ impl Equilibrium {
         }
         let margin = match by_length {
             Some(by_length) => condensed(&mut potential, &by_length)?,
-            None => measure(&mut potential),
+            None => potential.measured_margin(),
         };
         Some(margin).filter(|margin| margin.is_finite())
     }

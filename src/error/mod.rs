@@ -68,7 +68,7 @@ impl Error {
         Self::Range { quantity: quantity.into(), value, allowed: allowed.into() }
     }
 
-    /// The same error of a point that has these coordinates (m) in the frame in which it was given.
+    /// The error with these coordinates (m) of its point, in the frame in which it was given.
     pub(crate) fn at(self, [x, y, z]: [f64; 3]) -> Self {
         match self {
             Self::OnEdge { .. } => Self::OnEdge { x, y, z },

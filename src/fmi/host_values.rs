@@ -296,7 +296,7 @@ impl HostValues {
         })
     }
 
-    /// The same values with those of the tunable parameters that a manipulator is built with, and that each solve sets anew, as at the
+    /// These values with those of the tunable parameters that a manipulator is built with, and that each solve sets anew, as at the
     /// start: the present ones may be refused.
     pub(super) fn with_tunables_of(&self, start: &Self) -> Self {
         let Settings { tolerance_position, tolerance_angle, tolerance_relative, .. } = start.settings;

@@ -79,7 +79,7 @@ impl Manipulator {
         self
     }
 
-    /// The same manipulator, unsolved, which comes to its first inputs on this way, also after a reset.
+    /// This manipulator, unsolved, which comes to its first inputs on a way, also after a reset.
     #[must_use]
     pub fn on_way(mut self, way: Way) -> Self {
         self.way = way;

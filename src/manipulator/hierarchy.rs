@@ -17,6 +17,7 @@ use serde::{Deserialize, Serialize};
 use super::error_estimate::{CLIMB, ErrorEstimate};
 use super::models::Models;
 use super::tolerance::TipTolerance;
+use super::wait::Wait;
 use crate::design::Design;
 use crate::equilibrium::{self, Deadline, Equilibrium, Inputs, Report, Settings, Solution, TipDeviation};
 use crate::error::Error;
@@ -34,9 +35,6 @@ const DESCEND: f64 = 0.25;
 const RESIDUAL: f64 = 1e-2;
 const RELAXED: f64 = 1e4;
 
-/// Largest number of changes between two trials of a cheaper model; each failed trial doubles the number.
-const PATIENCE: u32 = 16;
-
 /// The models of one design, the one in use and its error estimate.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
@@ -52,33 +50,6 @@ pub(super) struct Hierarchy {
     tolerance: TipTolerance,
     /// Residual tolerance of the richest model.
     residual: f64,
-}
-
-/// Number of changes before a cheaper model is tried: those left, and those after the next failure.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Wait {
-    left: u32,
-    next: u32,
-    /// Age at which the last change was counted.
-    counted: f64,
-}
-
-impl Wait {
-    const NONE: Self = Self { left: 0, next: 1, counted: 0.0 };
-
-    /// Whether a cheaper model is to be tried at that age; a change is counted once the age has grown by one.
-    fn is_over(&mut self, age: f64) -> bool {
-        if age - self.counted <= 1.0 {
-            return false;
-        }
-        let over = self.left == 0;
-        (self.left, self.counted) = (self.left.saturating_sub(1), age);
-        over
-    }
-
-    fn longer(self) -> Self {
-        Self { left: self.next, next: PATIENCE.min(2 * self.next), ..self }
-    }
 }
 
 /// Serializable state of a hierarchy.

@@ -1,6 +1,7 @@
 //! The stability margin of a solved shape, kept with it: computing it takes as long as ten steps.
 
 use crate::equilibrium::{Equilibrium, Inputs, Settings};
+use crate::numerics::trust_region::distance;
 
 /// Change of a shape (radian norm) up to which it counts as the same: that of a solve at unchanged inputs.
 const SAME: f64 = 1e-8;
@@ -28,8 +29,6 @@ impl MeasuredMargin {
         if !alike || now.len() != self.unknowns.len() {
             return false;
         }
-        let changes = self.unknowns.iter().zip(now).zip(metric);
-        let square: f64 = changes.map(|((before, now), k)| k * (now - before) * (now - before)).sum();
-        square <= SAME * SAME * metric[0]
+        distance(metric, now, &self.unknowns) <= SAME * metric[0].sqrt()
     }
 }

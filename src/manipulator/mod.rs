@@ -16,6 +16,7 @@ mod sensitivities;
 mod solve;
 mod tolerance;
 mod variation;
+mod wait;
 mod way;
 
 pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};

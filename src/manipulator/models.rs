@@ -101,10 +101,8 @@ impl Models {
     /// As [`Equilibrium::new`].
     pub(super) fn make(&mut self, number: usize) -> Result<(), Error> {
         while self.whole.len() + self.finer.len() <= number {
-            let (design, sources) = &*self.design;
-            let last = self.at(self.whole.len() + self.finer.len() - 1);
-            let settings = last.settings().refined();
-            let next = Refinement::new(last, settings, design, sources, self.shape_points)?;
+            let last = self.whole.len() + self.finer.len() - 1;
+            let next = self.refinement(last, self.at(last).settings().refined())?;
             self.finer.push(next);
         }
         Ok(())
@@ -206,13 +204,11 @@ impl Models {
     /// Estimated deviation of a solved model whose shape is soft: its forces err too little for one refinement to tell, but not the
     /// shape. The model two refinements finer tells.
     fn error_of_soft(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
-        let settings = self.at(number).settings().refined().refined();
         let known = self.judge.take().filter(|(of, _)| *of == number);
         let mut judge = if let Some((_, judge)) = known {
             judge
         } else {
-            let (design, sources) = &*self.design;
-            Refinement::new(self.at(number), settings, design, sources, self.shape_points)?
+            self.refinement(number, self.at(number).settings().refined().refined())?
         };
         let error = judge.error_of(self.at_mut(number));
         self.judge = Some((number, judge));
@@ -222,16 +218,19 @@ impl Models {
     /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
     /// which a finer one of its own tells.
     fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
-        let coarse = &mut self.whole[number];
-        let finer_coarse = match &mut self.finer_coarse {
-            Some(finer_coarse) => finer_coarse,
-            none => {
-                let (design, sources) = &*self.design;
-                let settings = coarse.settings().refined();
-                none.insert(Refinement::new(coarse, settings, design, sources, self.shape_points)?)
-            }
+        let mut judge = match self.finer_coarse.take() {
+            Some(judge) => judge,
+            None => self.refinement(number, self.at(number).settings().refined())?,
         };
-        Ok(finer_coarse.error_of(coarse).map(|error| error.times(SAFETY)))
+        let error = judge.error_of(&mut self.whole[number]);
+        self.finer_coarse = Some(judge);
+        Ok(error.map(|error| error.times(SAFETY)))
+    }
+
+    /// A refinement of a model to these settings.
+    fn refinement(&self, number: usize, settings: Settings) -> Result<Refinement, Error> {
+        let (design, sources) = &*self.design;
+        Refinement::new(self.at(number), settings, design, sources, self.shape_points)
     }
 }
 

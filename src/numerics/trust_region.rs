@@ -90,6 +90,12 @@ pub fn norm(metric: &[f64], x: &[f64]) -> f64 {
     inner(metric, x, x).sqrt()
 }
 
+/// Distance of two points in the metric.
+#[must_use]
+pub fn distance(metric: &[f64], a: &[f64], b: &[f64]) -> f64 {
+    metric.iter().zip(a).zip(b).map(|((k, x), y)| k * (x - y) * (x - y)).sum::<f64>().sqrt()
+}
+
 /// Norm of a gradient in the inverse of the metric.
 #[must_use]
 pub fn dual_norm(metric: &[f64], g: &[f64]) -> f64 {

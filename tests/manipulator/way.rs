@@ -32,7 +32,7 @@ fn solved(text: &str) -> Outputs {
     manipulator.solve(&scene.inputs).unwrap().clone()
 }
 
-/// The same by solves in turn, without a way.
+/// What is found at the last place by solves in turn, without a way.
 fn followed(places: &[f64]) -> Outputs {
     let mut manipulator: Option<Manipulator> = None;
     for z in places {

@@ -109,7 +109,7 @@ impl DesignEntries {
         ("backbone", |design| design.backbone.is_some()),
     ];
 
-    /// The same of a plain rod.
+    /// Keys that a plain rod has alone.
     pub(super) const OF_CYLINDER: [DesignKey; 10] = [
         ("length_mm", |design| design.length_mm.is_some()),
         ("radius_mm", |design| design.radius_mm.is_some()),
@@ -123,7 +123,7 @@ impl DesignEntries {
         ("density_kg_m3", |design| design.density_kg_m3.is_some()),
     ];
 
-    /// The same of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
+    /// Keys of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
     pub(super) const OF_COMPOSITE: [DesignKey; 3] = [
         ("shore_a", |design| design.shore_a.is_some()),
         ("volume_fraction", |design| design.volume_fraction.is_some()),

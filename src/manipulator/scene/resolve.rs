@@ -47,7 +47,7 @@ impl SceneFile {
         self.as_written(self.in_si(|vessel| vessel.check_before_mesh().map(|()| None))).map(|_| ())
     }
 
-    /// The same with errors as the file writes its keys and numbers.
+    /// What was found, with errors as the file writes its keys and numbers.
     fn as_written<T>(&self, found: Result<T, Error>) -> Result<T, Error> {
         found.map_err(|error| match self.table() {
             Ok(table) => names::as_written(error, &Value::Table(table)),
