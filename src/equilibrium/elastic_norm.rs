@@ -6,31 +6,26 @@
 use nalgebra::{Cholesky, DMatrix};
 
 use super::chain::Chain;
-use crate::numerics::cholesky::dot;
 use crate::numerics::eigenvalue::Weight;
-use crate::rod::Configuration;
+use crate::rod::{Configuration, StrainNorm};
 
 /// `K` at one shape, one block for each element, as no strain depends on the unknowns of another element.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ElasticNorm {
-    /// The blocks, row by row.
-    blocks: Vec<Vec<f64>>,
+    blocks: Vec<StrainNorm>,
     /// First unknown of each element, then the number of unknowns.
     first: Vec<usize>,
-    rows: Vec<f64>,
 }
 
 impl ElasticNorm {
     /// Computes the norm at the shape of these `configurations`, in the storage of the last one.
     pub(super) fn update(&mut self, chain: &Chain, configurations: &[Configuration]) {
         self.first.clone_from(&chain.first);
-        self.blocks.resize_with(chain.elements.len(), Vec::new);
-
+        self.blocks.resize_with(chain.elements.len(), StrainNorm::default);
         for ((block, element), configuration) in
             self.blocks.iter_mut().zip(&chain.elements).zip(configurations)
         {
-            block.resize(element.freedoms() * element.freedoms(), 0.0);
-            configuration.strain_norm(element, &mut self.rows, block);
+            block.update(configuration, element);
         }
     }
 
@@ -51,9 +46,8 @@ impl ElasticNorm {
     pub(super) fn to_dense(&self) -> DMatrix<f64> {
         let size = self.first.last().copied().unwrap_or(0);
         let mut out = DMatrix::zeros(size, size);
-        for (block, range) in self.blocks.iter().zip(self.first.windows(2)) {
-            let count = range[1] - range[0];
-            out.view_mut((range[0], range[0]), (count, count)).copy_from_slice(block);
+        for (block, first) in self.blocks.iter().zip(&self.first) {
+            block.add_to(&mut out, *first);
         }
         out
     }
@@ -62,9 +56,7 @@ impl ElasticNorm {
 impl Weight for ElasticNorm {
     fn apply(&self, x: &[f64], out: &mut [f64]) {
         for (block, range) in self.blocks.iter().zip(self.first.windows(2)) {
-            let own = &x[range[0]..range[1]];
-            let rows = block.chunks_exact(own.len());
-            out[range[0]..range[1]].iter_mut().zip(rows).for_each(|(entry, row)| *entry = dot(row, own));
+            block.apply(&x[range[0]..range[1]], &mut out[range[0]..range[1]]);
         }
     }
 }

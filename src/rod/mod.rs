@@ -37,3 +37,4 @@ pub use row_table::RowTable;
 pub use section_dipoles::{SectionDipoles, SectionStiffness};
 pub use section_material::SectionMaterial;
 pub use source_geometry::SourceGeometry;
+pub use strain_norm::StrainNorm;
