@@ -3,16 +3,13 @@
 use super::history::History;
 use super::inputs::Inputs;
 use super::outcome::Outcome;
-use super::potential::THOROUGH;
+use super::potential::{EVERY_DIRECTION, THOROUGH};
 use super::search::Search;
 use crate::numerics::eigenvalue::Search as Effort;
 use crate::numerics::trust_region::{Objective, spread};
 
 /// Search effort for the stability margin after every solve: enough to see an approaching fold.
 const GLANCE: Effort = Effort { vectors: 6, settled: 0.03 };
-
-/// Weight of all directions that are mixed into the last softest direction before the next search.
-const EVERY_DIRECTION: f64 = 0.3;
 
 /// Margin up to which a shape counts as neutral: the uncertainty that the tolerance leaves.
 const FREE: f64 = 1e-7;

@@ -23,8 +23,11 @@ const ARNOLDI: usize = 48;
 /// Weight of the second softest direction in the guess for the next search, which finds it once it is the softest.
 const SECOND: f64 = 0.5;
 
-/// Search effort for the stability margin when the user asks for it.
-pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-6 };
+/// Weight of all directions that are mixed into the last softest direction before the next search.
+pub(super) const EVERY_DIRECTION: f64 = 0.3;
+
+/// Search effort for the stability margin when the user asks for it: nine digits.
+pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 3e-5 };
 
 /// Storage of the searches for the stability margin, kept so that they do not allocate.
 #[derive(Debug, Clone, Default)]
@@ -82,10 +85,11 @@ impl Potential<'_> {
         margin
     }
 
-    /// Stability margin of the shape factorised last, to about nine digits.
-    pub(super) fn measured_margin(&mut self) -> f64 {
-        let mut softest = vec![0.0; self.metric.len()];
-        spread(self.metric, &mut softest, 1.0);
+    /// Stability margin of the shape factorised last, to about nine digits; `near` is a guess of the softest direction.
+    pub(super) fn measured_margin(&mut self, near: &[f64]) -> f64 {
+        let mut softest = near.to_vec();
+        // With a share of all directions, so that a mode orthogonal to the guess is not missed.
+        spread(self.metric, &mut softest, EVERY_DIRECTION);
         self.margin(&mut EigenSearch::default(), &mut softest, THOROUGH)
     }
 
@@ -95,7 +99,7 @@ impl Potential<'_> {
         if self.work.factorisation.as_ref().is_some_and(|factorisation| factorisation.definite) {
             return true;
         }
-        self.measured_margin() > 0.0
+        self.measured_margin(&vec![0.0; self.metric.len()]) > 0.0
     }
 
     /// Removes from the gradient at `unknowns` its part along a free turn.

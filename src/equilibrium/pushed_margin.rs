@@ -41,7 +41,7 @@ impl Equilibrium {
         }
         let margin = match by_length {
             Some(by_length) => condensed(&mut potential, &by_length)?,
-            None => potential.measured_margin(),
+            None => potential.measured_margin(&self.branch.softest),
         };
         Some(margin).filter(|margin| margin.is_finite())
     }

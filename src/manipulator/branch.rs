@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::prediction::predicted;
+use super::prediction::{REMEMBERED, predicted};
 use super::solve::Solve;
 use super::{Inputs, Outcome, Outputs, Snapshot, Status};
 use crate::equilibrium::Deadline;
@@ -11,11 +11,11 @@ use crate::error::{Error, check};
 /// Width of the interval in which a fold is located, relative to the span of the path.
 const FOLD_WIDTH: f64 = 1e-5;
 
+/// Part of the longest step by which rounding may make an even step longer.
+const ROUNDING: f64 = 1e-9;
+
 /// Part of the time budget that is kept for the rest of the way when short steps end, and when the search for a fold does.
 const KEPT: (f64, f64) = (0.5, 0.25);
-
-/// Number of solved shapes used to predict a fold.
-const REMEMBERED: usize = 3;
 
 /// A fold, where the followed branch was left.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -116,8 +116,9 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// Follows the branch to `target` and locates the folds on the way; the first call starts from the unloaded shape.
     ///
     /// All steps and the search for folds share the time budget of one solve: when half of it is used up, the rest of the way is one
-    /// step, and when a quarter is left, the search ends. Where no shape is found, the outputs remain those of the last one, with [`Status::NotSolved`]. The next call in the same direction starts anew from the unloaded shape; one in the
-    /// opposite direction goes on from the last shape.
+    /// step, and when a quarter is left, the search ends. Where no shape is found, the outputs remain those of the last one, with
+    /// [`Status::NotSolved`]. The next call in the same direction starts anew from the unloaded shape; one in the opposite
+    /// direction goes on from the last shape.
     ///
     /// # Errors
     /// Those of the inputs and of [`Solve::solve`].
@@ -152,10 +153,11 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         &self.folds
     }
 
-    /// Predicted path parameter of the next fold, extrapolated from the last three targets (two if there are no more).
+    /// Predicted path parameter of the next fold, extrapolated from the last two to four targets.
     ///
     /// The stability margin goes to zero as a power of the distance: 1/2 before a fold, 1 where a symmetric shape loses its
-    /// stability without one, in between where it is nearly symmetric. `None` where the margin grows or is above 0.35.
+    /// stability without one, in between where it is nearly symmetric; four targets also tell its curvature. `None` where the
+    /// margin grows or is above 0.35.
     #[must_use]
     pub fn predicted_fold(&self) -> Option<f64> {
         predicted(&self.margins)
@@ -183,7 +185,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
 
     /// Follows the branch in steps from `here`.
     fn follow(&mut self, mut here: f64, target: f64, clock: &Deadline) -> Result<(), Error> {
-        let longest = self.longest_step;
+        let longest = self.longest_step * (1.0 + ROUNDING);
         self.lost = None;
         while self.failed.is_none() && here.total_cmp(&target).is_ne() {
             let step = (target - here).clamp(-longest, longest);

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::PATIENCE;
 use super::progress::Progress;
 use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
 use crate::equilibrium::{Interaction, Settings};
@@ -39,9 +40,6 @@ const COARSER: (usize, f64) = (7, 5e-10);
 
 /// Pair accuracy of the finest points that are measured.
 const FINEST_PAIRS: f64 = 1e-8;
-
-/// Processor time of a reference, s.
-const TIME_BUDGET: f64 = 60.0;
 
 /// Residual of the collocation that checks the reference, at the interaction levels that it supports.
 const CONFIRMING_RESIDUAL: f64 = 1e-8;
@@ -161,9 +159,12 @@ impl Case {
 
     fn points(&self) -> Result<Vec<Point>, Error> {
         let base = self.scene.settings;
-        let fine = |(degree, pair_accuracy)| {
-            let time_budget = TIME_BUDGET;
-            Settings { degree, pair_accuracy, fine_stations: true, time_budget, ..base }
+        let fine = |(degree, pair_accuracy)| Settings {
+            degree,
+            pair_accuracy,
+            fine_stations: true,
+            time_budget: PATIENCE,
+            ..base
         };
         let (Some(reference), Some(coarser)) =
             (self.reference(fine(REFERENCE))?, self.reference(fine(COARSER))?)

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::PATIENCE;
 use crate::design::Design;
 use crate::equilibrium::Settings;
 use crate::error::Error;
@@ -26,7 +27,7 @@ pub(super) struct Bent {
 
 impl Device {
     pub(super) fn new(design: Design, settings: Settings) -> Self {
-        Self { design, settings }
+        Self { design, settings: Settings { time_budget: PATIENCE, ..settings } }
     }
 
     /// The manipulator, not yet solved, without an external magnet.

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::PATIENCE;
 use super::experiment::{SEGMENTS, magnet_pair};
 use super::progress::Progress;
 use super::study::{Column, Comparison, Mark, Study, Value};
@@ -79,8 +80,8 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
 /// None for the paper's design.
 pub(super) fn manipulator() -> Result<Manipulator, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
-    let settings =
-        Settings { interaction: Interaction::Rings, bending_stop: Some(true), ..Settings::default() };
+    let (interaction, bending_stop) = (Interaction::Rings, Some(true));
+    let settings = Settings { interaction, bending_stop, time_budget: PATIENCE, ..Settings::default() };
     Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)
 }
 

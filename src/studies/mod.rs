@@ -52,3 +52,6 @@ pub use progress::Progress;
 pub use rest::rest;
 pub use stability::{Attempt, Ray, Verdict, stability_rays};
 pub use study::{Column, Comparison, Mark, Study, Value};
+
+/// Processor time that a solve of a study may take, s: its numbers must not depend on the machine.
+const PATIENCE: f64 = 600.0;

@@ -1,5 +1,6 @@
 //! A device on a path of inputs: its branches, quasi-static loading, and predictions of snaps.
 
+use super::super::PATIENCE;
 use crate::design::Design;
 use crate::equilibrium::{Diagram, Equilibrium, Inputs, Settings};
 use crate::error::Error;
@@ -77,7 +78,7 @@ impl Case {
     }
 
     fn branch(&self) -> Result<Branch<impl Fn(f64) -> Result<Inputs, Error> + Clone + '_>, Error> {
-        let settings = self.settings.as_discretised();
+        let settings = Settings { time_budget: PATIENCE, ..self.settings.as_discretised() };
         let manipulator = Manipulator::new(&self.design, self.magnet.as_ref(), settings, 2)?;
         Branch::new(manipulator, |value| Ok((self.way)(value)), self.span(), self.span() / f64::from(STEPS))
     }
@@ -118,7 +119,7 @@ impl Case {
         let mut errors = Vec::new();
         for distance in distances {
             let (mut branch, ahead) = (branch.clone(), distance * (snap - start));
-            for steps in [3.0, 2.0, 1.0] {
+            for steps in [4.0, 3.0, 2.0, 1.0] {
                 branch.to(snap - steps * ahead)?;
             }
             errors.push(branch.predicted_fold().map(|predicted| (snap - predicted) / ahead));
