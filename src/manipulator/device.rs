@@ -131,6 +131,8 @@ impl Manipulator {
             self.has_shape = true;
             let model = self.hierarchy.present();
             self.outputs.read(model, model.inputs().unwrap_or(inputs), resolution(&self.hierarchy));
+        } else if !self.has_shape {
+            self.outputs.interaction = self.hierarchy.present().settings().interaction;
         }
         self.outputs.record(&report, self.hierarchy.fold_margin());
         Ok(&self.outputs)

@@ -1,6 +1,7 @@
 //! The device as its user sees it: inputs in, shape and forces out, with the last shape kept between solves.
 
 mod branch;
+mod collapse;
 mod compared;
 mod device;
 mod error_estimate;
@@ -21,6 +22,7 @@ mod way;
 
 pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
+pub use collapse::{Collapse, Remedy};
 pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
 pub use models::models_of_auto;

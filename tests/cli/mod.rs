@@ -12,6 +12,7 @@ mod pack;
 mod picture;
 mod plot;
 mod reference;
+mod shut;
 mod solve;
 mod steer;
 mod study;

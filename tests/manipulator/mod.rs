@@ -3,6 +3,7 @@
 mod auto;
 mod budget;
 mod changes;
+mod collapse;
 
 mod estimate;
 

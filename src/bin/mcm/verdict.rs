@@ -1,6 +1,6 @@
 //! Status and stability of a solution, in the words of JSON and CSV, and the resulting exit status.
 
-use mcm::manipulator::{Outcome, Outputs, Status};
+use mcm::manipulator::{Collapse, Outcome, Outputs, Status};
 
 use super::failure::{NEUTRAL, NOT_CONVERGED, UNSTABLE};
 
@@ -31,12 +31,19 @@ pub(crate) fn stability(outputs: &Outputs) -> Option<&'static str> {
     })
 }
 
-/// What happened and what to do about it; `None` where an equilibrium was found that is not neutral, within the tolerance.
-pub(crate) fn reason(outputs: &Outputs) -> Option<String> {
-    if outputs.outcome == Outcome::Solved {
-        return doubt(outputs);
-    }
-    Some(outputs.outcome.to_string())
+/// What happened and what to do about it; `None` where an equilibrium was found that is not neutral, within the tolerance, of a device
+/// that its rings do not pull shut.
+pub(crate) fn reason(outputs: &Outputs, collapse: Option<&Collapse>) -> Option<String> {
+    let shut = collapse.map(Collapse::to_string);
+    let own = if outputs.outcome == Outcome::Solved {
+        doubt(outputs)
+    } else {
+        // Without a shape, the advice of the outcome is for devices that stand.
+        Some(outputs.outcome.to_string()).filter(|_| shut.is_none() || converged(outputs))
+    };
+
+    let said: Vec<String> = own.into_iter().chain(shut).collect();
+    (!said.is_empty()).then(|| said.join("; "))
 }
 
 /// That the error of a shape is larger than its tolerance; `None` where it is not, and where the shape is free to turn.
@@ -49,12 +56,15 @@ pub(crate) fn doubt(outputs: &Outputs) -> Option<String> {
 }
 
 /// Exit status and warning for a shape that was not found, or is unstable or neutral; otherwise `None`.
-pub(crate) fn warning(outputs: &Outputs) -> Option<(u8, String)> {
+pub(crate) fn warning(outputs: &Outputs, collapse: Option<&Collapse>) -> Option<(u8, String)> {
     match stability(outputs) {
         None => {
             let (percent, outcome) = (100.0 * outputs.progress, outputs.outcome);
-            let there = format!("not converged, {percent:.1} % of the way from the unloaded shape");
-            Some((NOT_CONVERGED, format!("{there}: {outcome}")))
+            let why = match collapse {
+                Some(shut) => format!(": {shut}"),
+                None => format!(", {percent:.1} % of the way from the unloaded shape: {outcome}"),
+            };
+            Some((NOT_CONVERGED, format!("not converged{why}")))
         }
         Some("neutral") => Some((NEUTRAL, outputs.outcome.to_string())),
         Some("unstable") => Some((UNSTABLE, "the equilibrium is unstable".into())),
@@ -73,7 +83,7 @@ mod tests {
         let scene = Scene::parse("[design]\nsegments = 1", "one segment")?;
         let straight = scene.manipulator(2)?.outputs().clone();
         let exit = |status, stable, outcome| {
-            warning(&Outputs { status, stable, outcome, ..straight.clone() }).map(|(number, _)| number)
+            warning(&Outputs { status, stable, outcome, ..straight.clone() }, None).map(|(number, _)| number)
         };
         assert_eq!(exit(Status::Solved, Some(true), Outcome::Solved), None);
         assert_eq!(exit(Status::Snapped, Some(true), Outcome::Solved), None);

@@ -2,16 +2,16 @@
 
 use mcm::error::Error;
 use mcm::magnetics::Wrench;
-use mcm::manipulator::{Jacobian, Outputs};
+use mcm::manipulator::{Collapse, Jacobian, Outputs};
 use nalgebra::{SMatrix, Vector3};
 use serde_json::{Value, json};
 
 use crate::verdict;
 
-/// Report of the solve and the shape found; without a shape, all its numbers are null. With
+/// Report of the solve and the shape found, or why the device closes; without a shape, all its numbers are null. With
 /// `uncertainty` where it is asked for, null where it cannot be told, and with the `warnings` of a scene that has some.
 pub(super) fn as_json(
-    outputs: &Outputs,
+    (outputs, collapse): (&Outputs, Option<&Collapse>),
     jacobian: &Result<Jacobian, Error>,
     magnet: bool,
     uncertainty: Option<Value>,
@@ -28,7 +28,7 @@ pub(super) fn as_json(
         ("converged", json!(converged)),
         ("status", json!(verdict::status(outputs))),
         ("outcome", json!(outputs.outcome.name())),
-        ("reason", json!(verdict::reason(outputs))),
+        ("reason", json!(verdict::reason(outputs, collapse))),
         ("progress", json!(outputs.progress)),
         ("stability", json!(verdict::stability(outputs))),
         ("iterations", json!(outputs.iterations)),

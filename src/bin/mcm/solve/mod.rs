@@ -2,19 +2,19 @@
 
 mod json;
 mod quantities;
+mod rest;
 mod table;
 mod uncertainty;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use mcm::design::Specification;
-use mcm::equilibrium::Interaction;
 use mcm::error::Error;
-use mcm::manipulator::{Outputs, Scene};
+use mcm::manipulator::{Collapse, Outputs};
 use serde_json::Value;
 
 use self::json::as_json;
+use self::rest::rest_note;
 use self::table::as_table;
 use self::uncertainty::Told;
 use super::doing::Doing;
@@ -34,7 +34,8 @@ jacobian_note says why. With --uncertainty, uncertainty.band_95 holds half the w
 same keys, and uncertainty.sensitivities the derivatives by each number of [uncertainty], in the unit of its key; \
 uncertainty is null where there are none. stability is stable, unstable, neutral (one direction is free, as about the axis of an axisymmetric \
 scene) or unknown. Where no shape was found, converged is false, outcome and reason say why, progress says how far the \
-solve got on the way from the unloaded shape, and all numbers of the shape are null. warnings, where there are \
+solve got on the way from the unloaded shape, and all numbers of the shape are null. Where the rings pull the unloaded device shut, \
+or bend it by more than 90 deg, reason names a number of the design with which it stands. warnings, where there are \
 any, names numbers of the scene that look like those of another unit.\n\n\
 Exit status: 0 solved and stable (or stability unknown: any \
 method but \"potential\"), 1 bad input, 2 not converged, \
@@ -61,9 +62,6 @@ pub(crate) struct Solve {
     #[arg(long, value_name = "N", requires = "uncertainty")]
     samples: Option<usize>,
 }
-
-/// Tip angle above which an unloaded shape is explained, rad.
-const REST_ANGLE: f64 = core::f64::consts::PI / 180.0;
 
 impl Solve {
     /// Runs the command.
@@ -104,6 +102,8 @@ impl Solve {
             }
             None => (None, self.uncertainty.then(|| "they need method \"potential\"".into())),
         };
+        doing.then("whether the rings pull the unloaded device shut");
+        let collapse = Collapse::of(&file, &scene, &outputs)?;
         drop(doing);
         if let Some(reason) = &untold {
             warn(&format!("no bands: {reason}"));
@@ -112,44 +112,32 @@ impl Solve {
             let uncertainty = self.uncertainty.then(|| told.as_ref().map_or(Value::Null, Told::as_json));
             format!(
                 "{:#}\n",
-                as_json(&outputs, &jacobian, scene.magnets.is_some(), uncertainty, &file.warnings()?)
+                as_json(
+                    (&outputs, collapse.as_ref()),
+                    &jacobian,
+                    scene.magnets.is_some(),
+                    uncertainty,
+                    &file.warnings()?
+                )
             )
         } else {
             let note = told.as_ref().map_or_else(String::new, Told::note);
-            as_table(&outputs, told.as_ref()) + &note + rest_note(&scene, &outputs)
+            as_table(&outputs, told.as_ref()) + &note + &rest_note(&scene, &outputs, collapse.as_ref())
         })?;
-        Ok(exit_status(&outputs))
+        Ok(exit_status(&outputs, collapse.as_ref()))
     }
 }
 
-fn exit_status(outputs: &Outputs) -> ExitCode {
+fn exit_status(outputs: &Outputs, collapse: Option<&Collapse>) -> ExitCode {
     if let Some(doubt) = verdict::doubt(outputs) {
         warn(&doubt);
     }
-    let Some((status, message)) = verdict::warning(outputs) else {
+    if let Some(shut) = collapse.filter(|_| verdict::converged(outputs)) {
+        warn(&shut.to_string());
+    }
+    let Some((status, message)) = verdict::warning(outputs, collapse) else {
         return ExitCode::SUCCESS;
     };
     warn(&message);
     status.into()
-}
-
-/// Why the manipulator is bent although nothing acts on it; empty where something does or it is nearly straight.
-fn rest_note(scene: &Scene, outputs: &Outputs) -> &'static str {
-    let loaded = scene.inputs != scene.inputs.without_loads();
-    let held = outputs.wall.as_ref().is_some_and(|wall| wall.count > 0);
-    let bent = verdict::converged(outputs) && outputs.tip_angle > REST_ANGLE;
-    if loaded || held || !bent || !attracts(&scene.specification, outputs.interaction) {
-        return "";
-    }
-    "\nnote: bent at rest, without any load: rings attract the spirals beside them off the axis, and the bends of the segments add up; \
-     design.spiral_start_deg turns and design.spiral = \"alternating\" mirrors them so that they cancel\n"
-}
-
-/// Whether magnetic parts of the device act on one another at a level: its rings on the particles of the helices, or on other rings.
-fn attracts(specification: &Specification, level: Interaction) -> bool {
-    let Specification::Segmented(chain) = specification else { return false };
-    let helix = &chain.helix;
-    let on_spans = level.acts_on_spans() && helix.volume_fraction * helix.particle_remanence > 0.0;
-    let on_rings = level != Interaction::None;
-    chain.ring.remanence > 0.0 && (on_spans || on_rings)
 }

@@ -226,7 +226,7 @@ impl Row {
             iterations: outputs.iterations,
             residual: outputs.residual,
             interaction: outputs.interaction.name().into(),
-            reason: verdict::reason(outputs),
+            reason: verdict::reason(outputs, None),
         }
     }
 
