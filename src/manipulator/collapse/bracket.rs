@@ -49,12 +49,11 @@ impl Bracket<'_> {
                 break;
             }
             let next = self.next(last.value, lost, fold.take());
-            match self.solve(next, &at(next)?, Some(&last))? {
-                Some(found) => {
-                    fold = found.fold_after(&last);
-                    last = found;
-                }
-                None => (lost, ends) = (next, true),
+            if let Some(found) = self.solve(next, &at(next)?, Some(&last))? {
+                fold = found.fold_after(&last);
+                last = found;
+            } else {
+                (lost, ends) = (next, true);
             }
         }
         Ok(Some((last.value, ends)))

@@ -49,8 +49,8 @@ impl Collapse {
     /// Why a cold solve of a scene, which ended with `outputs`, found no shape or one that is bent by more than 90 deg at rest: that
     /// the rings pull the device shut without any load. `None` where this is not so, or not known.
     ///
-    /// Other shapes cost nothing. Where a loaded scene has no shape, the unloaded device is solved first. All this takes at most about one
-    /// more time budget of the scene. Devices in a vessel, whose wall may hold them, and methods other than the potential
+    /// Other shapes cost nothing. Where a loaded scene has no shape, the unloaded device is solved first. The search for a remedy ends
+    /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold them, and methods other than the potential
     /// method are not judged.
     ///
     /// # Errors
@@ -72,7 +72,7 @@ impl Collapse {
         let mut search = Search { file, deadline: &deadline, loaded, shut: true };
         let solved;
         let rest = if loaded {
-            solved = search.solve(&at_rest(scene.clone()))?;
+            solved = Search::solve(&at_rest(scene.clone()))?;
             &solved
         } else {
             outputs

@@ -8,7 +8,7 @@ use crate::equilibrium::{Deadline, Outcome};
 use crate::error::Error;
 use crate::manipulator::way::Way;
 
-/// Part of the time budget that the continuation may take; the rest is for solves of the scene itself.
+/// Part of what is left of the time budget that the continuation may take; then solves of the scene itself begin.
 const CONTINUED: f64 = 0.6;
 
 /// Cold solves by which a value may be confirmed; each fails at twice the distance of the last one.
@@ -137,7 +137,7 @@ impl Search<'_> {
             if self.deadline.has_passed() {
                 break;
             }
-            if self.is_confirmed(&at(value)?)? {
+            if Self::is_confirmed(&at(value)?)? {
                 let under_loads = if self.loaded { self.holds_loads(key, value)? } else { None };
                 return Ok(Remedy::From { key: key.name, value, downwards: side < 0.0, under_loads });
             }
@@ -145,19 +145,17 @@ impl Search<'_> {
         Ok(unknown(self.deadline.has_passed()))
     }
 
-    /// Solves a scene cold, in what is left of the time budget.
+    /// Solves a scene cold, in the time budget of a solve: what is confirmed is what a user's solve of that scene gives.
     ///
     /// # Errors
     /// As [`Scene::manipulator`] and [`crate::manipulator::Manipulator::solve`].
-    pub(super) fn solve(&self, scene: &Scene) -> Result<Outputs, Error> {
-        let mut device = scene.manipulator(2)?;
-        device.set_time_budget(self.deadline.left());
-        device.solve(&scene.inputs).cloned()
+    pub(super) fn solve(scene: &Scene) -> Result<Outputs, Error> {
+        scene.manipulator(2)?.solve(&scene.inputs).cloned()
     }
 
     /// Whether a cold solve of the unloaded device finds it standing: stable, on the branch of the straight shape, within tolerance.
-    fn is_confirmed(&self, scene: &Scene) -> Result<bool, Error> {
-        let outputs = self.solve(scene)?;
+    fn is_confirmed(scene: &Scene) -> Result<bool, Error> {
+        let outputs = Self::solve(scene)?;
         let followed = outputs.outcome == Outcome::Solved && outputs.status != Status::Snapped;
         let sure = outputs.stable != Some(false) && !outputs.beyond_tolerance;
         Ok(followed && sure && stands(scene, &outputs))
@@ -165,7 +163,7 @@ impl Search<'_> {
 
     /// Whether the scene with its loads has a shape; `None` where the budget ends before.
     fn holds_loads(&self, key: &Key, value: f64) -> Result<Option<bool>, Error> {
-        let outputs = self.solve(&self.file.with(key.name, value)?.scene()?)?;
+        let outputs = Self::solve(&self.file.with(key.name, value)?.scene()?)?;
         let late = matches!(outputs.outcome, Outcome::OutOfBudget(_));
         Ok((!late).then_some(outputs.status != Status::NotSolved))
     }
