@@ -186,7 +186,7 @@ pub(crate) const CLOSED_FORM_OF_FOLDS: f64 = 1e-7;
 
 /// Largest errors of a snap predicted 5, 2 and 1 % of the way before it, relative to the distance (reached: 0.16 by one segment
 /// that is pulled shut, whose margin falls slowly first; 0.026; 0.083 by nine segments, nearly symmetric so close to the snap).
-pub(crate) const PREDICTED: [f64; 3] = [0.17, 0.05, 0.1];
+pub(crate) const PREDICTED_AHEAD: [f64; 3] = [0.17, 0.05, 0.1];
 
 /// Energy between two shapes of a branch beside the trapezoidal rule, relative to its largest slope over the whole range
 /// (reached: 2.3e-6, of second order in the steps).
