@@ -12,6 +12,9 @@ const ITERATIONS: u32 = 24;
 /// Part of the way to the predicted fold of one step.
 const TOWARDS_FOLD: f64 = 0.9;
 
+/// Steps from the predicted fold at which the continuation ends.
+const AT_FOLD: f64 = 2.0;
+
 /// Relative rounding of the width of a bracket.
 const ROUNDING: f64 = 1e-6;
 
@@ -41,10 +44,12 @@ impl Bracket<'_> {
     ) -> Result<Option<(f64, bool)>, Error> {
         let Some(mut last) = self.solve(standing, &at(standing)?, None)? else { return Ok(None) };
         let (mut fold, mut ends) = (None, false);
-        let is_near = |value: f64, end: f64| (value - end).abs() <= self.step * (1.0 + ROUNDING);
+        let is_near =
+            |value: f64, end: f64, steps: f64| (value - end).abs() <= steps * self.step * (1.0 + ROUNDING);
 
-        while !is_near(last.value, lost) && self.deadline.left() > self.keep {
-            if fold.is_some_and(|fold| is_near(last.value, fold)) {
+        while !is_near(last.value, lost, 1.0) && self.deadline.left() > self.keep {
+            // A solve beyond the fold takes longer than all before it.
+            if fold.is_some_and(|fold| is_near(last.value, fold, AT_FOLD)) {
                 ends = true;
                 break;
             }
