@@ -45,6 +45,10 @@ impl Way {
     /// [`Error::Count`] for too many rows; [`Error::Unsupported`] for a name that is no input of the device, with the row's number, and for
     /// an orientation of which only some components are named; [`Error::Range`] for a number that is not finite or no orientation.
     pub(super) fn new(rows: &[WayRow], counts: Counts, own: &Inputs) -> Result<Self, Error> {
+        let further_magnets = counts.further_magnets;
+        if rows.is_empty() {
+            return Ok(Self { rows: Vec::new(), further_magnets }); // most scenes: the names cost more than the rest of the scene
+        }
         let names = counts.names();
         if rows.len() > Self::MOST {
             let expected = format!("at most {}", Self::MOST);
@@ -58,7 +62,7 @@ impl Way {
                 )));
             }
         }
-        let way = Self { rows: rows.to_vec(), further_magnets: counts.further_magnets };
+        let way = Self { rows: rows.to_vec(), further_magnets };
         way.points(own)?;
         Ok(way)
     }

@@ -1,10 +1,12 @@
 //! The smallest eigenvalue of `H x = lambda K x`, for a positive definite `K` and a solver for `H + shift K`.
 
-use nalgebra::{DMatrix, SMatrix, SymmetricEigen};
+use nalgebra::allocator::Allocator;
+use nalgebra::{DMatrix, DefaultAllocator, Dim, DimDiff, DimSub, SMatrix, SymmetricEigen, U1};
 
 use super::cholesky::dot;
 
-/// Number of vectors up to which the tridiagonal matrix needs no heap storage.
+/// Numbers of vectors up to which the tridiagonal matrix needs no heap storage: most searches check a few small ones first.
+const FEWEST: usize = 4;
 const FEW: usize = 8;
 
 /// A symmetric positive definite matrix `K`, known by its products with vectors.
@@ -178,22 +180,30 @@ fn largest(diagonal: &[f64], beside: &[f64], weights: &mut [Vec<f64>; 2]) -> f64
         _ => 0.0,
     };
     weights.iter_mut().for_each(Vec::clear);
-    if size <= FEW {
-        // Padding with zeros is harmless: the largest eigenvalue is positive.
-        let eigen = SymmetricEigen::new(SMatrix::<f64, FEW, FEW>::from_fn(entry));
-        let numbers = leading(eigen.eigenvalues.as_slice());
-        for (own, number) in weights.iter_mut().zip(numbers) {
-            own.extend(eigen.eigenvectors.column(number).iter().take(size));
-        }
-        eigen.eigenvalues[numbers[0]]
+    // Padding with zeros is harmless: the largest eigenvalue is positive.
+    if size <= FEWEST {
+        leading_of(size, &SymmetricEigen::new(SMatrix::<f64, FEWEST, FEWEST>::from_fn(entry)), weights)
+    } else if size <= FEW {
+        leading_of(size, &SymmetricEigen::new(SMatrix::<f64, FEW, FEW>::from_fn(entry)), weights)
     } else {
-        let eigen = SymmetricEigen::new(DMatrix::from_fn(size, size, entry));
-        let numbers = leading(eigen.eigenvalues.as_slice());
-        for (own, number) in weights.iter_mut().zip(numbers) {
-            own.extend(eigen.eigenvectors.column(number).iter());
-        }
-        eigen.eigenvalues[numbers[0]]
+        leading_of(size, &SymmetricEigen::new(DMatrix::from_fn(size, size, entry)), weights)
     }
+}
+
+/// Largest eigenvalue, with the first `size` entries of the eigenvectors of the two largest in `weights`.
+fn leading_of<D: Dim + DimSub<U1>>(
+    size: usize,
+    eigen: &SymmetricEigen<f64, D>,
+    weights: &mut [Vec<f64>; 2],
+) -> f64
+where
+    DefaultAllocator: Allocator<D, D> + Allocator<D> + Allocator<DimDiff<D, U1>>,
+{
+    let numbers = leading(eigen.eigenvalues.as_slice());
+    for (own, number) in weights.iter_mut().zip(numbers) {
+        own.extend(eigen.eigenvectors.column(number).iter().take(size));
+    }
+    eigen.eigenvalues[numbers[0]]
 }
 
 /// Indices of the two largest of at least two values.
