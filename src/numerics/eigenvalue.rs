@@ -108,6 +108,10 @@ impl Lanczos {
             }
 
             // The next vector of the basis, and its image under the operator.
+            if basis.len() < count {
+                basis.push(vec![0.0; image.len()]);
+                weighted.push(vec![0.0; image.len()]);
+            }
             let (next, next_weighted) = (&mut basis[count - 1], &mut weighted[count - 1]);
             next.iter_mut().zip(&*image).for_each(|(x, entry)| *x = entry / norm);
             next_weighted.iter_mut().zip(&*product).for_each(|(x, entry)| *x = entry / norm);
@@ -139,9 +143,11 @@ impl Lanczos {
     fn begin(&mut self, vector: &[f64], search: Search) -> usize {
         let size = vector.len();
         let most = search.vectors.min(size);
-        if self.basis.len() < most || self.image.len() != size {
+        // Few searches need more vectors than these.
+        let few = most.min(FEW);
+        if self.basis.len() < few || self.image.len() != size {
             for vectors in [&mut self.basis, &mut self.weighted] {
-                vectors.resize(most, Vec::new());
+                vectors.resize(few, Vec::new());
                 for vector in vectors.iter_mut() {
                     vector.resize(size, 0.0);
                 }
