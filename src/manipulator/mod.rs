@@ -22,7 +22,7 @@ mod way;
 
 pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
-pub use collapse::{Collapse, Remedy};
+pub use collapse::{Collapse, Remedy, rings_attract};
 pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
 pub use models::models_of_auto;

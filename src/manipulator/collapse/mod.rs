@@ -101,7 +101,8 @@ impl fmt::Display for Collapse {
 }
 
 /// Whether rings of the device act on one another or on its helices at a level.
-fn rings_attract(specification: &Specification, level: Interaction) -> bool {
+#[must_use]
+pub fn rings_attract(specification: &Specification, level: Interaction) -> bool {
     let Specification::Segmented(chain) = specification else { return false };
     chain.ring.remanence > 0.0 && level != Interaction::None
 }

@@ -1,8 +1,7 @@
 //! The note on a device that is bent, or has no shape, without any load.
 
 use mcm::design::{Specification, SpiralKind};
-use mcm::equilibrium::Interaction;
-use mcm::manipulator::{Collapse, Outputs, Scene};
+use mcm::manipulator::{Collapse, Outputs, Scene, rings_attract};
 
 use crate::verdict;
 
@@ -25,7 +24,7 @@ pub(super) fn rest_note(scene: &Scene, outputs: &Outputs, collapse: Option<&Coll
     let loaded = scene.inputs != scene.inputs.without_loads();
     let held = outputs.wall.as_ref().is_some_and(|wall| wall.count > 0);
     let bent = verdict::converged(outputs) && outputs.tip_angle > REST_ANGLE;
-    if loaded || held || !bent || !attracts(&scene.specification, outputs.interaction) {
+    if loaded || held || !bent || !rings_attract(&scene.specification, outputs.interaction) {
         return String::new();
     }
 
@@ -38,17 +37,10 @@ fn is_axisymmetric(specification: &Specification) -> bool {
     matches!(specification, Specification::Segmented(chain) if chain.spiral == SpiralKind::Axisymmetric)
 }
 
-/// Whether magnetic parts of the device act on one another at a level: its rings on the particles of the helices, or on other rings.
-fn attracts(specification: &Specification, level: Interaction) -> bool {
-    let Specification::Segmented(chain) = specification else { return false };
-    let helix = &chain.helix;
-    let on_spans = level.acts_on_spans() && helix.volume_fraction * helix.particle_remanence > 0.0;
-    let on_rings = level != Interaction::None;
-    chain.ring.remanence > 0.0 && (on_spans || on_rings)
-}
-
 #[cfg(test)]
 mod tests {
+    use mcm::equilibrium::Interaction;
+
     use super::*;
 
     #[test]
