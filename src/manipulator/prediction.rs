@@ -68,6 +68,8 @@ struct Law {
     height: f64,
     slope: f64,
     bend: f64,
+    /// Slope between the last two shapes, which falls as the margin does.
+    secant: f64,
 }
 
 impl Law {
@@ -75,7 +77,7 @@ impl Law {
     fn line([before, last]: [Shape; 2], power: f64) -> Self {
         let [first, height] = [before.1, last.1].map(|margin| margin.powf(1.0 / power));
         let slope = (height - first) / (last.0 - before.0);
-        Self { power, origin: last.0, height, slope, bend: 0.0 }
+        Self { power, origin: last.0, height, slope, bend: 0.0, secant: slope }
     }
 
     /// Through three margins.
@@ -90,13 +92,15 @@ impl Law {
         (self.height + ahead * (self.slope + ahead * self.bend)).max(0.0).powf(self.power)
     }
 
-    /// The zero of the parabola next to the last shape; that of its tangent there, where the curvature moves it too far.
+    /// The zero of the parabola next to the last shape; where the curvature moves it too far from that of its tangent there, the zero
+    /// of the tangent, or of the secant where the tangent's lies behind.
     fn zero(&self) -> f64 {
-        let tangent = -self.height / self.slope;
+        let falls = self.slope * self.secant > 0.0;
+        let tangent = -self.height / if falls { self.slope } else { self.secant };
         // Written so that no digits are lost where the parabola is flat.
         let root = (1.0 - 4.0 * self.bend * self.height / (self.slope * self.slope)).sqrt();
         let times = 2.0 / (1.0 + root);
-        let near = times > 1.0 / FARTHEST && times < FARTHEST;
+        let near = falls && times > 1.0 / FARTHEST && times < FARTHEST;
         self.origin + tangent * if near { times } else { 1.0 }
     }
 }

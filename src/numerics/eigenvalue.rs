@@ -52,8 +52,9 @@ impl Deflation {
 pub struct Search {
     /// Largest number of Lanczos vectors.
     pub vectors: usize,
-    /// Residual of the eigenvector, relative to its eigenvalue, at which the search ends; the eigenvalue's
-    /// error is of second order in it.
+    /// Residual of the eigenvector, relative to its eigenvalue, at which the search ends. The eigenvalue's relative error is at most
+    /// its square over the relative distance from the second eigenvalue (Parlett, The Symmetric Eigenvalue Problem,
+    /// doi:10.1137/1.9781611971163).
     pub settled: f64,
 }
 

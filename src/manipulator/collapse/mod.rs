@@ -12,7 +12,7 @@ use self::remedy::{Search, at_rest};
 use super::scene::{Scene, SceneFile};
 use super::{Outputs, Status};
 use crate::design::Specification;
-use crate::equilibrium::{Deadline, Interaction, Outcome};
+use crate::equilibrium::{Body, Contact, Deadline, Interaction, Outcome};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::methods::Method;
@@ -50,8 +50,8 @@ impl Collapse {
     /// the rings pull the device shut without any load. `None` where this is not so, or not known.
     ///
     /// Other shapes cost nothing. Where a loaded scene has no shape, the unloaded device is solved first. The search for a remedy ends
-    /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold them, and methods other than the potential
-    /// method are not judged.
+    /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold them, or in whose way a magnet or coil
+    /// stands, and methods other than the potential method are not judged.
     ///
     /// # Errors
     /// As [`Scene::manipulator`] and [`super::Manipulator::solve`].
@@ -77,7 +77,7 @@ impl Collapse {
         } else {
             outputs
         };
-        if stands(scene, rest) {
+        if stands(scene, rest) || held_by_a_source(rest) {
             return Ok(None);
         }
 
@@ -115,6 +115,11 @@ fn richest(level: Interaction) -> Interaction {
 /// Whether a shape was found that is bent by 90 deg at most.
 fn stands(scene: &Scene, outputs: &Outputs) -> bool {
     outputs.status != Status::NotSolved && bend_of(scene, outputs) <= UPRIGHT
+}
+
+/// Whether what ends the solve is a magnet or coil in the way, whatever the rings do.
+fn held_by_a_source(outputs: &Outputs) -> bool {
+    matches!(outputs.outcome, Outcome::Contact(Contact { second: Body::Source(..), .. }))
 }
 
 fn bend_of(scene: &Scene, outputs: &Outputs) -> f64 {
