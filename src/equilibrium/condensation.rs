@@ -48,8 +48,8 @@ pub(super) struct Added<'a> {
     /// Factor on the elastic stiffness, and that of each amplitude.
     pub(super) shift: f64,
     pub(super) metric: &'a [f64],
-    /// Stiffness on one amplitude.
-    pub(super) held: Option<(usize, f64)>,
+    /// An amplitude and the stiffness that holds it, 0 where none is held.
+    pub(super) held: (usize, f64),
 }
 
 impl Condensation {
@@ -133,7 +133,7 @@ impl Condensation {
             row.copy_from_slice(source);
             if let Some(amplitude) = number.checked_sub(START).filter(|_| number < size) {
                 row[number] += added.shift * added.metric[amplitude];
-                row[number] += added.held.filter(|held| held.0 == amplitude).map_or(0.0, |held| held.1);
+                row[number] += if added.held.0 == amplitude { added.held.1 } else { 0.0 };
             }
             ends.copy_from_slice(&row[START..NODES]);
             row[START..NODES].fill(0.0);

@@ -193,7 +193,7 @@ impl Linearisation {
         let added = Added {
             shift,
             metric: &hessian.metric[unknowns.clone()],
-            held: held.map(|(unknown, stiffness)| (unknown - unknowns.start, stiffness)),
+            held: held.map_or((0, 0.0), |(unknown, stiffness)| (unknown - unknowns.start, stiffness)),
         };
         if !own.condense(&hessian.elements[k], &added, &hessian.mixed[k]) {
             return false;

@@ -26,8 +26,9 @@ const SECOND: f64 = 0.5;
 /// Weight of all directions that are mixed into the last softest direction before the next search.
 pub(super) const EVERY_DIRECTION: f64 = 0.3;
 
-/// Search effort for the stability margin when the user asks for it: nine digits where the second softest direction is a tenth stiffer.
-pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 1e-5 };
+/// Search effort for the stability margin when the user asks for it: nine digits where the second softest direction is a hundredth
+/// stiffer.
+pub(super) const THOROUGH: Search = Search { vectors: 120, settled: 3e-6 };
 
 /// Storage of the searches for the stability margin, kept so that they do not allocate.
 #[derive(Debug, Clone, Default)]
