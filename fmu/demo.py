@@ -10,6 +10,7 @@ import shutil
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from zipfile import is_zipfile
 
 import demo_animation
 import demo_picture
@@ -292,6 +293,8 @@ def main() -> None:
         "--no-search", action="store_true", help="do not search how close the magnet can come"
     )
     arguments = parser.parse_args()
+    if not is_zipfile(arguments.fmu):
+        parser.error(f"{arguments.fmu} is not an FMU; `mcm pack --out {arguments.fmu}` writes one")
 
     device = Device(arguments.fmu)
     try:

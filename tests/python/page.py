@@ -22,7 +22,7 @@ PHONE = (390, 844)
 NOT_SOLVED = 3
 
 # Time that the slowest thing a test waits for may take on a loaded machine without a graphics card, s.
-PATIENCE = 60
+PATIENCE = 180
 
 
 class Page:

@@ -1,6 +1,7 @@
 //! Snaps are told where they are, and only there.
 
 mod levels;
+pub(crate) mod ramps;
 pub(crate) mod ways;
 
 use core::f64::consts::PI;
@@ -9,9 +10,13 @@ use mcm::manipulator::{Branch, Inputs, Manipulator, Outcome, Scene};
 use nalgebra::Vector3;
 
 use crate::tolerance::{FOLD_OF_A_STEP, NO_FOLD_BEFORE_T};
+use ramps::{Ramp, Verdict};
 use ways::{Comparison, Way};
 
 const SEED: u64 = 1;
+
+/// Ramps of the recorded run that are followed here.
+const RAMPS: u64 = 8;
 
 /// Coarse steps of a way.
 const STEPS: usize = 40;
@@ -29,6 +34,21 @@ fn coarse_walks_snap_where_fine_ones_do() {
     }
     println!("{alike} of 12 alike, {snapped} snaps");
     assert!(alike > 6, "{alike}");
+}
+
+#[test]
+fn snaps_and_ends_do_not_depend_on_the_steps() {
+    let (mut alike, mut folds) = (0, 0);
+    for index in 0..RAMPS {
+        let ramp = Ramp::random(SEED, index);
+        match ramp.compare() {
+            Verdict::Unfit => {}
+            Verdict::Alike(count, _) => (alike, folds) = (alike + 1, folds + count),
+            Verdict::Differs(how) => panic!("seed {SEED}, ramp {index}: {how}; {ramp:?}"),
+        }
+    }
+    println!("{alike} of {RAMPS} alike, {folds} folds");
+    assert!(2 * alike > RAMPS, "{alike}");
 }
 
 /// Nine segments above the paper's pair of magnets.
