@@ -108,3 +108,12 @@ def test_a_pass_that_ends_is_said_and_wrong_distances_are_refused(
         done = demo(archive, tmp_path, "--distance", wrong)
         assert done.returncode == 2
         assert f"{wrong} is not a distance in mm" in done.stderr
+
+
+def test_a_file_that_is_no_fmu_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "text.fmu").write_text("no archive")
+    for name in ("text.fmu", "missing.fmu"):
+        command = [sys.executable, PACKAGE / "fmu" / "demo.py", name]
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=300)
+        assert done.returncode == 2
+        assert f"{name} is not an FMU; `mcm pack --out {name}` writes one" in done.stderr
