@@ -106,6 +106,7 @@ impl Condensation {
         let (inner, size, columns) = (self.inner, self.size, self.columns);
         let (own, rings) = self.whole.split_at(size * size);
         let (nodes, rest) = own.split_at(NODES * size);
+
         for i in 0..inner {
             for j in 0..=i {
                 self.factor[i * inner + j] = rest[j * size + NODES + i];
@@ -118,6 +119,7 @@ impl Condensation {
         if !cholesky::factorise(&mut self.factor, inner) {
             return false;
         }
+
         dense::forward_rows(&self.factor, inner, columns, &mut self.coupling);
         self.eliminated.fill(0.0);
         dense::add_upper(&self.coupling, &self.coupling, columns, &mut self.eliminated);

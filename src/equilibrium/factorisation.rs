@@ -244,6 +244,7 @@ impl Factorisation {
     pub(super) fn solve(&mut self, chain: &Chain, x: &mut [f64]) {
         let Linearisation { condensations, axes, matrix, rhs, .. } = &mut *self.made;
         rhs.fill(0.0);
+
         for (k, condensation) in condensations.iter().enumerate() {
             let part = &mut x[chain.first[k]..chain.first[k + 1]];
             let mut nodes = condensation.eliminate(part);
@@ -257,6 +258,7 @@ impl Factorisation {
                 condensation.eliminate_rings(part, rhs);
             }
         }
+
         let size = rhs.len();
         match &self.lu {
             Some(lu) => {
@@ -264,6 +266,7 @@ impl Factorisation {
             }
             None => cholesky::solve(matrix, size, rhs),
         }
+
         for (k, condensation) in condensations.iter().enumerate() {
             let part = &mut x[chain.first[k]..chain.first[k + 1]];
             let mut nodes = core::array::from_fn(|i| free(6 * k + i).map_or(0.0, |row| rhs[row]));

@@ -132,6 +132,7 @@ impl Potential<'_> {
             let load = &self.work.node_loads[k + 1];
             force += load.force;
             moment += load.moment();
+
             let axes = self.work.nodes[k].rotation;
             let tangent = &mut self.work.derivatives[k];
             let PlacedLoads { loads: placed, couplings, .. } = &self.work.placed_loads[k];
@@ -143,10 +144,13 @@ impl Potential<'_> {
             };
             let amplitudes = self.chain.part(k, unknowns);
             tangent.assemble(element, &self.work.configurations[k], amplitudes, &loads, order);
+
+            // In the axes of the world, as the load on the element before.
             let g = &tangent.gradient;
             force = axes * Vector3::new(g[0], g[1], g[2]);
             moment = axes * Vector3::new(g[3], g[4], g[5]);
             self.work.gradient[self.chain.first[k]..self.chain.first[k + 1]].copy_from_slice(&g[6..]);
+
             if let Some(condensations) = &mut condensations {
                 if !condensations[k].linearise(&self.work.configurations[k], &self.work.derivatives[k]) {
                     return false;
@@ -156,6 +160,7 @@ impl Potential<'_> {
                 }
             }
         }
+
         let base = &self.work.node_loads[0];
         self.work.base = (force + base.force, moment + base.moment());
         self.work.gradient.iter().all(|entry| entry.is_finite())

@@ -250,6 +250,7 @@ impl Counts {
             0 => names.push(stem.to_owned()),
             _ => names.extend((1..=count).map(|k| format!("{stem}[{k}]"))),
         };
+
         let magnets = (2..self.further_magnets + 2).map(|k| (format!("magnet[{k}]"), "strength"));
         let coils = (1..=self.coils).map(|k| (format!("coil[{k}]"), "current"));
         for (source, strength) in [("magnet".to_owned(), "strength")].into_iter().chain(magnets).chain(coils)
@@ -258,6 +259,7 @@ impl Counts {
             add(&format!("{source}.orientation"), 4);
             add(&format!("{source}.{strength}"), 0);
         }
+
         for (stem, count) in [
             ("field.uniform", 3),
             ("field.gradient", 5),
@@ -269,6 +271,7 @@ impl Counts {
             add(stem, count);
         }
         (1..=self.rings).for_each(|k| add(&format!("ring[{k}].load_force"), 3));
+
         let optional = [
             ("feed.insertion", self.shaft),
             ("feed.roll", self.shaft),

@@ -12,25 +12,23 @@
 #[allow(dead_code, reason = "scenes have magnets of their own")]
 #[path = "../given.rs"]
 mod given;
+#[path = "numbers.rs"]
+mod numbers;
 #[path = "../manipulator/walks/ramps.rs"]
 mod ramps;
 
 use std::process::ExitCode;
 use std::time::Instant;
 
+use numbers::Numbers;
 use ramps::{Ramp, Verdict};
 use rayon::prelude::*;
 
 fn main() -> ExitCode {
-    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
-    let Some(count) = arguments.first() else {
-        println!("say: COUNT [FIRST [SEED]]");
-        return ExitCode::FAILURE;
-    };
-    let argument = |at: usize, unless: u64| arguments.get(at).copied().unwrap_or(unless);
-    let (first, seed, start) = (argument(1, 0), argument(2, 1), Instant::now());
+    let Some(Numbers { numbers, seed }) = Numbers::asked() else { return ExitCode::FAILURE };
+    let start = Instant::now();
 
-    let compared = (first..first + count).into_par_iter().map(|index| {
+    let compared = numbers.into_par_iter().map(|index| {
         let ramp = Ramp::random(seed, index);
         let verdict = ramp.compare();
         if let Verdict::Differs(how) = &verdict {
@@ -47,8 +45,9 @@ fn main() -> ExitCode {
     let unfit = number(&|v| *v == Verdict::Unfit);
     let differing = number(&|v| matches!(v, Verdict::Differs(_)));
     println!(
-        "seed {seed}: {count} ramps in {:.0} s: {plain} without a fold, {snapped} with snaps and {ended} to an end alike, {unfit} \
+        "seed {seed}: {} ramps in {:.0} s: {plain} without a fold, {snapped} with snaps and {ended} to an end alike, {unfit} \
          without a stable start, {differing} defects",
+        compared.len(),
         start.elapsed().as_secs_f64()
     );
     if differing == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }

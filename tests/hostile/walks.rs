@@ -11,12 +11,15 @@
 
 #[path = "../given.rs"]
 mod given;
+#[path = "numbers.rs"]
+mod numbers;
 #[path = "../manipulator/walks/ways.rs"]
 mod ways;
 
 use std::process::ExitCode;
 use std::time::Instant;
 
+use numbers::Numbers;
 use rayon::prelude::*;
 use ways::{Comparison, Way};
 
@@ -24,14 +27,9 @@ use ways::{Comparison, Way};
 const STEPS: usize = 60;
 
 fn main() -> ExitCode {
-    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
-    let Some(count) = arguments.first() else {
-        println!("say: COUNT [FIRST [SEED]]");
-        return ExitCode::FAILURE;
-    };
-    let argument = |at: usize, unless: u64| arguments.get(at).copied().unwrap_or(unless);
-    let (first, seed, start) = (argument(1, 0), argument(2, 1), Instant::now());
-    let compared = (first..first + count).into_par_iter().map(|index| {
+    let Some(Numbers { numbers, seed }) = Numbers::asked() else { return ExitCode::FAILURE };
+    let start = Instant::now();
+    let compared = numbers.into_par_iter().map(|index| {
         let comparison = Way::random(seed, index).compare(STEPS);
         if let Comparison::Differs(how) = &comparison {
             println!("DEFECT way {index}: {how}");
@@ -46,8 +44,9 @@ fn main() -> ExitCode {
     let ended = number(&|c| *c == Comparison::End);
     let snapped = compared.len() - unfit - plain - ended - differing;
     println!(
-        "seed {seed}: {count} ways in {:.0} s: {plain} without a snap, {snapped} with one and {ended} to an end alike, {unfit} not \
+        "seed {seed}: {} ways in {:.0} s: {plain} without a snap, {snapped} with one and {ended} to an end alike, {unfit} not \
          slow, {differing} defects",
+        compared.len(),
         start.elapsed().as_secs_f64()
     );
     if differing == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }

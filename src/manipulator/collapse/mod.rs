@@ -50,8 +50,8 @@ impl Collapse {
     /// the rings pull the device shut without any load. `None` where this is not so, or not known.
     ///
     /// Other shapes cost nothing. Where a loaded scene has no shape, the unloaded device is solved first. The search for a remedy ends
-    /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold them, or in whose way a magnet or coil
-    /// stands, and methods other than the potential method are not judged.
+    /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold
+    /// them, or in whose way a magnet or coil stands, and methods other than the potential method are not judged.
     ///
     /// # Errors
     /// As [`Scene::manipulator`] and [`super::Manipulator::solve`].

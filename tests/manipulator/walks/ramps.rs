@@ -22,7 +22,7 @@ const SAME_TIP: f64 = 1e-4;
 /// A scene, and the input that changes along the ramp from 0 to 1.
 #[derive(Debug, Clone)]
 pub(crate) struct Ramp {
-    pub(crate) text: String,
+    text: String,
     change: Change,
 }
 
