@@ -40,14 +40,15 @@ pub struct Fold {
 ///
 /// ```
 /// use mcm::manipulator::{Branch, Inputs, Scene};
-/// // The rings' and the helix' attraction pulls one segment shut at 35.82 mT.
-/// let scene = Scene::parse("[design]\nsegments = 1\n[model]\ninteraction = \"full\"", "doc")?;
+/// // The rings' and the helix' attraction pulls one segment shut at 35.83 mT; all steps share the time budget.
+/// let text = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\ntime_budget_s = 60.0";
+/// let scene = Scene::parse(text, "doc")?;
 /// let field = |b: f64| Ok(Inputs { uniform_field: [0.0, b, 0.0].into(), ..Inputs::unloaded(2) });
-/// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04, 0.001)?;
+/// let mut branch = Branch::new(scene.manipulator(2)?, field, 0.04, 0.004)?;
 /// branch.to(0.0)?;
 /// branch.to(0.04)?;
 /// assert_eq!(branch.folds().len(), 1);
-/// assert!((branch.folds()[0].value - 35.82e-3).abs() < 1e-4);
+/// assert!((branch.folds()[0].value - 35.83e-3).abs() < 1e-5);
 /// # Ok::<(), mcm::error::Error>(())
 /// ```
 #[derive(Debug, Clone)]

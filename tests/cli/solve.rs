@@ -157,7 +157,7 @@ fn bad_numbers_are_refused_with_quantity_and_range() {
 
 #[test]
 fn past_the_last_fold_no_shape_is_shown_but_why() {
-    // The attraction of rings and helix pulls one segment shut at 35.82 mT: there is no shape at 60 mT.
+    // The attraction of rings and helix pulls one segment shut at 35.83 mT: there is no shape at 60 mT.
     let scene = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
     let answer = json("shut", scene, 2);
     assert_eq!(answer["converged"], false);

@@ -199,7 +199,7 @@ fn a_bore_has_room_for_the_manipulator_and_its_wall_has_not() {
 
 #[test]
 fn rings_that_are_pulled_shut_are_named() {
-    // The attraction of rings and helix pulls one segment shut at 35.82 mT.
+    // The attraction of rings and helix pulls one segment shut at 35.83 mT.
     let text = "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
     let scene = Scene::parse(text, "shut").unwrap();
     let outcome = scene.manipulator(2).unwrap().solve(&scene.inputs).unwrap().outcome;

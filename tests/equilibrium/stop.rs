@@ -138,7 +138,7 @@ fn a_field_turned_past_the_antiparallel_turns_the_manipulator_over() {
 
 #[test]
 fn the_stop_keeps_the_attraction_from_ending_in_a_snap() {
-    // Without it one segment snaps at 35.82 mT (`full`).
+    // Without it one segment snaps at 35.83 mT (`full`).
     let mut equilibrium = manipulator(1, Interaction::Full, true);
     for field in 1..=30 {
         let report = solve(&mut equilibrium, &turned(1, 0.002 * f64::from(field), 90.0));

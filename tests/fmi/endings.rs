@@ -12,7 +12,7 @@ use super::{BENT, instance, last};
 const PASSING: &str = "[design]\nsegments = 9\n[magnet]\nposition_mm = [0, -120, -80]\nturn_deg = 180\n\
                        [model]\ninteraction = \"none\"";
 
-/// The attraction of rings and helix pulls one segment shut at 35.82 mT.
+/// The attraction of rings and helix pulls one segment shut at 35.83 mT.
 const SHUT: &str =
     "[design]\nsegments = 1\n[model]\ninteraction = \"full\"\n[field]\nuniform_mt = [0, 60, 0]";
 

@@ -282,7 +282,7 @@ fn there_are_none_of_what_is_not_solved() {
     let design = Design::new(Specification::paper(1)).unwrap();
     let mut manipulator = ready(&design, Interaction::Full, &Inputs::unloaded(2));
     assert!(manipulator.jacobian().is_ok());
-    // The attraction pulls one segment shut at 35.82 mT.
+    // The attraction pulls one segment shut at 35.83 mT.
     let shut = Inputs { uniform_field: Vector3::new(0.0, 0.06, 0.0), ..Inputs::unloaded(2) };
     assert_eq!(manipulator.solve(&shut).unwrap().status, Status::NotSolved);
     let message = manipulator.jacobian().unwrap_err().to_string();

@@ -8,7 +8,7 @@ const FAR: &str = "[design]\nsegments = 2\n[field]\nuniform_mt = [1.0, 5.0, 0.0]
     [model]\ninteraction = \"rings\"\n[uncertainty]\n\"design.helix.shore_a\" = 1.0\n\"design.ring.remanence_t\" = 0.027\n\
     \"magnet.position_mm[2]\" = 0.5\n[correlation]\n\"design.helix.shore_a, design.ring.remanence_t\" = 0.6\n";
 
-/// One segment, which its rings pull shut at 35.82 mT.
+/// One segment, which its rings pull shut at 35.83 mT.
 const NEAR: &str = "[design]\nsegments = 1\n[field]\nuniform_mt = [0.0, 35.3, 0.0]\n[model]\ninteraction = \"full\"\n\
     [uncertainty]\n\"design.helix.shore_a\" = 0.5\n";
 
