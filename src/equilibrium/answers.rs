@@ -1,9 +1,9 @@
 //! What an equilibrium answers at its last solved shape.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::inputs::Inputs;
-use super::shape_points::Site;
+use super::shape_points::{Site, strained};
 use super::solution::Solution;
 use super::solver::Equilibrium;
 use super::wall_forces::WallForces;
@@ -35,6 +35,21 @@ impl Solution for Equilibrium {
                 Site::Elastic(element, row) => self.on_element(*element, row).position,
             };
             (point.arc_length, position)
+        })
+    }
+
+    fn shape_strains(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_ {
+        self.shape.iter().map(|point| {
+            let directors = match &point.place {
+                Site::Rigid(node, _) => self.work.nodes[*node].rotation,
+                Site::Elastic(element, row) => self.on_element(*element, row).rotation,
+            };
+
+            let curvature = strained(&self.chain, point).map(|(k, row)| {
+                let amplitudes = self.chain.part(k, &self.branch.unknowns);
+                self.work.configurations[k].curvature_at(&self.chain.elements[k], &row, amplitudes)
+            });
+            (directors, curvature.unwrap_or_default())
         })
     }
 

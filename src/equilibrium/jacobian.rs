@@ -4,7 +4,8 @@ use core::ops::Range;
 
 use nalgebra::{DMatrix, DMatrixView, DVector, Matrix6, Matrix6x3};
 
-use super::layout::{Counts, Input, Output};
+use super::layout::{Counts, Input};
+use super::output_derivatives::Output;
 
 /// Exact derivatives of all outputs with respect to all inputs at one equilibrium: a matrix with a row for each output
 /// and a column for each input, in SI units, world frame.

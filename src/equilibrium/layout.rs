@@ -1,4 +1,4 @@
-//! Layout of the Jacobian: one ordered table of inputs (columns) and one of outputs (rows).
+//! Columns of the Jacobian: one ordered table of inputs.
 
 use core::ops::Range;
 
@@ -50,51 +50,6 @@ pub enum Input {
     RingForce(usize),
 }
 
-/// A continuous output: a group of rows of a [`super::Jacobian`]. Points and bodies are counted from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Output {
-    /// Angle between the axes of tip and base, rad; its derivative is set to 0 at 0 and pi, where it is not
-    /// differentiable.
-    TipAngle,
-    /// Position of the tip, m.
-    TipPosition,
-    /// Rotation of the tip, rad, world axes; see [`crate::geometry::Pose::quaternion_rate`].
-    TipRotation,
-    /// External magnetic force, N.
-    MagneticForce,
-    /// External magnetic torque about the base position, N m.
-    MagneticTorque,
-    /// Force that the clamp exerts, N.
-    BaseReactionForce,
-    /// Moment that the clamp exerts about the base position, N m.
-    BaseReactionMoment,
-    /// Force on the external magnet, N.
-    MagnetReactionForce,
-    /// Torque on the external magnet about its centre, N m.
-    MagnetReactionTorque,
-    /// Force on a further source (counted from 0), N.
-    SourceReactionForce(usize),
-    /// Torque on a further source about its centre, N m.
-    SourceReactionTorque(usize),
-    /// External field at the tip, T.
-    TipField,
-    /// Length of shaft inside the port, m.
-    FeedLength,
-    /// Push that holds the shaft, N.
-    FeedReaction,
-    /// Point of the centreline, m.
-    ShapePoint(usize),
-    /// Centre of a ring, m.
-    RingPosition(usize),
-    /// Rotation of a ring, rad, world axes.
-    RingRotation(usize),
-    /// Axis `d3` of a ring, 1.
-    RingAxis(usize),
-    /// Bending angle of a core, rad; its derivative is set to 0 where the core is straight and the angle is not
-    /// differentiable.
-    CoreAngle(usize),
-}
-
 /// Inputs of every design in the order of their columns; the forces on the rings follow, then the further sources.
 const INPUTS: [Input; 16] = [
     Input::MagnetPosition,
@@ -115,27 +70,8 @@ const INPUTS: [Input; 16] = [
     Input::VesselRotation,
 ];
 
-/// Outputs of every design in the order of their rows; shape points, rings, cores and further sources follow.
-const OUTPUTS: [Output; 12] = [
-    Output::TipAngle,
-    Output::TipPosition,
-    Output::TipRotation,
-    Output::MagneticForce,
-    Output::MagneticTorque,
-    Output::BaseReactionForce,
-    Output::BaseReactionMoment,
-    Output::MagnetReactionForce,
-    Output::MagnetReactionTorque,
-    Output::TipField,
-    Output::FeedLength,
-    Output::FeedReaction,
-];
-
-/// Outputs of each ring in the order of their rows.
-const RING_OUTPUTS: [fn(usize) -> Output; 3] = [Output::RingPosition, Output::RingRotation, Output::RingAxis];
-
 /// Number of components of a vector.
-const VECTOR: usize = 3;
+pub(super) const VECTOR: usize = 3;
 
 impl Input {
     /// Number of columns of this input.
@@ -226,55 +162,5 @@ impl Counts {
     /// Whether a column is one of the external field: of a source or of the background.
     pub(super) fn is_of_field(&self, column: usize) -> bool {
         column < Input::FieldGradient.columns().end || column >= self.of_further(0)
-    }
-
-    /// Number of rows.
-    pub(super) fn outputs(&self) -> usize {
-        self.first(Output::SourceReactionForce(self.further))
-    }
-
-    /// The rows of an output; `None` for a point or body that the design does not have.
-    pub(super) fn rows(&self, output: Output) -> Option<Range<usize>> {
-        let exists = match output {
-            Output::ShapePoint(point) => point < self.shape_points,
-            Output::RingPosition(ring) | Output::RingRotation(ring) | Output::RingAxis(ring) => {
-                ring < self.rings
-            }
-            Output::CoreAngle(core) => core < self.cores,
-            Output::SourceReactionForce(source) | Output::SourceReactionTorque(source) => {
-                source < self.further
-            }
-            _ => true,
-        };
-        exists.then(|| self.first(output)..self.first(output) + output.width())
-    }
-
-    /// The first row of an output, whether or not the design has it.
-    fn first(&self, output: Output) -> usize {
-        let points: usize = OUTPUTS.iter().map(|output| output.width()).sum();
-        let rings = points + self.shape_points * VECTOR;
-        let cores = rings + self.rings * RING_OUTPUTS.len() * VECTOR;
-        let of_ring = |ring: usize| {
-            let before = RING_OUTPUTS.iter().take_while(|other| other(ring) != output).count();
-            rings + (ring * RING_OUTPUTS.len() + before) * VECTOR
-        };
-        match output {
-            Output::ShapePoint(point) => points + point * VECTOR,
-            Output::RingPosition(ring) | Output::RingRotation(ring) | Output::RingAxis(ring) => of_ring(ring),
-            Output::CoreAngle(core) => cores + core,
-            Output::SourceReactionForce(source) => cores + self.cores + 2 * VECTOR * source,
-            Output::SourceReactionTorque(source) => cores + self.cores + 2 * VECTOR * source + VECTOR,
-            _ => OUTPUTS.iter().take_while(|other| **other != output).map(|other| other.width()).sum(),
-        }
-    }
-}
-
-impl Output {
-    /// Number of rows of this output.
-    fn width(self) -> usize {
-        match self {
-            Self::TipAngle | Self::CoreAngle(_) | Self::FeedLength | Self::FeedReaction => 1,
-            _ => VECTOR,
-        }
     }
 }

@@ -49,6 +49,7 @@ mod ring_body;
 mod search;
 mod sensitivity;
 mod settings;
+mod shape_derivatives;
 mod shape_points;
 mod snapshot;
 mod solution;
@@ -64,6 +65,7 @@ mod wall_forces;
 mod wall_loads;
 mod wall_search;
 mod workspace;
+mod wrench_derivatives;
 
 pub(crate) use chain::{Chain, arc_lengths};
 #[cfg(target_family = "wasm")]
@@ -74,10 +76,11 @@ pub(crate) use deadline::Deadline;
 pub(crate) use inputs::LONGEST_INSERTION;
 pub use inputs::{Inputs, PlacedSource};
 pub use jacobian::Jacobian;
-pub use layout::{Input, Output};
+pub use layout::Input;
 pub use model_transfer::TipDeviation;
 pub(crate) use neighbours::{Linearised, Neighbourhood};
 pub use outcome::{Body, Budget, Contact, Outcome};
+pub use output_derivatives::Output;
 pub(crate) use pair_quadrature::PairQuadrature;
 pub use refinement::Refinement;
 pub use report::Report;

@@ -1,16 +1,17 @@
-//! Rows of the Jacobian: derivatives of every output with respect to shape and inputs.
+//! Rows of the Jacobian: one ordered table of outputs, and the derivatives of every output with respect to shape and inputs.
 //!
 //! Wrenches are derivatives of the energy with respect to rigid motions of the field, of the magnet or of everything that
 //! surrounds the chain. Second derivatives are symmetric, so that the derivatives of wrenches with respect to the shape
 //! are columns of the inputs.
 
+use core::ops::Range;
+
 use nalgebra::{DMatrix, DMatrixView, Dim, Dyn, Matrix, Matrix3, RawStorage, Vector3};
 
 use super::input_derivatives::turned;
 use super::inputs::Inputs;
-use super::layout::{Counts, Input, Output};
+use super::layout::{Counts, Input, VECTOR};
 use super::response::{Motion, Response, inside, transport_base};
-use super::shape_points::Site;
 use super::solution::Solution;
 use super::solver::Equilibrium;
 use crate::error::Error;
@@ -21,9 +22,168 @@ use crate::rod::Row;
 /// Sine of an angle below which it counts as not differentiable.
 const CORNER: f64 = 1e-9;
 
+/// A continuous output: a group of rows of a [`super::Jacobian`]. Points and bodies are counted from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Output {
+    /// Angle between the axes of tip and base, rad; its derivative is set to 0 at 0 and pi, where it is not
+    /// differentiable.
+    TipAngle,
+    /// Position of the tip, m.
+    TipPosition,
+    /// Rotation of the tip, rad, world axes; see [`crate::geometry::Pose::quaternion_rate`].
+    TipRotation,
+    /// External magnetic force, N.
+    MagneticForce,
+    /// External magnetic torque about the base position, N m.
+    MagneticTorque,
+    /// Force that the clamp exerts, N.
+    BaseReactionForce,
+    /// Moment that the clamp exerts about the base position, N m.
+    BaseReactionMoment,
+    /// Force on the external magnet, N.
+    MagnetReactionForce,
+    /// Torque on the external magnet about its centre, N m.
+    MagnetReactionTorque,
+    /// Force on a further source (counted from 0), N.
+    SourceReactionForce(usize),
+    /// Torque on a further source about its centre, N m.
+    SourceReactionTorque(usize),
+    /// External field at the tip, T.
+    TipField,
+    /// Length of shaft inside the port, m.
+    FeedLength,
+    /// Push that holds the shaft, N.
+    FeedReaction,
+    /// Point of the centreline, m.
+    ShapePoint(usize),
+    /// Centre of a ring, m.
+    RingPosition(usize),
+    /// Rotation of a ring, rad, world axes.
+    RingRotation(usize),
+    /// Axis `d3` of a ring, 1.
+    RingAxis(usize),
+    /// Bending angle of a core, rad; its derivative is set to 0 where the core is straight and the angle is not
+    /// differentiable.
+    CoreAngle(usize),
+    /// Director `d3` at a point of the centreline, 1.
+    ShapeTangent(usize),
+    /// Curvature about `d1` and `d2`, and twist about `d3`, at a point of the centreline, material frame, 1/m.
+    ShapeCurvature(usize),
+}
+
+/// Outputs of every design in the order of their rows; the [`BLOCKS`] follow.
+const OUTPUTS: [Output; 12] = [
+    Output::TipAngle,
+    Output::TipPosition,
+    Output::TipRotation,
+    Output::MagneticForce,
+    Output::MagneticTorque,
+    Output::BaseReactionForce,
+    Output::BaseReactionMoment,
+    Output::MagnetReactionForce,
+    Output::MagnetReactionTorque,
+    Output::TipField,
+    Output::FeedLength,
+    Output::FeedReaction,
+];
+
+/// An output of the point or body with this number.
+type OfBody = fn(usize) -> Output;
+
+/// Outputs of points and bodies in the order of their rows. Of each block, all rows of the first point or body come first.
+const BLOCKS: [&[OfBody]; 5] = [
+    &[Output::ShapePoint],
+    &[Output::RingPosition, Output::RingRotation, Output::RingAxis],
+    &[Output::CoreAngle],
+    &[Output::SourceReactionForce, Output::SourceReactionTorque],
+    &[Output::ShapeTangent, Output::ShapeCurvature],
+];
+
+/// What an output is one of, with its number.
+#[derive(Debug, Clone, Copy)]
+enum Owner {
+    Device,
+    Point(usize),
+    Ring(usize),
+    Core(usize),
+    Source(usize),
+}
+
+impl Output {
+    fn owner(self) -> Owner {
+        match self {
+            Self::ShapePoint(point) | Self::ShapeTangent(point) | Self::ShapeCurvature(point) => {
+                Owner::Point(point)
+            }
+            Self::RingPosition(ring) | Self::RingRotation(ring) | Self::RingAxis(ring) => Owner::Ring(ring),
+            Self::CoreAngle(core) => Owner::Core(core),
+            Self::SourceReactionForce(source) | Self::SourceReactionTorque(source) => Owner::Source(source),
+            _ => Owner::Device,
+        }
+    }
+
+    /// Number of rows of this output.
+    fn width(self) -> usize {
+        match self {
+            Self::TipAngle | Self::CoreAngle(_) | Self::FeedLength | Self::FeedReaction => 1,
+            _ => VECTOR,
+        }
+    }
+}
+
+impl Counts {
+    /// Number of an owner, and how many of its kind there are.
+    fn numbered(&self, owner: Owner) -> (usize, usize) {
+        match owner {
+            Owner::Device => (0, 1),
+            Owner::Point(point) => (point, self.shape_points),
+            Owner::Ring(ring) => (ring, self.rings),
+            Owner::Core(core) => (core, self.cores),
+            Owner::Source(source) => (source, self.further),
+        }
+    }
+
+    /// Number of rows.
+    pub(super) fn outputs(&self) -> usize {
+        self.first(None)
+    }
+
+    /// The rows of an output; `None` for a point or body that the design does not have.
+    pub(super) fn rows(&self, output: Output) -> Option<Range<usize>> {
+        let (number, count) = self.numbered(output.owner());
+        let first = (number < count).then(|| self.first(Some(output)))?;
+        Some(first..first + output.width())
+    }
+
+    /// The first row of an output; for `None`, the row after all.
+    fn first(&self, output: Option<Output>) -> usize {
+        let mut row = 0;
+        for known in OUTPUTS {
+            if Some(known) == output {
+                return row;
+            }
+            row += known.width();
+        }
+
+        let number = output.map_or(0, |output| self.numbered(output.owner()).0);
+        for block in BLOCKS {
+            let width: usize = block.iter().map(|of| of(0).width()).sum();
+            let mut within = number * width;
+            for of in block {
+                if Some(of(number)) == output {
+                    return row + within;
+                }
+                within += of(0).width();
+            }
+            row += self.numbered(block[0](0).owner()).1 * width;
+        }
+        row
+    }
+}
+
 /// Behaviour of a quantity under a rigid motion of the whole scene.
 #[derive(Debug, Clone, Copy)]
-enum Transport {
+pub(super) enum Transport {
     Not,
     Vector(Vector3<f64>),
     Position(Vector3<f64>),
@@ -34,7 +194,7 @@ enum Transport {
 pub(super) struct OutputDerivatives<'a> {
     matrix: DMatrix<f64>,
     counts: Counts,
-    inputs: &'a Inputs,
+    pub(super) inputs: &'a Inputs,
 }
 
 impl<'a> OutputDerivatives<'a> {
@@ -47,7 +207,7 @@ impl<'a> OutputDerivatives<'a> {
     }
 
     /// Sets the rows of an output; in the base's columns, `rates` are given relative to the base.
-    fn set<R: Dim, S: RawStorage<f64, R, Dyn>>(
+    pub(super) fn set<R: Dim, S: RawStorage<f64, R, Dyn>>(
         &mut self,
         output: Output,
         rates: &Matrix<f64, R, Dyn, S>,
@@ -72,7 +232,7 @@ impl<'a> OutputDerivatives<'a> {
         }
     }
 
-    fn set_wrench(&mut self, [force, torque]: [Output; 2], rates: &DMatrix<f64>, wrench: &Wrench) {
+    pub(super) fn set_wrench(&mut self, [force, torque]: [Output; 2], rates: &DMatrix<f64>, wrench: &Wrench) {
         self.set(force, &rates.rows(0, 3), Transport::Vector(wrench.force));
         self.set(torque, &rates.rows(3, 3), Transport::Vector(wrench.torque));
     }
@@ -87,59 +247,6 @@ impl Equilibrium {
         rows.set(Output::TipAngle, &(open.transpose() * rates.rows(3, 3)), Transport::Not);
         rows.set(Output::TipPosition, &rates.rows(0, 3), Transport::Position(tip.position));
         rows.set(Output::TipRotation, &rates.rows(3, 3), Transport::Rotation);
-    }
-
-    /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
-    pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        let Response { by_base, columns, unknowns, .. } = response;
-        let mut with_field = by_base.clone();
-        for row in (0..by_base.nrows()).filter(|row| !response.counts.is_of_field(*row)) {
-            with_field.row_mut(row).fill(0.0);
-        }
-        let by_shape = (&columns.gradient * with_field).tr_mul(unknowns);
-        let mut on_field = only(&columns.clamp, |column| response.counts.is_of_field(column));
-        transport_base(&mut on_field, by_base);
-        let magnetic = [Output::MagneticForce, Output::MagneticTorque];
-        rows.set_wrench(magnetic, &(by_shape - on_field), &self.magnetic_wrench());
-        let clamp = [Output::BaseReactionForce, Output::BaseReactionMoment];
-        rows.set_wrench(clamp, &response.clamp, &self.base_reaction());
-
-        self.add_source_wrench(
-            rows,
-            response,
-            0,
-            [Output::MagnetReactionForce, Output::MagnetReactionTorque],
-        );
-        for further in 0..response.counts.further {
-            let outputs = [Output::SourceReactionForce(further), Output::SourceReactionTorque(further)];
-            self.add_source_wrench(rows, response, further + 1, outputs);
-        }
-    }
-
-    /// Wrench of the chain on the source of this number.
-    fn add_source_wrench(
-        &self,
-        rows: &mut OutputDerivatives<'_>,
-        response: &Response,
-        number: usize,
-        outputs: [Output; 2],
-    ) {
-        let Response { by_base, columns, unknowns, counts, .. } = response;
-        let inputs = rows.inputs;
-        let Some(placed) = inputs.source(number) else { return };
-        let reaction = self.source_reaction(number, inputs);
-        let own = counts.of_source(number);
-        let (position, motion) = (own.start..own.start + 3, own.start..own.start + 6);
-        let by_shape = columns.gradient.columns_range(motion).tr_mul(unknowns);
-        let mut on_source = only(&columns.clamp, |column| own.contains(&column));
-        // The torque is moved from the base to the centre of the source, which may move.
-        let moved = hat(&(placed.pose.position - inputs.base.position)) * on_source.rows(0, 3);
-        let mut torque = on_source.rows_mut(3, 3);
-        torque -= moved;
-        let mut by_position = torque.columns_range_mut(position);
-        by_position += hat(&reaction.force);
-        transport_base(&mut on_source, by_base);
-        rows.set_wrench(outputs, &(on_source - by_shape), &reaction);
     }
 
     /// Length of the shaft, and the push that holds it.
@@ -182,28 +289,6 @@ impl Equilibrium {
         Ok(())
     }
 
-    /// Positions of the centreline points.
-    pub(super) fn add_shape(&mut self, rows: &mut OutputDerivatives<'_>, response: &Response) {
-        let last = (self.shape.len() - 1) as f64;
-        for (number, point) in self.shape.clone().iter().enumerate() {
-            let (pose, mut rates) = match &point.place {
-                Site::Rigid(node, distance) => {
-                    let pose = self.work.nodes[*node];
-                    let rates = moved(&response.motion.nodes[*node], &(pose.axis() * *distance));
-                    (pose.advanced(*distance), rates)
-                }
-                Site::Elastic(element, row) => self.place(*element, row, &response.motion),
-            };
-            if self.chain.shaft > 0 {
-                // The points stay at equal parts of the length.
-                let slide = self.slide(&point.place, number as f64 / last);
-                let mut by_insertion = rates.fixed_view_mut::<3, 1>(0, Input::Insertion.columns().start);
-                by_insertion += slide;
-            }
-            rows.set(Output::ShapePoint(number), &rates.rows(0, 3), Transport::Position(pose.position));
-        }
-    }
-
     /// Position, rotation and axis of each ring.
     pub(super) fn add_rings(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         for (number, (body, pose)) in self.chain.rings.iter().zip(self.rings()).enumerate() {
@@ -230,33 +315,13 @@ impl Equilibrium {
         }
     }
 
-    /// Displacement of a shape point along the chain as the shaft grows, per length: `share` is the part of the whole length before
-    /// it.
-    fn slide(&self, place: &Site, share: f64) -> Vector3<f64> {
-        match place {
-            Site::Rigid(node, _) => self.work.nodes[*node].axis() * (share - 1.0),
-            Site::Elastic(element, row) => {
-                let (chain, k) = (&self.chain, *element);
-                let amplitudes = chain.part(k, &self.branch.unknowns);
-                let (_, local) = self.work.configurations[k].curve_at(&chain.elements[k], row, amplitudes);
-                // Of a tabulated length: that of the shaft's elements has grown.
-                let along = if k < chain.shaft {
-                    -share * chain.length() / (chain.inserted(self.work.growth) * self.work.growth)
-                } else {
-                    share - 1.0
-                };
-                self.work.nodes[k].rotation * local * along
-            }
-        }
-    }
-
     fn tip_rates(&self, response: &Response) -> DMatrix<f64> {
         let last = self.chain.elements.len();
         moved(&response.motion.nodes[last], &(self.tip().position - self.work.nodes[last].position))
     }
 
     /// Pose at a point of an element, and its displacement and rotation for each input.
-    fn place(&mut self, k: usize, row: &Row, motion: &Motion) -> (Pose, DMatrix<f64>) {
+    pub(super) fn place(&mut self, k: usize, row: &Row, motion: &Motion) -> (Pose, DMatrix<f64>) {
         let element = &self.chain.elements[k];
         let amplitudes = self.chain.part(k, &self.branch.unknowns);
         let frame = self.work.configurations[k].frame_at(element, row, amplitudes);
@@ -269,17 +334,8 @@ impl Equilibrium {
     }
 }
 
-/// Keeps the first columns and sets the others to zero.
-fn only(rates: &DMatrix<f64>, is_kept: impl Fn(usize) -> bool) -> DMatrix<f64> {
-    let mut out = rates.clone();
-    for column in (0..rates.ncols()).filter(|column| !is_kept(*column)) {
-        out.column_mut(column).fill(0.0);
-    }
-    out
-}
-
 /// Displacement and rotation of a point at `arm` from a body with these twists.
-fn moved(twists: &DMatrix<f64>, arm: &Vector3<f64>) -> DMatrix<f64> {
+pub(super) fn moved(twists: &DMatrix<f64>, arm: &Vector3<f64>) -> DMatrix<f64> {
     let mut out = twists.clone();
     let mut position = out.rows_mut(0, 3);
     position -= hat(arm) * twists.rows(3, 3);

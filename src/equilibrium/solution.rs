@@ -1,6 +1,6 @@
 //! Results of a solved shape, independent of the method that found it.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::inputs::Inputs;
 use super::wall_forces::WallForces;
@@ -20,6 +20,10 @@ pub trait Solution {
 
     /// Unstrained arc length (m) and position (m) of the shape points, from base to tip.
     fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_;
+
+    /// Directors (columns `d1`, `d2`, `d3`, world frame) and curvature (1/m, material frame: about `d1` and `d2`, twist about `d3`) at
+    /// the shape points; at a joint that of the section towards the tip, 0 in rigid parts.
+    fn shape_strains(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_;
 
     /// Total external magnetic wrench on the manipulator, torque about the base position.
     fn magnetic_wrench(&self) -> Wrench;

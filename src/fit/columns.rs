@@ -1,20 +1,16 @@
 //! What the columns of a measured table mean.
 
-use super::measurable::Measurable;
+use super::measurable::{Measurable, is_untold};
 use crate::error::Error;
 use crate::manipulator::SceneFile;
 
 /// In front of the name of an output: the standard deviation of each of its values.
 const DEVIATION: &str = "sd_";
 
-/// Columns of `mcm sweep` and `mcm follow` that neither act on the device nor are measured.
-const IGNORED: [&str; 17] = [
+/// Columns of `mcm sweep` and `mcm follow` that are no outputs and do not act on the device.
+const IGNORED: [&str; 13] = [
     "time",
     "way",
-    "energy_j",
-    "stability_margin",
-    "error_estimate_m",
-    "contact_count",
     "predicted_fold",
     "stable",
     "stability",
@@ -63,7 +59,7 @@ impl Column {
     /// # Errors
     /// [`Error::Unsupported`] for a title that means nothing, naming the nearest.
     pub(super) fn of(title: &str, scene: &SceneFile) -> Result<Self, Error> {
-        if IGNORED.contains(&title) {
+        if IGNORED.contains(&title) || is_untold(title) {
             return Ok(Self::Ignored);
         }
         if let Some(measured) = Measurable::named(title) {

@@ -3,6 +3,9 @@
 //! Both sides carry a tag: an input or parameter says what it acts on ([`Known`]), an output by what path it is reached
 //! ([`Dependency`]). The words are the standard's (FMI 2.0.4, section 2.2.8): an *unknown* depends on *knowns*.
 
+use super::derivative_role::DerivativeRole;
+use crate::manipulator::Output;
+
 /// What an input or parameter acts on, as far as some output distinguishes it from the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Known {
@@ -39,7 +42,7 @@ pub enum Dependency {
     BasePoint,
     /// As the centre of a clamped ring: on the pose of the base and the length of the ring.
     ClampedCentre,
-    /// As the axis of a clamped ring: on the orientation of the base.
+    /// As the axis of a clamped ring or of the base: on the orientation of the base.
     ClampedAxis,
     /// As an arc length: on the lengths of the bodies.
     Lengths,
@@ -68,6 +71,25 @@ impl DependencyKind {
 }
 
 impl Dependency {
+    /// That of an output with this role, in a device with or without a clamped ring and a shaft.
+    pub(super) fn of(role: DerivativeRole, clamped_ring: bool, shaft: bool) -> Self {
+        match role {
+            DerivativeRole::Unaffected => Self::Lengths,
+            DerivativeRole::MutualWrench(_) => Self::Sources,
+            DerivativeRole::Output(output) => match output {
+                Output::BaseReactionForce => Self::ClampForce,
+                Output::BaseReactionMoment => Self::ClampMoment,
+                // With a shaft, the port's place in the shape is the sum of many parts.
+                Output::ShapePoint(0) if !shaft => Self::BasePoint,
+                Output::ShapeTangent(0) if !shaft => Self::ClampedAxis,
+                Output::RingPosition(0) if clamped_ring => Self::ClampedCentre,
+                Output::RingAxis(0) if clamped_ring => Self::ClampedAxis,
+                _ => Self::Equilibrium,
+            },
+            _ => Self::Equilibrium,
+        }
+    }
+
     /// The kind of this dependency on a known variable; `None` if the output does not depend on it.
     ///
     /// `same_component` says whether both are the same component of their vectors.

@@ -1,29 +1,8 @@
 //! Where a variable stands in the Jacobian of the manipulator.
 
-use nalgebra::Vector3;
-
-use crate::magnetics::Wrench;
+use crate::manipulator::output_table::Derivative;
+pub use crate::manipulator::output_table::WrenchPart;
 use crate::manipulator::{Input, Output};
-
-/// A part of a wrench.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WrenchPart {
-    /// Its force, N.
-    Force,
-    /// Its torque, N m.
-    Torque,
-}
-
-impl WrenchPart {
-    /// This part of a wrench.
-    #[must_use]
-    pub fn of(self, wrench: &Wrench) -> Vector3<f64> {
-        match self {
-            Self::Force => wrench.force,
-            Self::Torque => wrench.torque,
-        }
-    }
-}
 
 /// How a variable takes part in the derivatives of outputs with respect to inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +34,21 @@ pub enum DerivativeRole {
 }
 
 impl DerivativeRole {
+    /// The role of an output of the table, of the body or point with this number; `shape_points` is the number of centreline points of
+    /// a device on a shaft, `None` without one.
+    #[must_use]
+    pub(super) fn of(derivative: Derivative, item: usize, shape_points: Option<usize>) -> Self {
+        match (derivative, shape_points) {
+            (Derivative::OfSolve | Derivative::Whole, _) => Self::None,
+            (Derivative::Rows(output), _) => Self::Output(output(item)),
+            (Derivative::TipQuaternion, _) => Self::TipQuaternion,
+            (Derivative::ShareOfShaft, None) => Self::Unaffected,
+            (Derivative::ShareOfShaft, Some(points)) => Self::ShareOfFeed { part: item, of: points - 1 },
+            (Derivative::Neighbours, _) => Self::Neighbours,
+            (Derivative::MutualWrench(part), _) => Self::MutualWrench(part),
+        }
+    }
+
     /// Whether outputs have derivatives with respect to the variable.
     #[must_use]
     pub fn is_known(self) -> bool {

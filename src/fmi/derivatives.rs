@@ -8,7 +8,7 @@ use super::fmu_state::FmuState;
 use super::instance::Instance;
 use super::state::{Ending, State};
 use super::value::DataType;
-use super::variable::{Causality, Variability, Variable};
+use super::variable::{Availability, Causality, Request, Variability, Variable};
 use crate::error::Error;
 
 impl Instance {
@@ -132,7 +132,7 @@ impl Instance {
     ) -> Result<Vec<f64>, Error> {
         let not_solved = || Error::NoDerivatives("nothing is solved yet".into());
         let FmuState { manipulator, jacobian, host_values, .. } = &mut self.fmu_state;
-        let manipulator = manipulator.as_ref().ok_or_else(not_solved)?;
+        let manipulator = manipulator.as_mut().ok_or_else(not_solved)?;
         let jacobian = match jacobian {
             Some(known) => known,
             None => jacobian.insert(Arc::new(manipulator.jacobian()?)),
@@ -140,6 +140,11 @@ impl Instance {
         let table = self.package.table();
         let found = |&reference: &u32| table.find(reference).ok_or_else(not_solved);
         let unknowns: Vec<&Variable> = unknowns.iter().map(found).collect::<Result<_, _>>()?;
+        let strains = Availability::OnRequest(Request::Strains);
+        if unknowns.iter().any(|unknown| unknown.availability == strains) {
+            // Neighbouring devices are read as this one is.
+            manipulator.measure_strains();
+        }
         let knowns: Vec<&Variable> = knowns.iter().map(found).collect::<Result<_, _>>()?;
         let direction = Direction::of(&knowns, seed);
         let derivatives =

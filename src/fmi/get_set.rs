@@ -45,6 +45,7 @@ impl Instance {
         let asked =
             |of| variables.iter().any(|variable| variable.availability == Availability::OnRequest(of));
         let (margin, wrenches) = (asked(Request::Margin), asked(Request::MutualWrenches));
+        let strains = asked(Request::Strains);
 
         if any_result {
             self.solve_to_read(of_the_search)?;
@@ -52,6 +53,9 @@ impl Instance {
         if let Some(manipulator) = self.fmu_state.manipulator.as_mut() {
             if margin {
                 manipulator.measure_margin();
+            }
+            if strains {
+                manipulator.measure_strains();
             }
             if wrenches && let Err(error) = manipulator.measure_mutual_wrenches() {
                 return Err(self.refuse(&error.to_string()));

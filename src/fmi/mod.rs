@@ -4,7 +4,7 @@
 #[rustfmt::skip]
 pub mod bindings; // types of the official headers
 
-pub mod units; // units and quantities
+pub use crate::manipulator::output_table::quantity as units; // units and quantities
 
 pub mod host_values; // inputs and parameters as the host has set them
 

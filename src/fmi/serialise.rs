@@ -20,7 +20,7 @@ use crate::manipulator::{Manipulator, Snapshot, TipTolerance};
 const MARK: [u8; 8] = *b"mcmstate";
 
 /// Number of the format; must be raised with every change of [`Record`] or of the types in it.
-const FORMAT: u32 = 15;
+const FORMAT: u32 = 16;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 

@@ -7,6 +7,7 @@ use super::search_report::SearchReport;
 use super::value::{DataType, Value};
 use crate::error::Error;
 use crate::manipulator::Outputs;
+pub use crate::manipulator::output_table::{Index, Request};
 
 /// The standard's causality.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,24 +49,6 @@ pub enum Availability {
     OnRequest(Request),
 }
 
-/// A computation that is done only when the host reads what it gives.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Request {
-    /// The stability margin.
-    Margin,
-    /// The wrench of magnets and coils on one another.
-    MutualWrenches,
-}
-
-/// Which element of an array a variable is; both indices start at 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Index {
-    /// Number of the ring, core, cylinder or centreline point that the variable belongs to.
-    pub item: usize,
-    /// Number of the component of its vector, quaternion or gradient.
-    pub component: usize,
-}
-
 /// How a variable is read and set.
 #[derive(Debug, Clone, Copy)]
 pub enum Access {
@@ -90,9 +73,9 @@ pub enum Access {
         /// Sets it; a number that is no item has no effect.
         set: fn(&mut HostValues, i32),
     },
-    /// A Real that is read from the last shape.
-    RealOutput(fn(&Outputs, Index) -> f64),
-    /// An Integer or Enumeration that is read from the last shape.
+    /// A Real, or a whole number as an Integer, that is read from the last shape.
+    NumberOutput(fn(&Outputs, Index) -> f64),
+    /// An Enumeration that is read from the last shape.
     IntegerOutput(fn(&Outputs) -> i32),
     /// A Boolean that is read from the last shape.
     BooleanOutput(fn(&Outputs) -> bool),
@@ -167,7 +150,7 @@ impl Variable {
             Access::Boolean { get, .. } => Some(Value::Boolean(get(values))),
             Access::Enumeration { get, .. } => Some(Value::Integer(get(values))),
             Access::Constant(value) => Some(value),
-            Access::RealOutput(_)
+            Access::NumberOutput(_)
             | Access::IntegerOutput(_)
             | Access::BooleanOutput(_)
             | Access::RealOfSearch(_)
@@ -189,7 +172,16 @@ impl Variable {
     #[must_use]
     pub fn output(&self, outputs: &Outputs) -> Option<Value> {
         match self.access {
-            Access::RealOutput(get) => Some(Value::Real(get(outputs, self.index))),
+            Access::NumberOutput(get) => {
+                let number = get(outputs, self.index);
+                #[expect(clippy::cast_possible_truncation, reason = "counts of contacts are small")]
+                let whole = number as i32;
+                Some(if self.data_type == DataType::Integer {
+                    Value::Integer(whole)
+                } else {
+                    Value::Real(number)
+                })
+            }
             Access::IntegerOutput(get) => Some(Value::Integer(get(outputs))),
             Access::BooleanOutput(get) => Some(Value::Boolean(get(outputs))),
             Access::Real { .. }

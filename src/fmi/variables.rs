@@ -97,9 +97,7 @@ impl Table {
         rows.parameters(start);
         rows.vessel_parameters(start);
         rows.design_constants(start, &counts);
-        rows.outputs(&counts);
-        rows.source_outputs(start);
-        rows.vessel_outputs(start, &counts);
+        rows.outputs(start, &counts);
         Ok(Self { variables: rows.variables, counts })
     }
 

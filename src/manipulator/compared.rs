@@ -76,6 +76,11 @@ impl Solve for Compared {
         &self.outputs
     }
 
+    fn measure_strains(&mut self) -> &Outputs {
+        self.outputs.read_strains(&self.comparison);
+        &self.outputs
+    }
+
     fn jacobian(&self) -> Result<Jacobian, Error> {
         let (own, other) = (self.comparison.settings().method.name(), Method::Potential.name());
         Err(Error::NoDerivatives(format!("method \"{own}\" has no derivatives: choose \"{other}\"")))

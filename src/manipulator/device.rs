@@ -36,9 +36,9 @@ use crate::vessel::Vessel;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Manipulator {
-    hierarchy: Hierarchy,
+    pub(super) hierarchy: Hierarchy,
     measured: Option<MeasuredMargin>,
-    outputs: Outputs,
+    pub(super) outputs: Outputs,
     /// Whether the outputs belong to a solved shape.
     has_shape: bool,
     /// What is solved before the first inputs.
@@ -318,6 +318,9 @@ impl Manipulator {
     pub(super) fn outputs_of(&self, model: &Equilibrium, inputs: &Inputs) -> Outputs {
         let mut out = self.outputs.clone();
         out.read(model, inputs, resolution(&self.hierarchy));
+        if self.outputs.has_strains() {
+            out.read_strains(model);
+        }
         out
     }
 

@@ -52,6 +52,11 @@ pub struct Outputs {
     pub shape_arc_length: Vec<f64>,
     /// Centreline points at those arc lengths, m.
     pub shape: Vec<Vector3<f64>>,
+    /// Director `d3` at those points, world frame; empty until [`super::Manipulator::measure_strains`] computes them.
+    pub shape_tangents: Vec<Vector3<f64>>,
+    /// Curvature about `d1` and `d2`, and twist about `d3`, at those points, material frame, 1/m: at a joint those of the section
+    /// towards the tip, 0 in rigid parts; empty until [`super::Manipulator::measure_strains`] computes them.
+    pub shape_curvatures: Vec<Vector3<f64>>,
     /// Pose of each ring's centre, base to tip.
     pub rings: Vec<Pose>,
     /// Bending angle of each core (of each element of a plain cylinder), rad.
@@ -136,6 +141,8 @@ impl Outputs {
             tip_field: zero,
             shape_arc_length,
             shape,
+            shape_tangents: Vec::new(),
+            shape_curvatures: Vec::new(),
             rings: solution.rings().collect(),
             core_angles: solution.core_angles().collect(),
             wall: solution.wall(),
@@ -168,6 +175,8 @@ impl Outputs {
         (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
         let magnet = solution.source_reaction(0, inputs);
         self.mutual_wrenches.clear();
+        self.shape_tangents.clear();
+        self.shape_curvatures.clear();
         self.further_reactions.clear();
         let further = (1..=inputs.further.len()).map(|number| solution.source_reaction(number, inputs));
         self.further_reactions.extend(further);
@@ -183,6 +192,22 @@ impl Outputs {
         let Resolution { interaction, degree, method, error_estimate, beyond_tolerance } = resolution;
         (self.interaction, self.degree, self.method) = (interaction, degree, method);
         (self.error_estimate, self.beyond_tolerance) = (error_estimate, beyond_tolerance);
+    }
+
+    /// Whether the strains of the shape are computed.
+    pub(super) fn has_strains(&self) -> bool {
+        !self.shape_tangents.is_empty()
+    }
+
+    /// Reads tangents and curvatures of the shape, unless they are there already.
+    pub(super) fn read_strains(&mut self, solution: &impl Solution) {
+        if self.has_strains() {
+            return;
+        }
+        for (directors, curvature) in solution.shape_strains() {
+            self.shape_tangents.push(directors.column(2).into_owned());
+            self.shape_curvatures.push(curvature);
+        }
     }
 
     /// Records how a solve ended; without a solution, the previous shape and its quantities are kept.

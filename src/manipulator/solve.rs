@@ -33,6 +33,9 @@ pub trait Solve: fmt::Debug {
     /// As [`Manipulator::measure_margin`]; methods without a stability margin leave the outputs unchanged.
     fn measure_margin(&mut self) -> &Outputs;
 
+    /// As [`Manipulator::measure_strains`].
+    fn measure_strains(&mut self) -> &Outputs;
+
     /// As [`Manipulator::jacobian`].
     ///
     /// # Errors
@@ -88,6 +91,10 @@ impl Solve for Manipulator {
 
     fn measure_margin(&mut self) -> &Outputs {
         Self::measure_margin(self)
+    }
+
+    fn measure_strains(&mut self) -> &Outputs {
+        Self::measure_strains(self)
     }
 
     fn jacobian(&self) -> Result<Jacobian, Error> {

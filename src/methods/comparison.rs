@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::engine::Engine;
 use super::line::Line;
@@ -242,6 +242,10 @@ impl Solution for Comparison {
 
     fn shape(&self) -> impl Iterator<Item = (f64, Vector3<f64>)> + '_ {
         self.arc_lengths.iter().map(|s| (*s, self.state.shape.trace.pose(*s).position))
+    }
+
+    fn shape_strains(&self) -> impl Iterator<Item = (Matrix3<f64>, Vector3<f64>)> + '_ {
+        self.arc_lengths.iter().map(|s| self.state.shape.trace.strain(*s))
     }
 
     fn base_reaction(&self) -> Wrench {

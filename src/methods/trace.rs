@@ -1,6 +1,6 @@
 //! A solved shape as poses and strains along the arc length, independent of the method; the outputs are evaluated from it.
 
-use nalgebra::{Vector3, Vector6};
+use nalgebra::{Matrix3, Vector3, Vector6};
 
 use super::line::{Line, Place};
 use super::strong_form::Rates;
@@ -12,6 +12,9 @@ use crate::rod::{Order, SectionMaterial};
 
 /// Gauss points per link for the quadrature of loads and energies.
 const LINK_POINTS: usize = 3;
+
+/// Distance from a joint, relative to the length of the device, up to which a point counts as at the joint.
+const AT_JOINT: f64 = 1e-10;
 
 /// A part of the centreline between two places with known position, rotation and rates.
 ///
@@ -128,6 +131,19 @@ impl Trace {
         let Some(link) = self.links.get(after.saturating_sub(1)) else { return Pose::identity() };
         let x = if link.length > 0.0 { (s - link.from) / link.length } else { 0.0 };
         link.at(x.clamp(0.0, 1.0)).0
+    }
+
+    /// Directors and curvature (1/m, material frame) at unstrained arc length `s` from the base; at a joint those of the part towards
+    /// the tip.
+    pub(super) fn strain(&self, s: f64) -> (Matrix3<f64>, Vector3<f64>) {
+        let slack = AT_JOINT * self.reach();
+        let begun = |link: &&Link| link.from <= s + slack && link.length > slack;
+        let Some(link) = self.links.iter().rfind(begun) else {
+            return (Matrix3::identity(), Vector3::zeros());
+        };
+        let x = (s - link.from) / link.length;
+        let (pose, _, turning) = link.at(x.clamp(0.0, 1.0));
+        (pose.rotation, pose.rotation.tr_mul(&turning) / link.length)
     }
 
     /// Bending angle of each core, or of each segment without one.

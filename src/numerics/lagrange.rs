@@ -19,6 +19,28 @@ pub fn values(nodes: &[f64], x: f64) -> Vec<f64> {
         .collect()
 }
 
+/// Derivatives at `x` of the Lagrange polynomials through `nodes` (distinct).
+///
+/// ```
+/// use mcm::numerics::lagrange;
+/// // The parabola through (-1, 1), (0, 0), (2, 4) is x^2.
+/// let slopes = lagrange::slopes(&[-1.0, 0.0, 2.0], 1.5);
+/// assert!((slopes[0] + 4.0 * slopes[2] - 3.0).abs() < 1e-14);
+/// ```
+#[must_use]
+pub fn slopes(nodes: &[f64], x: f64) -> Vec<f64> {
+    let others = |i: usize| nodes.iter().enumerate().filter(move |(j, _)| *j != i);
+    let slope = |(i, own): (usize, &f64)| -> f64 {
+        others(i)
+            .map(|(m, first)| {
+                let rest = others(i).filter(|(j, _)| *j != m);
+                rest.map(|(_, other)| (x - other) / (own - other)).product::<f64>() / (own - first)
+            })
+            .sum()
+    };
+    nodes.iter().enumerate().map(slope).collect()
+}
+
 /// Integrals of the Lagrange polynomials through `nodes` from `-1` to `x`.
 ///
 /// ```

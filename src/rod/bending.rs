@@ -3,9 +3,11 @@
 //! The curvature is `J_r(theta) theta'`, so that the energy density `1/2 u^T K_bt u` (Richter et al., Eq. 12) depends on
 //! both.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix3xX, Vector3};
 
-use super::kinematics::StationState;
+use super::element::Element;
+use super::kinematics::{Configuration, StationState};
+use super::row::{ROTATIONS, Row};
 use crate::design::Stiffness;
 
 /// First and second derivatives of the energy with respect to rotation vector and rate.
@@ -28,6 +30,35 @@ impl CurvatureDerivatives {
         let by_vector = state.theta.right_product_derivative(&state.rate);
         Self { by_vector, by_rate: state.left.transpose() }
     }
+}
+
+/// Derivatives of the curvature (1/m, material frame, per arc length of the element's tables) at a tabulated arc length by each
+/// amplitude of an element; zero for those of shear and extension.
+#[must_use]
+pub fn curvature_rates(element: &Element, row: &Row, amplitudes: &[f64]) -> Matrix3xX<f64> {
+    let (theta, rate) = Configuration::turned_at(element, row, amplitudes);
+    let (by_vector, by_rate) = (theta.right_product_derivative(&rate), theta.left_jacobian().transpose());
+
+    let mut out = Matrix3xX::zeros(element.freedoms());
+    for (i, c) in element.component.iter().enumerate().filter(|(_, c)| **c < ROTATIONS) {
+        out.set_column(i, &(by_vector.column(*c) * row.integral[i] + by_rate.column(*c) * row.rate[i]));
+    }
+    out
+}
+
+/// Derivative of the curvature by arc length (1/m2, material frame, by that of the element's tables) at a tabulated arc length, where
+/// the mode values have these `slopes` (1/m2, by degree of freedom).
+#[must_use]
+pub fn curvature_slope(element: &Element, row: &Row, slopes: &[f64], amplitudes: &[f64]) -> Vector3<f64> {
+    let (theta, rate) = Configuration::turned_at(element, row, amplitudes);
+    let mut second = Vector3::zeros();
+    for ((c, slope), amplitude) in element.component.iter().zip(slopes).zip(amplitudes) {
+        if *c < ROTATIONS {
+            second[*c] += slope * amplitude;
+        }
+    }
+    // u = J_r(theta) theta'
+    theta.right_product_derivative(&rate) * rate + theta.left_jacobian().tr_mul(&second)
 }
 
 impl Bending {

@@ -197,7 +197,21 @@ impl Element {
         self.row_in(piece, start, s.clamp(0.0, self.length))
     }
 
-    /// The same within a piece that begins at `start`.
+    /// Tables of the piece towards the tip at the joint of two pieces within `slack` (m) of arc length `s`; `None` where there is no
+    /// joint. Mode values jump there, as the stiffness does.
+    #[must_use]
+    pub fn row_beyond(&self, s: f64, slack: f64) -> Option<Row> {
+        let mut joint = 0.0;
+        for (piece, (length, ..)) in self.pieces.iter().enumerate().take(self.pieces.len() - 1) {
+            joint += length;
+            if (s - joint).abs() <= slack {
+                return Some(self.row_in(piece + 1, joint, joint));
+            }
+        }
+        None
+    }
+
+    /// Tables within a piece that begins at `start`.
     pub(super) fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
         let rate = order(self.modes.each_ref().map(|mode| mode.values(piece, s)));
         let integral = order(self.modes.each_ref().map(|mode| mode.integrals(piece, s)));

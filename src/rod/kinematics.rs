@@ -155,6 +155,24 @@ impl Configuration {
         RotationVector::new(components(element, &row.integral, amplitudes).0)
     }
 
+    /// The rotation vector at a tabulated arc length, and its derivative by the table's arc length, 1/m.
+    pub(super) fn turned_at(
+        element: &Element,
+        row: &Row,
+        amplitudes: &[f64],
+    ) -> (RotationVector, Vector3<f64>) {
+        let (rate, _) = components(element, &row.rate, amplitudes);
+        (Self::rotation_at(element, row, amplitudes), rate)
+    }
+
+    /// Curvature about `d1` and `d2`, and twist about `d3`, at a tabulated arc length: rotation of the directors per arc length
+    /// (1/m), in the directors.
+    #[must_use]
+    pub fn curvature_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {
+        let (theta, rate) = Self::turned_at(element, row, amplitudes);
+        theta.left_jacobian().tr_mul(&rate) / self.growth
+    }
+
     /// Rotation of the directors per the table's arc length (rad/m) at a tabulated arc length, in the frame of the preceding node.
     #[must_use]
     pub fn turning_at(element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {

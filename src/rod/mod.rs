@@ -22,6 +22,7 @@ mod section_material;
 mod source_geometry;
 mod strain_norm;
 
+pub use bending::{curvature_rates, curvature_slope};
 pub use bending_stop::{BendingStop, StopLoads};
 pub use charges::Charges;
 pub use cubature::{SectionPoint, StationQuadrature};

@@ -43,6 +43,20 @@ impl RowTable {
         self.row(piece, s.clamp(0.0, end(&self.0[piece])))
     }
 
+    /// Derivatives of the mode values by arc length (1/m2), by degree of freedom, at arc length `s` (m) from the element's start.
+    #[must_use]
+    pub fn rate_slopes(&self, s: f64) -> Vec<f64> {
+        let end = |piece: &PieceRows| piece.start + piece.length;
+        let piece = self.0.iter().position(|piece| s <= end(piece)).unwrap_or(self.0.len() - 1);
+        let PieceRows { start, length, nodes, rows } = &self.0[piece];
+        let slopes = lagrange::slopes(nodes, 2.0 * (s - start) / length - 1.0);
+        let mut sum = vec![0.0; rows[0].rate.len()];
+        for (slope, row) in slopes.iter().zip(rows) {
+            sum.iter_mut().zip(&row.rate).for_each(|(sum, own)| *sum += 2.0 / length * slope * own);
+        }
+        sum
+    }
+
     /// The row at arc length `s` (m) from the element's start, which is within this piece.
     #[must_use]
     pub fn row(&self, piece: usize, s: f64) -> Row {

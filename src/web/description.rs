@@ -9,7 +9,7 @@ use crate::design::{Design, Ring, SectorKind, Span, SpanKind};
 use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
-use crate::fmi::variable::{Causality, Variable};
+use crate::fmi::variable::{Availability, Causality, Request, Variable};
 use crate::magnetics::{AxialMagnet, Coil};
 use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
@@ -146,7 +146,7 @@ impl Description {
         Ok(Self {
             level: start.settings.interaction.name(),
             inputs: rows(|row| row.causality == Causality::Input),
-            outputs: rows(Variable::is_result),
+            outputs: rows(is_shown),
             shape_points: table.counts().shape_points,
             bodies: bodies(&design),
             shaft: design
@@ -200,6 +200,11 @@ impl Row {
             max: variable.max,
         }
     }
+}
+
+/// Whether a page gets a variable as an output: tangents and curvatures are many, and a page draws the centreline without them.
+pub(super) fn is_shown(variable: &Variable) -> bool {
+    variable.is_result() && variable.availability != Availability::OnRequest(Request::Strains)
 }
 
 /// The bodies, base to tip.

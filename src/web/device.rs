@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::description::Description;
+use super::description::{Description, is_shown};
 use crate::equilibrium::Interaction;
 use crate::error::Error;
 use crate::fmi::Instance;
@@ -92,7 +92,7 @@ impl Device {
         };
         let rows = (0..).zip(package.table().variables());
         let inputs = rows.clone().filter(|(_, row)| row.causality == Causality::Input).map(|(at, _)| at);
-        let outputs = rows.clone().filter(|(_, row)| row.is_result()).map(|(at, _)| at);
+        let outputs = rows.clone().filter(|(_, row)| is_shown(row)).map(|(at, _)| at);
         let (inputs, outputs) = (inputs.collect(), outputs.collect());
         let instance =
             Instance::new(Interface::CoSimulation, Arc::clone(&package), Log::new(Box::new(sink), false));
@@ -165,7 +165,8 @@ impl Device {
     /// false where there is no shape.
     pub fn measure(&mut self) -> bool {
         let variables = (0..).zip(self.package.table().variables());
-        let on_request = variables.filter(|(_, row)| matches!(row.availability, Availability::OnRequest(_)));
+        let on_request = variables
+            .filter(|(_, row)| is_shown(row) && matches!(row.availability, Availability::OnRequest(_)));
         let references: Vec<u32> = on_request.map(|(reference, _)| reference).collect();
         self.instance.get(&references, "Real", Value::real).is_ok()
     }

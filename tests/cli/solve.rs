@@ -70,7 +70,10 @@ fn json_has_the_promised_keys() {
         "further_reaction_torques_nm",
         "ring_positions_m",
         "core_angles_rad",
+        "shape_arc_lengths_m",
         "shape_m",
+        "shape_tangents",
+        "shape_curvatures_per_m",
         "stable",
         "stability_margin",
         "snaps",
@@ -115,7 +118,10 @@ fn json_has_the_promised_keys() {
     assert_eq!(answer["interaction"], "none");
     assert_eq!(answer["method"], "potential");
     assert_eq!(answer["ring_positions_m"].as_array().unwrap().len(), 2);
-    assert_eq!(answer["shape_m"].as_array().unwrap().len(), 101);
+    for key in ["shape_m", "shape_tangents", "shape_curvatures_per_m"] {
+        let points = answer[key].as_array().unwrap();
+        assert_eq!((points.len(), points[50].as_array().unwrap().len()), (101, 3), "{key}");
+    }
     // 30.50 deg: S = 1 in 20 mT without interaction, from two independent models.
     let alpha = answer["alpha_rad"].as_f64().unwrap().to_degrees();
     assert!((alpha - 30.50).abs() < TWO_DECIMALS_DEG, "{alpha}");

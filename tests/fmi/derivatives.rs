@@ -7,7 +7,7 @@ use mcm::fmi::variables::Table;
 
 use super::instance::{get, initialised, reference, set};
 use super::{BENT, last};
-use crate::tolerance::{DIFFERENCE, EFFECT, ROUNDING, SAME_SHAPE, assert_close};
+use crate::tolerance::{CENTRAL_DIFFERENCE, DIFFERENCE, EFFECT, ROUNDING, SAME_SHAPE, assert_close};
 
 fn set_rate(instance: &mut Instance, table: &Table, name: &str, rate: f64) -> Ending {
     instance.set_input_derivatives(&[reference(table, name)], &[1], &[rate])
@@ -88,7 +88,14 @@ fn outputs_have_derivatives_by_time() {
     assert_eq!(instance.do_step(0.0, 0.1), Ending::Ok);
     // After the step: the derivatives at its end, from the left.
     instance.save(1);
-    for name in ["tip.angle", "tip.position[2]", "tip.orientation[3]", "base.reaction_moment[1]"] {
+    for name in [
+        "tip.angle",
+        "tip.position[2]",
+        "tip.orientation[3]",
+        "base.reaction_moment[1]",
+        "shape.tangent[3,2]",
+        "shape.curvature[3,1]",
+    ] {
         assert_eq!(instance.restore(1), Ending::Ok);
         let rate = output_rate(&mut instance, &table, name);
         let h = 1e-3;
@@ -108,6 +115,46 @@ fn outputs_have_derivatives_by_time() {
     assert_eq!(instance.restore(1), Ending::Ok);
     assert_eq!(instance.do_step(0.1, 0.1), Ending::Ok);
     assert_eq!(output_rate(&mut instance, &table, "tip.angle").to_bits(), 0, "held again");
+}
+
+/// Bent and twisted out of any plane.
+fn loaded() -> String {
+    format!("{BENT}\n[load]\ntip_force_n = [0.001, 0.0, -0.002]\ntip_moment_nm = [0.0, 0.0, 2e-6]")
+}
+
+/// The variables of a vector at each of five points.
+fn at_points(stem: &str) -> Vec<String> {
+    (1..=5).flat_map(|point| (1..=3).map(move |axis| format!("{stem}[{point},{axis}]"))).collect()
+}
+
+#[test]
+fn the_centreline_has_the_derivatives_of_whole_solves() {
+    let (mut instance, table, _) = initialised(&loaded());
+    instance.save(1);
+    for stem in ["shape.tangent", "shape.curvature"] {
+        let names = at_points(stem);
+        let unknowns: Vec<u32> = names.iter().map(|name| reference(&table, name)).collect();
+        for (input, h) in [
+            ("field.uniform[1]", 1e-5),
+            ("field.uniform[2]", 1e-5),
+            ("tip.load_force[1]", 1e-6),
+            ("tip.load_moment[3]", 1e-9),
+            ("base.orientation[2]", 1e-4),
+        ] {
+            let known = reference(&table, input);
+            let rates = instance.directional_derivative(&unknowns, &[known], &[1.0]).unwrap();
+            let [minus, plus] = [-h, h].map(|by| {
+                let value = get(&mut instance, &table, input) + by;
+                assert_eq!(set(&mut instance, &table, input, value), Ending::Ok);
+                let there = instance.get(&unknowns, "Real", Value::real).unwrap();
+                assert_eq!(instance.restore(1), Ending::Ok);
+                there
+            });
+            let expected: Vec<f64> = plus.iter().zip(minus).map(|(a, b)| (a - b) / (2.0 * h)).collect();
+            assert!(expected.iter().any(|rate| rate.abs() > EFFECT), "{stem} by {input}");
+            assert_close((stem, input), &rates, &expected, CENTRAL_DIFFERENCE);
+        }
+    }
 }
 
 #[test]
@@ -162,7 +209,14 @@ fn during_initialisation_parameters_have_derivatives() {
         }
         (instance, package, told)
     };
-    let outputs = ["tip.angle", "tip.position[2]", "magnet.reaction_torque[1]", "shape.arc_length[5]"];
+    let outputs = [
+        "tip.angle",
+        "tip.position[2]",
+        "magnet.reaction_torque[1]",
+        "shape.arc_length[5]",
+        "shape.tangent[5,2]",
+        "shape.curvature[4,1]",
+    ];
     for name in [
         "design.helix.shore_a",
         "design.helix.length",

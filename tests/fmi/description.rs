@@ -162,6 +162,27 @@ fn inputs_have_the_bounds_that_the_fmu_holds_them_to() {
     }
 }
 
+#[test]
+fn the_centreline_has_directions_and_curvatures_in_their_units_and_frames() {
+    let text = Package::built_in().unwrap().model_description(None).unwrap();
+    let elements = elements(&text);
+    for (name, unit, frame) in [
+        ("shape.position[21,3]", "m", "z, world frame"),
+        ("shape.tangent[1,1]", "1", "x, world frame"),
+        ("shape.tangent[21,3]", "1", "z, world frame"),
+        ("shape.curvature[1,1]", "1/m", "u1, about d1"),
+        ("shape.curvature[21,3]", "1/m", "u3, twist about d3"),
+    ] {
+        let named = |(_, attributes): &(String, Vec<_>)| attribute(attributes, "name") == Some(name);
+        let row = elements.iter().position(named).unwrap_or_else(|| panic!("no {name}"));
+        let description = attribute(&elements[row].1, "description").unwrap();
+        assert!(description.ends_with(&format!(": {frame}")), "{name}: {description}");
+        assert_eq!(attribute(&elements[row].1, "causality"), Some("output"), "{name}");
+        let (element, attributes) = &elements[row + 1];
+        assert_eq!((element.as_str(), attribute(attributes, "unit")), ("Real", Some(unit)), "{name}");
+    }
+}
+
 /// Names of the inputs and parameters on which a variable depends, with the kind of each dependency.
 fn dependencies(scene: &str, output: &str) -> Vec<(String, &'static str)> {
     let package = Package::new(scene, "test scene", 3).unwrap();

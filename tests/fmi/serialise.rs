@@ -122,7 +122,7 @@ fn bytes_that_do_not_fit_are_refused_with_the_reason() {
     }
     let mut later = kept.clone();
     later[8] += 1;
-    refused(&mut reader, &told, &later, "its format is 16");
+    refused(&mut reader, &told, &later, "its format is 17");
     let (mut other, ..) = initialised(&BENT.replace("10.0", "11.0"));
     refused(&mut reader, &told, &bytes(&mut other), "of the design {");
     assert_eq!(reader.do_step(0.0, 0.1), Ending::Ok);

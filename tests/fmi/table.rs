@@ -72,6 +72,8 @@ fn the_names_that_users_rely_on_are_there() {
         "field.tip[3]",
         "shape.position[21,3]",
         "shape.arc_length[21]",
+        "shape.tangent[21,3]",
+        "shape.curvature[21,3]",
         "ring[10].position[3]",
         "ring[10].axis[3]",
         "core[9].angle",
@@ -160,10 +162,10 @@ fn tags_of_a_variable_fit_together() {
             assert_eq!(by_host, !row.is_result(), "{name}");
         }
     }
-    // The search for an equilibrium is described by six outputs; one output is measured when it is read.
+    // Six outputs describe the search for an equilibrium; the margin, and tangent and curvature at four points, are computed when read.
     let always: usize = count(&|row| row.availability == Availability::Always);
     let on_request: usize = count(&|row| matches!(row.availability, Availability::OnRequest(_)));
-    assert_eq!((always, on_request), (6 * SCENES.len(), SCENES.len()));
+    assert_eq!((always, on_request), (6 * SCENES.len(), (1 + 4 * 6) * SCENES.len()));
 }
 
 #[test]

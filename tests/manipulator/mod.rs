@@ -23,6 +23,8 @@ mod sources;
 
 mod steps;
 
+mod strains;
+
 mod tolerances;
 
 mod walks;

@@ -86,6 +86,7 @@ fn solved(file: &SceneFile, interaction: Interaction) -> Manipulator {
     }
     let status = out.solve(&scene.inputs).unwrap().status;
     assert!(matches!(status, Status::Solved | Status::NearFold), "{status:?}");
+    out.measure_strains();
     out
 }
 

@@ -265,3 +265,9 @@ pub(crate) const REFLECTED_DEG: f64 = 1e-4;
 
 /// Tip of a tube with long discs against an independent rod, m.
 pub(crate) const LONG_DISCS: f64 = 1e-7;
+
+/// Sums and differences between points 2 to 10 um apart, of strains that change along millimetres.
+pub(crate) const STRAINS_BETWEEN_POINTS: f64 = 1e-5;
+
+/// Central differences of whole solves of default accuracy, in steps of 1e-3 of an input.
+pub(crate) const CENTRAL_DIFFERENCE: f64 = 2e-5;

@@ -2,32 +2,76 @@
 
 use super::super::dependency::Dependency;
 use super::super::derivative_role::DerivativeRole;
+use super::super::host_values::HostValues;
 use super::super::search_report::SearchReport;
-use super::super::units::{
-    ANGLE, DIRECTION, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, Quantity, RATIO,
-};
+use super::super::units::RATIO;
 use super::super::value::DataType;
-use super::super::variable::{Access, Availability, Index, Request};
+use super::super::variable::{Access, Availability};
 use super::Counts;
 use super::parameters::INTERACTION;
 use super::rows::{Draft, Rows};
-use crate::manipulator::{Outcome, Output, Outputs};
+use crate::manipulator::output_table::{
+    self, CENTRELINE, CONTACT, DEVICE, Derivative, OutputRow, Owner, SHAFT, SOURCES, Scope,
+};
+use crate::manipulator::{Outcome, Outputs};
 
-pub(super) fn count(number: u32) -> i32 {
+/// What of a scene its outputs belong to.
+struct Bodies {
+    counts: Counts,
+    /// Names of all magnets and coils.
+    sources: Vec<String>,
+    mutual_wrenches: bool,
+    vessel: bool,
+}
+
+impl Bodies {
+    fn of(start: &HostValues, counts: &Counts) -> Self {
+        let further = start.source_names().map(|(name, _)| name);
+        Self {
+            counts: *counts,
+            sources: std::iter::once("magnet".to_owned()).chain(further).collect(),
+            mutual_wrenches: start.settings.mutual_wrenches,
+            vessel: start.vessel.is_some(),
+        }
+    }
+
+    fn have(&self, scope: Scope) -> bool {
+        match scope {
+            Scope::Always => true,
+            Scope::Shaft => self.counts.shaft,
+            Scope::Vessel => self.vessel,
+            Scope::MutualWrenches => self.mutual_wrenches,
+        }
+    }
+
+    /// How many there are of an owner.
+    fn count(&self, owner: Owner) -> usize {
+        match owner {
+            Owner::Device => 1,
+            Owner::Point => self.counts.shape_points,
+            Owner::Ring => self.counts.rings,
+            Owner::Core => self.counts.cores,
+            Owner::Further => self.sources.len() - 1,
+            Owner::Source => self.sources.len(),
+            Owner::Contact => 0, // they come and go
+        }
+    }
+
+    /// Name and description of an output of the body with this number.
+    fn named(&self, row: &OutputRow, item: usize) -> (String, String) {
+        let source = match row.owner {
+            Owner::Further => self.sources[item + 1].as_str(),
+            Owner::Source => self.sources[item].as_str(),
+            _ => "",
+        };
+        let kind = source.split('[').next().unwrap_or_default();
+        let name = row.name.replace("[k]", &format!("[{}]", item + 1)).replace("{source}", source);
+        (name, row.description.replace("{source}", kind))
+    }
+}
+
+fn count(number: u32) -> i32 {
     i32::try_from(number).unwrap_or(i32::MAX)
-}
-
-pub(super) fn real(
-    name: impl Into<String>,
-    quantity: Quantity,
-    description: &str,
-    get: fn(&Outputs, Index) -> f64,
-) -> Draft {
-    Draft::result(name, quantity, description, Access::RealOutput(get))
-}
-
-pub(super) fn integer(name: &str, description: &str, get: fn(&Outputs) -> i32) -> Draft {
-    Draft::result(name, DataType::Integer, description, Access::IntegerOutput(get))
 }
 
 /// A number that describes the search for an equilibrium, and that can always be read.
@@ -47,140 +91,79 @@ fn boolean(name: &str, description: &str, get: fn(&Outputs) -> bool) -> Draft {
 }
 
 impl Rows {
-    pub(super) fn outputs(&mut self, counts: &Counts) {
-        self.tip();
-        self.forces();
-        self.centreline(counts);
-        self.bodies(counts);
-        self.stability();
+    /// All results: those of the table of outputs, and what the search for an equilibrium has come to.
+    pub(super) fn outputs(&mut self, start: &HostValues, counts: &Counts) {
+        let bodies = Bodies::of(start, counts);
+        self.of_table(DEVICE, &bodies);
+        self.stability(&bodies);
         self.solver();
-        self.model_outputs();
+        self.model_outputs(&bodies);
+        for group in [SOURCES, SHAFT, CONTACT, CENTRELINE] {
+            self.of_table(group, &bodies);
+        }
     }
 
-    fn tip(&mut self) {
-        let angle =
-            real("tip.angle", ANGLE, "Angle between the tip's and the base's axis", |o, _| o.tip_angle);
-        let angle = angle.min(0.0).max(core::f64::consts::PI);
-        self.scalar(angle.continuous(DerivativeRole::Output(Output::TipAngle)));
-        let position =
-            real("tip.position", POSITION, "Position of the tip", |o, index| o.tip.position[index.component]);
-        self.array(3, &position.continuous(DerivativeRole::Output(Output::TipPosition)));
-        let orientation = real(
-            "tip.orientation",
-            QUATERNION,
-            "Orientation of the tip as a unit quaternion with w >= 0",
-            |o, index| o.tip.quaternion()[index.component],
-        );
-        self.array(4, &orientation.continuous(DerivativeRole::TipQuaternion));
-    }
-
-    fn forces(&mut self) {
-        let mut vector = |draft: Draft, output: Output| {
-            self.array(3, &draft.continuous(DerivativeRole::Output(output)));
-        };
-        let description = "Total external magnetic force on the manipulator";
-        let draft = real("force.magnetic", FORCE, description, |o, index| o.magnetic_force[index.component]);
-        vector(draft, Output::MagneticForce);
-
-        let description = "Total external magnetic torque about the base position";
-        let draft =
-            real("torque.magnetic", MOMENT, description, |o, index| o.magnetic_torque[index.component]);
-        vector(draft, Output::MagneticTorque);
-
-        let description = "Force that the clamp exerts on the manipulator";
-        let draft = real("base.reaction_force", FORCE, description, |o, index| {
-            o.base_reaction_force[index.component]
-        });
-        vector(draft.dependency(Dependency::ClampForce), Output::BaseReactionForce);
-
-        let description = "Moment that the clamp exerts about the base position";
-        let draft = real("base.reaction_moment", MOMENT, description, |o, index| {
-            o.base_reaction_moment[index.component]
-        });
-        vector(draft.dependency(Dependency::ClampMoment), Output::BaseReactionMoment);
-
-        let description = "Force on the external magnet";
-        let draft = real("magnet.reaction_force", FORCE, description, |o, index| {
-            o.magnet_reaction_force[index.component]
-        });
-        vector(draft, Output::MagnetReactionForce);
-
-        let description = "Torque on the external magnet about its centre";
-        let draft = real("magnet.reaction_torque", MOMENT, description, |o, index| {
-            o.magnet_reaction_torque[index.component]
-        });
-        vector(draft, Output::MagnetReactionTorque);
-
-        let description = "External field at the tip";
-        let draft = real("field.tip", FIELD, description, |o, index| o.tip_field[index.component]);
-        vector(draft, Output::TipField);
-    }
-
-    fn centreline(&mut self, counts: &Counts) {
-        for point in 0..counts.shape_points {
-            // With a shaft, the port's place in the shape is the sum of many parts.
-            let fixed = point == 0 && !counts.shaft;
-            let dependency = if fixed { Dependency::BasePoint } else { Dependency::Equilibrium };
-            for component in 0..3 {
-                // Point and component are two indices of one array.
-                let name = format!("shape.position[{},{}]", point + 1, component + 1);
-                let description = "Point of the centreline, from base to tip";
-                let position =
-                    real(name, POSITION, description, |o, index| o.shape[index.item][index.component]);
-                let position = position.continuous(DerivativeRole::Output(Output::ShapePoint(point)));
-                self.component_of(point, component, position.dependency(dependency));
+    /// The variables of rows of the table of outputs: whole numbers first, then the others in their order. Rows of one kind of body
+    /// that follow one another are written body by body.
+    fn of_table(&mut self, rows: &[OutputRow], bodies: &Bodies) {
+        let whole = |row: &OutputRow| matches!(row.derivative, Derivative::Whole);
+        let own: Vec<&OutputRow> = rows.iter().filter(|row| row.in_fmu && bodies.have(row.scope)).collect();
+        let (whole, others): (Vec<_>, Vec<_>) = own.into_iter().partition(|row| whole(row));
+        let together = |a: &&OutputRow, b: &&OutputRow| a.owner == b.owner && a.owner.is_body();
+        for rows in whole.chunk_by(together).chain(others.chunk_by(together)) {
+            for item in 0..bodies.count(rows[0].owner) {
+                for row in rows {
+                    self.output(row, item, bodies);
+                }
             }
         }
-        for point in 0..counts.shape_points {
-            let name = format!("shape.arc_length[{}]", point + 1);
-            let description = "Unstrained arc length of a centreline point from the base";
-            let length = real(name, LENGTH, description, |o, index| o.shape_arc_length[index.item]).min(0.0);
-            let (role, dependency) = if counts.shaft {
-                let of = counts.shape_points - 1;
-                (DerivativeRole::ShareOfFeed { part: point, of }, Dependency::Equilibrium)
-            } else {
-                (DerivativeRole::Unaffected, Dependency::Lengths)
-            };
-            self.scalar_of(point, length.continuous(role).dependency(dependency));
+    }
+
+    /// The variables of number `item` of an output.
+    fn output(&mut self, row: &OutputRow, item: usize, bodies: &Bodies) {
+        let whole = matches!(row.derivative, Derivative::Whole);
+        let data_type = if whole { DataType::Integer } else { row.quantity.into() };
+        let (name, description) = bodies.named(row, item);
+        let mut draft = Draft::result(name, data_type, &description, Access::NumberOutput(row.get));
+        draft = row.bounds[0].into_iter().fold(draft, Draft::min);
+        draft = row.bounds[1].into_iter().fold(draft, Draft::max);
+
+        let role = DerivativeRole::of(
+            row.derivative,
+            item,
+            bodies.counts.shaft.then_some(bodies.counts.shape_points),
+        );
+        if role != DerivativeRole::None {
+            let Counts { clamped_ring, shaft, .. } = bodies.counts;
+            draft = draft.continuous(role).dependency(Dependency::of(role, clamped_ring, shaft));
+        }
+        if let Some(request) = row.request {
+            draft = draft.availability(Availability::OnRequest(request));
+        }
+
+        match (row.owner, row.components) {
+            (Owner::Point, 1) => self.scalar_of(item, draft.indexed(&format!("[{}]", item + 1))),
+            // Point and component are two indices of one array.
+            (Owner::Point, count) => self
+                .components_of(item, count, &draft, |component| format!("[{},{}]", item + 1, component + 1)),
+            (_, 1) => self.scalar_of(item, draft),
+            (_, count) => self.array_of(item, count, &draft),
         }
     }
 
-    fn bodies(&mut self, counts: &Counts) {
-        for ring in 0..counts.rings {
-            let (centre, axis) = if ring == 0 && counts.clamped_ring {
-                (Dependency::ClampedCentre, Dependency::ClampedAxis)
-            } else {
-                (Dependency::Equilibrium, Dependency::Equilibrium)
-            };
-            let name = format!("ring[{}].position", ring + 1);
-            let position = real(name, POSITION, "Centre of the ring magnet", |o, index| {
-                o.rings[index.item].position[index.component]
-            });
-            let position = position.continuous(DerivativeRole::Output(Output::RingPosition(ring)));
-            self.array_of(ring, 3, &position.dependency(centre));
-            let name = format!("ring[{}].axis", ring + 1);
-            let direction = real(name, DIRECTION, "Axis d3 of the ring magnet", |o, index| {
-                o.rings[index.item].axis()[index.component]
-            });
-            let direction = direction.continuous(DerivativeRole::Output(Output::RingAxis(ring)));
-            self.array_of(ring, 3, &direction.dependency(axis));
-        }
-        for core in 0..counts.cores {
-            let name = format!("core[{}].angle", core + 1);
-            let description = "Bending of the core; windings touch at design.helix.boundary_angle";
-            let angle = real(name, ANGLE, description, |o, index| o.core_angles[index.item]).min(0.0);
-            self.scalar_of(core, angle.continuous(DerivativeRole::Output(Output::CoreAngle(core))));
+    /// The variables of the row of the table with this name.
+    fn named(&mut self, name: &str, bodies: &Bodies) {
+        if let Some(row) = output_table::row(name) {
+            self.output(row, 0, bodies);
         }
     }
 
-    fn stability(&mut self) {
+    fn stability(&mut self, bodies: &Bodies) {
         let description = "Whether the equilibrium is known to be stable";
         self.scalar(boolean("stability.stable", description, |o| o.stable == Some(true)));
         let description = "Whether one direction is free, as about the axis of an axisymmetric scene: neither stable nor unstable";
         self.scalar(boolean("stability.neutral", description, |o| o.outcome == Outcome::Neutral));
-        let description = "Smallest eigenvalue of the Hessian in the elastic norm of the strains: 1 without loads and interaction, 0 at a fold";
-        let margin = real("stability.margin", RATIO, description, |o, _| o.stability_margin);
-        self.scalar(margin.availability(Availability::OnRequest(Request::Margin)));
+        self.named("stability.margin", bodies);
         let description = "Jumps to another branch since initialisation";
         self.scalar(count_of_search("stability.snaps", description, |report| count(report.snaps)).min(0.0));
     }
@@ -205,11 +188,10 @@ impl Rows {
         self.scalar(ratio_of_search("solver.residual", description, |report| report.residual).min(0.0));
     }
 
-    fn model_outputs(&mut self) {
+    fn model_outputs(&mut self, bodies: &Bodies) {
         let description = "Level of local interaction that was used";
         let level = Access::IntegerOutput(|o| o.interaction as i32);
         self.scalar(Draft::result("model.level", DataType::Enumeration(&INTERACTION), description, level));
-        let description = "Estimated distance of the tip from the converged answer of the model";
-        self.scalar(real("model.error_estimate", LENGTH, description, |o, _| o.error_estimate).min(0.0));
+        self.named("model.error_estimate", bodies);
     }
 }

@@ -36,6 +36,11 @@ impl Draft {
         })
     }
 
+    /// The draft with an index behind its name.
+    pub(super) fn indexed(self, index: &str) -> Self {
+        self.with(|row| row.name += index)
+    }
+
     fn with(mut self, change: impl FnOnce(&mut Variable)) -> Self {
         change(&mut self.0);
         self
@@ -149,9 +154,19 @@ impl Rows {
 
     /// The variables `name[1]` to `name[length]` that belong to body `item`.
     pub(super) fn array_of(&mut self, item: usize, length: usize, draft: &Draft) {
+        self.components_of(item, length, draft, |component| format!("[{}]", component + 1));
+    }
+
+    /// The components of what belongs to body or point `item`, with an index for each.
+    pub(super) fn components_of(
+        &mut self,
+        item: usize,
+        length: usize,
+        draft: &Draft,
+        index: impl Fn(usize) -> String,
+    ) {
         for component in 0..length {
-            let named = draft.clone().with(|row| {
-                row.name = format!("{}[{}]", row.name, component + 1);
+            let named = draft.clone().indexed(&index(component)).with(|row| {
                 if let DataType::Real(quantity) = row.data_type
                     && let Some(element) = quantity.elements.get(component)
                 {

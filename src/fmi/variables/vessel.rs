@@ -1,4 +1,4 @@
-//! Variables of shaft, guidewire and vessel: only the FMU of a scene that has them has these.
+//! Inputs and parameters of shaft, guidewire and vessel: only the FMU of a scene that has them has these.
 
 use super::super::dependency::Known;
 use super::super::derivative_role::DerivativeRole;
@@ -6,10 +6,9 @@ use super::super::host_values::HostValues;
 use super::super::units::{ANGLE, FORCE, LENGTH, MODULUS, RATIO};
 use super::super::value::{DataType, Enumeration, Item};
 use super::super::variable::Access;
-use super::outputs::{count, integer, real};
+use super::access;
 use super::rows::{Draft, Rows};
-use super::{Counts, access};
-use crate::manipulator::{FeedMode, Input, Output, Outputs};
+use crate::manipulator::{FeedMode, Input};
 
 /// How the device is held at its base.
 static FEED: Enumeration = Enumeration {
@@ -86,52 +85,6 @@ impl Rows {
             let description = "Coefficient of Coulomb friction between the device and the wall";
             let draft = Draft::parameter("vessel.friction", RATIO, description, friction);
             self.scalar(draft.min(0.0).max(10.0).tunable().known(Known::Friction));
-        }
-    }
-
-    /// Outputs of shaft and vessel.
-    pub(super) fn vessel_outputs(&mut self, start: &HostValues, counts: &Counts) {
-        if start.shaft.is_some() {
-            let description = "Length of shaft inside the port";
-            self.scalar(
-                real("feed.length", LENGTH, description, |o, _| o.feed_length.unwrap_or(0.0))
-                    .min(0.0)
-                    .continuous(DerivativeRole::Output(Output::FeedLength)),
-            );
-            let description =
-                "Push that holds the shaft: derivative of the potential energy by the inserted length";
-            let draft =
-                real("feed.reaction_force", FORCE, description, |o, _| o.feed_reaction.unwrap_or(0.0));
-            self.scalar(draft.continuous(DerivativeRole::Output(Output::FeedReaction)));
-        }
-        if start.vessel.is_none() {
-            return;
-        }
-        let description = "Separate contacts with the wall";
-        self.scalar(
-            integer("contact.count", description, |o| {
-                o.wall.as_ref().map_or(0, |wall| count(u32::try_from(wall.count).unwrap_or(u32::MAX)))
-            })
-            .min(0.0),
-        );
-        let force = real("contact.force", FORCE, "Total force of the wall", |o, index| {
-            o.wall.as_ref().map_or(0.0, |wall| wall.force[index.component])
-        });
-        self.array(3, &force.continuous(DerivativeRole::Neighbours));
-        let description = "Force of the contact with the largest one";
-        let largest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_force);
-        let draft = real("contact.largest_force", FORCE, description, largest).min(0.0);
-        self.scalar(draft.continuous(DerivativeRole::Neighbours));
-        let description = "Largest depth in the wall";
-        let deepest = |o: &Outputs, _| o.wall.as_ref().map_or(0.0, |wall| wall.largest_indentation);
-        let draft = real("contact.largest_indentation", LENGTH, description, deepest).min(0.0);
-        self.scalar(draft.continuous(DerivativeRole::Neighbours));
-        for ring in 0..counts.rings {
-            let name = format!("ring[{}].contact_force", ring + 1);
-            let force = real(name, FORCE, "Force of the wall on the ring", |o, index| {
-                o.wall.as_ref().map_or(0.0, |wall| wall.rings[index.item][index.component])
-            });
-            self.array_of(ring, 3, &force.continuous(DerivativeRole::Neighbours));
         }
     }
 }

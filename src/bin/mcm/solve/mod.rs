@@ -81,7 +81,8 @@ impl Solve {
         manipulator.solve(&scene.inputs)?;
         doing.then("derivatives and stability margin");
         let jacobian = manipulator.jacobian();
-        let outputs = manipulator.measure_margin();
+        manipulator.measure_margin();
+        let outputs = manipulator.measure_strains();
         if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
             doing.then("drawing");
             picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, outputs, self.view)?)?;

@@ -1,7 +1,6 @@
 //! The report of a solve as a table for people.
 
 use mcm::manipulator::{Outputs, Status};
-use nalgebra::Vector3;
 
 use super::quantities::quantities;
 use super::uncertainty::Told;
@@ -44,19 +43,11 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
                 let band: Vec<String> = band.iter().map(|half| format!("{half:.4}")).collect();
                 format!("\u{b1} {}  {}", band.join(" "), quantity.unit)
             }
-            None => quantity.unit.into(),
+            None => quantity.unit.clone(),
         };
         let numbers: Vec<String> =
             quantity.components.iter().map(|number| format!("{number:>12.4}")).collect();
         out += &row(&quantity.name, &numbers.concat(), &unit);
-    }
-    for (number, wrench) in (1..).zip(&outputs.mutual_wrenches) {
-        let mut add = |what: &str, vector: &Vector3<f64>, factor: f64, unit: &str| {
-            let numbers: Vec<String> = vector.iter().map(|v| format!("{:>12.4}", v * factor)).collect();
-            out += &row(&format!("{what} {number} by others"), &numbers.concat(), unit);
-        };
-        add("force on", &wrench.force, 1.0, "N, of the other magnets and coils");
-        add("torque on", &wrench.torque, 1e3, "N.mm, about its centre");
     }
     if let Some(wall) = &outputs.wall {
         out += &row("contacts with the wall", &wall.count.to_string(), "");

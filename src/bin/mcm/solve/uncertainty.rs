@@ -1,12 +1,13 @@
 //! Bands of 95 % beside the numbers of a solve.
 
 use mcm::error::Error;
+use mcm::manipulator::output_table::OutputRow;
 use mcm::manipulator::{Manipulator, Outputs, SceneFile};
 use mcm::uncertainty::{Bands, Samples};
 use nalgebra::DVector;
 use serde_json::{Map, Value, json};
 
-use super::json::shape;
+use super::json::{rows_with_keys, value};
 use super::quantities::quantities;
 use crate::progress::progress_bar;
 
@@ -99,11 +100,11 @@ impl Told {
         let deviations: Map<String, Value> =
             stated.keys.iter().cloned().zip(stated.deviations.iter().map(|value| json!(value))).collect();
         let (mut bands, mut sensitivities) = (Map::new(), vec![Map::new(); stated.keys.len()]);
-        for (index, (key, _)) in self.found().into_iter().enumerate() {
-            let sides = self.sides(|outputs| shape(outputs)[index].1.clone());
-            bands.insert(key.into(), leaves(&sides, &|derivatives| self.band(derivatives)));
+        for (key, row) in of_shape().filter(|(_, row)| self.is_known(row)) {
+            let sides = self.sides(|outputs| value(row, outputs).unwrap_or(Value::Null));
+            bands.insert(key.clone(), leaves(&sides, &|derivatives| self.band(derivatives)));
             for (side, sensitivity) in sides.chunks(1).zip(&mut sensitivities) {
-                sensitivity.insert(key.into(), leaves(side, &|derivatives| json!(derivatives[0])));
+                sensitivity.insert(key.clone(), leaves(side, &|derivatives| json!(derivatives[0])));
             }
         }
         let sensitivities: Map<String, Value> =
@@ -124,10 +125,10 @@ impl Told {
         })
     }
 
-    /// The keys of the shape with their values in one of the neighbouring devices.
-    fn found(&self) -> Vec<(&'static str, Value)> {
+    /// Whether the neighbouring devices have an output.
+    fn is_known(&self, row: &OutputRow) -> bool {
         let side = self.bands.sensitivities().sides(0);
-        side.map_or_else(Vec::new, |([before, _], _)| shape(before).into_iter().collect())
+        side.is_some_and(|([before, _], _)| value(row, before).is_some())
     }
 
     /// What is read of both neighbouring devices of each number, and by how much the number differs between them.
@@ -141,6 +142,11 @@ impl Told {
     fn band(&self, derivatives: &[f64]) -> Value {
         json!(self.bands.band_along(&DVector::from_column_slice(derivatives)))
     }
+}
+
+/// What JSON tells of a shape; not what a solve adds to it, which has no bands.
+fn of_shape() -> impl Iterator<Item = (String, &'static OutputRow)> {
+    rows_with_keys().filter(|(_, row)| row.derivative.is_of_shape())
 }
 
 /// What `of` tells of the derivatives of each number in values of one form; null where neighbouring devices differ in form.
@@ -171,10 +177,9 @@ fn leaves(sides: &[([Value; 2], f64)], of: &impl Fn(&[f64]) -> Value) -> Value {
 fn quantiles(samples: &Samples) -> Map<String, Value> {
     let Some(first) = samples.outputs().first() else { return Map::new() };
     let mut out = Map::new();
-    for (index, (key, value)) in
-        shape(first).into_iter().enumerate().filter(|(_, (key, _))| SAMPLED.contains(key))
-    {
-        let read = |outputs: &Outputs| shape(outputs)[index].1.clone();
+    for (key, row) in of_shape().filter(|(key, _)| SAMPLED.contains(&key.as_str())) {
+        let read = |outputs: &Outputs| value(row, outputs).unwrap_or(Value::Null);
+        let value = read(first);
         let components = value.as_array().map(Vec::len);
         let band = |component: Option<usize>| {
             samples.band(|outputs| {
@@ -183,7 +188,7 @@ fn quantiles(samples: &Samples) -> Map<String, Value> {
             })
         };
         out.insert(
-            key.to_owned(),
+            key,
             match components {
                 Some(count) => (0..count).map(|component| json!(band(Some(component)))).collect(),
                 None if value.is_number() => json!(band(None)),

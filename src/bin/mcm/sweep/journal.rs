@@ -67,7 +67,7 @@ pub(super) enum Stage {
 pub(super) struct Identity<'a> {
     /// A number that differs for every other sweep.
     pub(super) stamp: u32,
-    pub(super) header: &'a [&'a str],
+    pub(super) header: &'a [String],
     /// Number of keys that are varied.
     pub(super) keys: usize,
     pub(super) columns: Columns,

@@ -1,7 +1,9 @@
 //! The columns of a sweep's table.
 
+use core::ops::Range;
 use std::str::FromStr;
 
+use mcm::manipulator::output_table::{self, OutputRow, Scope, Spelling};
 use mcm::manipulator::{Outputs, Scene};
 use nalgebra::Vector3;
 
@@ -13,55 +15,6 @@ use crate::verdict;
 const SAME_TIP: f64 = 1e-4;
 
 const MM_PER_M: f64 = 1e3;
-
-/// Place of the tip's error among the columns of the shape.
-const ERROR: usize = 28;
-
-/// Further columns of a scene with a vessel.
-const CONTACT: [&str; 6] = [
-    "contact_force_x_n",
-    "contact_force_y_n",
-    "contact_force_z_n",
-    "contact_count",
-    "largest_contact_force_n",
-    "largest_indentation_m",
-];
-
-/// Further columns of a scene with a shaft.
-const FEED: [&str; 2] = ["feed_length_m", "feed_reaction_force_n"];
-
-/// Columns of the shape, which are empty in a row that did not converge.
-const NUMBERS: [&str; ERROR + 1] = [
-    "alpha_deg",
-    "tip_x_mm",
-    "tip_y_mm",
-    "tip_z_mm",
-    "largest_core_angle_deg",
-    "magnetic_force_x_n",
-    "magnetic_force_y_n",
-    "magnetic_force_z_n",
-    "magnetic_torque_x_nm",
-    "magnetic_torque_y_nm",
-    "magnetic_torque_z_nm",
-    "base_reaction_force_x_n",
-    "base_reaction_force_y_n",
-    "base_reaction_force_z_n",
-    "base_reaction_moment_x_nm",
-    "base_reaction_moment_y_nm",
-    "base_reaction_moment_z_nm",
-    "magnet_reaction_force_x_n",
-    "magnet_reaction_force_y_n",
-    "magnet_reaction_force_z_n",
-    "magnet_reaction_torque_x_nm",
-    "magnet_reaction_torque_y_nm",
-    "magnet_reaction_torque_z_nm",
-    "tip_field_x_mt",
-    "tip_field_y_mt",
-    "tip_field_z_mt",
-    "energy_j",
-    "stability_margin",
-    "error_estimate_m",
-];
 
 /// Columns of the solve.
 const SEARCH: [&str; 11] = [
@@ -90,16 +43,34 @@ impl Columns {
         Self { vessel: scene.vessel.is_some(), shaft: scene.shaft.is_some() }
     }
 
-    /// Names of the columns of the shape.
-    fn numbers(self) -> impl Iterator<Item = &'static str> {
-        let contact = CONTACT.into_iter().filter(move |_| self.vessel);
-        NUMBERS.into_iter().chain(contact).chain(FEED.into_iter().filter(move |_| self.shaft))
+    /// The outputs that have columns.
+    fn rows(self) -> impl Iterator<Item = (&'static OutputRow, Spelling)> {
+        let has = move |scope| match scope {
+            Scope::Always => true,
+            Scope::Vessel => self.vessel,
+            Scope::Shaft => self.shaft,
+            Scope::MutualWrenches => false,
+        };
+        output_table::rows().filter(move |row| has(row.scope)).filter_map(|row| Some((row, row.column?)))
+    }
+
+    /// Number of the columns of the shape.
+    fn count(self) -> usize {
+        self.rows().map(|(row, _)| row.components).sum()
+    }
+
+    /// Places of an output among the columns of the shape.
+    fn places(self, name: &str) -> Range<usize> {
+        let before: usize =
+            self.rows().take_while(|(row, _)| row.name != name).map(|(row, _)| row.components).sum();
+        before..before + output_table::row(name).map_or(0, |row| row.components)
     }
 
     /// The table's header for these keys.
-    pub(crate) fn header<'a>(self, keys: impl Iterator<Item = &'a str>) -> impl Iterator<Item = &'a str> {
-        let numbers = self.numbers().map(|name| -> &'a str { name });
-        keys.chain(["way"]).chain(numbers).chain(SEARCH)
+    pub(crate) fn header<'a>(self, keys: impl Iterator<Item = &'a str>) -> Vec<String> {
+        let numbers = self.rows().flat_map(|(row, _)| row.columns());
+        let before = keys.chain(["way"]).map(str::to_owned);
+        before.chain(numbers).chain(SEARCH.map(str::to_owned)).collect()
     }
 }
 
@@ -129,7 +100,7 @@ impl Row {
     pub(crate) fn cells(&self) -> impl serde::Serialize + '_ {
         let converged = self.converged();
         let number = |index| self.numbers.as_ref().map(|numbers| numbers[index]);
-        let numbers: Vec<Option<f64>> = (0..self.columns.numbers().count()).map(number).collect();
+        let numbers: Vec<Option<f64>> = (0..self.columns.count()).map(number).collect();
         let verdict = (self.predicted_fold, self.stable, &self.stability, self.snaps);
         let search = (
             converged,
@@ -158,8 +129,7 @@ impl Row {
             columns,
             varied: (0..keys).map(|_| next()?.parse().ok()).collect::<Option<_>>()?,
             way: Way::named(next()?)?,
-            numbers: columns
-                .numbers()
+            numbers: (0..columns.count())
                 .map(|_| some(next()?).ok())
                 .collect::<Option<Vec<_>>>()?
                 .into_iter()
@@ -187,31 +157,8 @@ impl Row {
         outputs: &Outputs,
         predicted_fold: Option<f64>,
     ) -> Self {
-        const MT_PER_T: f64 = 1e3;
-        let largest = outputs.core_angles.iter().copied().fold(0.0, f64::max);
-        let mut numbers = vec![outputs.tip_angle.to_degrees()];
-        numbers.extend(&(outputs.tip.position * MM_PER_M));
-        numbers.push(largest.to_degrees());
-        for vector in [
-            &outputs.magnetic_force,
-            &outputs.magnetic_torque,
-            &outputs.base_reaction_force,
-            &outputs.base_reaction_moment,
-            &outputs.magnet_reaction_force,
-            &outputs.magnet_reaction_torque,
-            &(outputs.tip_field * MT_PER_T),
-        ] {
-            numbers.extend(vector);
-        }
-        numbers.extend([outputs.energy, outputs.stability_margin, outputs.error_estimate]);
-        if let Some(wall) = outputs.wall.as_ref().filter(|_| columns.vessel) {
-            numbers.extend(&wall.force);
-            numbers.extend([wall.count as f64, wall.largest_force, wall.largest_indentation]);
-        }
-        if let Some((length, push)) = outputs.feed_length.zip(outputs.feed_reaction).filter(|_| columns.shaft)
-        {
-            numbers.extend([length, push]);
-        }
+        let numbers =
+            columns.rows().flat_map(|(row, Spelling { unit, .. })| row.read(outputs, 0, unit)).collect();
         Self {
             columns,
             varied,
@@ -274,8 +221,10 @@ impl Row {
         let (Some(own), Some(other)) = (&self.numbers, &other.numbers) else {
             return self.converged() != other.converged();
         };
-        let tip = |numbers: &[f64]| Vector3::from_row_slice(&numbers[1..4]);
-        let error = |numbers: &[f64]| numbers[ERROR] * MM_PER_M;
+        let of = |name| self.columns.places(name);
+        let (places, error) = (of("tip.position"), of("model.error_estimate"));
+        let tip = |numbers: &[f64]| Vector3::from_row_slice(&numbers[places.clone()]);
+        let error = |numbers: &[f64]| numbers[error.start] * MM_PER_M;
         (tip(own) - tip(other)).norm() > SAME_TIP + error(own) + error(other)
     }
 }

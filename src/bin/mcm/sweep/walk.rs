@@ -105,7 +105,7 @@ impl<'a> Plan<'a> {
         }
         let keys: Vec<&str> =
             std::iter::once(self.along).chain(self.others).map(|range| range.key.as_str()).collect();
-        let header: Vec<&str> = self.columns.header(keys.iter().copied()).collect();
+        let header = self.columns.header(keys.iter().copied());
         let identity = Identity {
             stamp: stamp.finalize(),
             header: &header,

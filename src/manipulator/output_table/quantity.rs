@@ -33,6 +33,8 @@ const VECTOR: &[&str] = &["x, world frame", "y, world frame", "z, world frame"];
 /// A quaternion that turns vectors of a body into those of the world.
 const ROTATION: &[&str] =
     &["w (scalar), body to world", "x, body to world", "y, body to world", "z, body to world"];
+/// Curvature and twist in the material frame.
+const STRAIN: &[&str] = &["u1, about d1", "u2, about d2", "u3, twist about d3"];
 /// The gradient of a field without sources: symmetric and without trace, so five elements tell all nine.
 const SYMMETRIC: &[&str] = &[
     "dBx/dx, world frame",
@@ -58,6 +60,7 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "s", base: &[("s", 1)], display: Some(("ms", 1e3)) },
     Unit { name: "A", base: &[("A", 1)], display: None },
     Unit { name: "kg/m3", base: &[("kg", 1), ("m", -3)], display: None },
+    Unit { name: "1/m", base: &[("m", -1)], display: None },
 ];
 
 const fn quantity(
@@ -125,6 +128,12 @@ pub const MODULUS: Quantity = quantity("ElasticModulus", "Pa", 1e6, "Young's mod
 pub const DENSITY: Quantity = quantity("Density", "kg/m3", 1000.0, "Mass per volume");
 /// Electric current, A.
 pub const CURRENT: Quantity = quantity("Current", "A", 1.0, "Electric current");
+/// Curvature, 1/m.
+pub const CURVATURE: Quantity =
+    quantity("Curvature", "1/m", 100.0, "Rotation of the directors per arc length, material frame")
+        .with(STRAIN);
+/// Energy, J; no variable of the FMU is one.
+pub const ENERGY: Quantity = quantity("Energy", "J", 1e-6, "Energy");
 /// Processor time, s.
 pub const TIME: Quantity = quantity("ProcessorTime", "s", 1.0, "Processor time");
 
@@ -147,4 +156,5 @@ pub const QUANTITIES: &[Quantity] = &[
     DENSITY,
     CURRENT,
     TIME,
+    CURVATURE,
 ];
