@@ -8,44 +8,59 @@ use serde_json::{Value, json};
 
 use crate::verdict;
 
-/// Report of the solve and the shape found, or why the device closes; without a shape, all its numbers are null. With
-/// `uncertainty` where it is asked for, null where it cannot be told, and with the `warnings` of a scene that has some.
-pub(super) fn as_json(
-    (outputs, collapse): (&Outputs, Option<&Collapse>),
-    jacobian: &Result<Jacobian, Error>,
-    magnet: bool,
-    uncertainty: Option<Value>,
-    warnings: &[String],
-) -> Value {
-    let derivatives = jacobian.as_ref().ok().map(|jacobian| {
-        json!({
-            "tip_by_magnet": magnet.then(|| rows(&jacobian.tip_by_magnet())),
-            "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
-        })
-    });
-    let converged = verdict::converged(outputs);
-    let search = [
-        ("converged", json!(converged)),
-        ("status", json!(verdict::status(outputs))),
-        ("outcome", json!(outputs.outcome.name())),
-        ("reason", json!(verdict::reason(outputs, collapse))),
-        ("progress", json!(outputs.progress)),
-        ("stability", json!(verdict::stability(outputs))),
-        ("iterations", json!(outputs.iterations)),
-        ("residual", json!(outputs.residual)),
-        ("interaction", json!(outputs.interaction.name())),
-        ("method", json!(outputs.method.name())),
-        ("jacobian", json!(derivatives)),
-        ("jacobian_note", json!(jacobian.as_ref().err().map(ToString::to_string))),
-    ];
-    let verdict = [("stable", json!(outputs.stable)), ("snaps", json!(outputs.snaps))];
-    let verdict = verdict.map(|(key, value)| (key.to_owned(), value));
-    let found = rows_with_keys().filter_map(|(key, row)| Some((key, value(row, outputs)?))).chain(verdict);
-    let found = found.map(|(key, value)| (key, if converged { value } else { Value::Null }));
-    let search = search.map(|(key, value)| (key.to_owned(), value));
-    let uncertainty = uncertainty.map(|told| ("uncertainty".to_owned(), told));
-    let odd = (!warnings.is_empty()).then(|| ("warnings".to_owned(), json!(warnings)));
-    found.chain(search).chain(uncertainty).chain(odd).collect()
+/// What a solve found.
+pub(super) struct Report<'a> {
+    pub(super) outputs: &'a Outputs,
+    /// Why the device closes, if it does.
+    pub(super) collapse: Option<&'a Collapse>,
+    pub(super) jacobian: &'a Result<Jacobian, Error>,
+    /// Whether the scene has a magnet.
+    pub(super) magnet: bool,
+    /// Where it is asked for; null where it cannot be told.
+    pub(super) uncertainty: Option<Value>,
+    /// Warnings of the scene.
+    pub(super) warnings: Vec<String>,
+}
+
+impl Report<'_> {
+    /// All of it; without a shape, all numbers of one are null.
+    pub(super) fn as_json(&self) -> Value {
+        let (outputs, converged) = (self.outputs, verdict::converged(self.outputs));
+        let derivatives = self.jacobian.as_ref().ok().map(|jacobian| {
+            json!({
+                "tip_by_magnet": self.magnet.then(|| rows(&jacobian.tip_by_magnet())),
+                "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
+            })
+        });
+
+        let solved = [("stable", json!(outputs.stable)), ("snaps", json!(outputs.snaps))].map(named);
+        let shape = rows_with_keys().filter_map(|(key, row)| Some((key, value(row, outputs)?)));
+        let found =
+            shape.chain(solved).map(|(key, value)| (key, if converged { value } else { Value::Null }));
+
+        let search = [
+            ("converged", json!(converged)),
+            ("status", json!(verdict::status(outputs))),
+            ("outcome", json!(outputs.outcome.name())),
+            ("reason", json!(verdict::reason(outputs, self.collapse))),
+            ("progress", json!(outputs.progress)),
+            ("stability", json!(verdict::stability(outputs))),
+            ("iterations", json!(outputs.iterations)),
+            ("residual", json!(outputs.residual)),
+            ("interaction", json!(outputs.interaction.name())),
+            ("method", json!(outputs.method.name())),
+            ("jacobian", json!(derivatives)),
+            ("jacobian_note", json!(self.jacobian.as_ref().err().map(ToString::to_string))),
+        ];
+
+        let uncertainty = self.uncertainty.clone().map(|bands| named(("uncertainty", bands)));
+        let odd = (!self.warnings.is_empty()).then(|| named(("warnings", json!(self.warnings))));
+        found.chain(search.map(named)).chain(uncertainty).chain(odd).collect()
+    }
+}
+
+fn named((key, value): (&str, Value)) -> (String, Value) {
+    (key.to_owned(), value)
 }
 
 /// The rows of the table of outputs that JSON has, with their keys.

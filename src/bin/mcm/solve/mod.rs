@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::manipulator::{Collapse, Outputs};
+use mcm::manipulator::{Collapse, Manipulator, Outputs, SceneFile};
 use serde_json::Value;
 
-use self::json::as_json;
+use self::json::Report;
 use self::rest::rest_note;
 use self::table::as_table;
 use self::uncertainty::Told;
@@ -71,61 +71,71 @@ impl Solve {
         let picture = self.picture.as_deref().map(|path| SvgFile::at("--picture", path)).transpose()?;
         let file = read_scene(&self.scene)?;
         let scene = file.scene()?;
-        let level = scene.settings.interaction.name();
+
+        let (level, budget) = (scene.settings.interaction.name(), scene.settings.time_budget);
         let doing = Doing::now(format!("making the models of level {level}"));
         let mut manipulator = scene.device(self.shape_points)?;
-        let budget = scene.settings.time_budget;
         doing.then(format!(
             "solving at level {level}, which may take {budget} s of processor time (model.time_budget_s)"
         ));
         manipulator.solve(&scene.inputs)?;
+
         doing.then("derivatives and stability margin");
         let jacobian = manipulator.jacobian();
         manipulator.measure_margin();
-        let outputs = manipulator.measure_strains();
-        if let Some(picture) = picture.filter(|_| verdict::converged(outputs)) {
+        let mut outputs = manipulator.measure_strains().clone();
+        if let Some(picture) = picture.filter(|_| verdict::converged(&outputs)) {
             doing.then("drawing");
-            picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, outputs, self.view)?)?;
+            picture.fill(&shape::draw(&self.scene.display().to_string(), &scene, &outputs, self.view)?)?;
         }
-        let mut outputs = outputs.clone();
         if scene.settings.mutual_wrenches {
             doing.then("the wrench of magnets and coils on one another");
             outputs.mutual_wrenches = scene.inputs.mutual_wrenches(&scene.sources()?)?;
         }
-        let (told, untold) = match manipulator.manipulator().filter(|_| self.uncertainty) {
-            Some(manipulator) => {
-                doing.then("bands of the outputs");
-                match Told::of(&file, manipulator, self.samples) {
-                    Ok(told) => (Some(told), None),
-                    Err(error @ Error::NoDerivatives(_)) => (None, Some(error.to_string())),
-                    Err(error) => return Err(error.into()),
-                }
-            }
-            None => (None, self.uncertainty.then(|| "they need method \"potential\"".into())),
-        };
+
+        let bands = self.bands(&file, manipulator.manipulator(), &doing)?;
         doing.then("whether the rings pull the unloaded device shut");
         let collapse = Collapse::of(&file, &scene, &outputs)?;
         drop(doing);
-        if let Some(reason) = &untold {
-            warn(&format!("no bands: {reason}"));
-        }
+
+        let collapse = collapse.as_ref();
         print(if self.json {
-            let uncertainty = self.uncertainty.then(|| told.as_ref().map_or(Value::Null, Told::as_json));
-            format!(
-                "{:#}\n",
-                as_json(
-                    (&outputs, collapse.as_ref()),
-                    &jacobian,
-                    scene.magnets.is_some(),
-                    uncertainty,
-                    &file.warnings()?
-                )
-            )
+            let uncertainty = self.uncertainty.then(|| bands.as_ref().map_or(Value::Null, Told::as_json));
+            let (magnet, warnings) = (scene.magnets.is_some(), file.warnings()?);
+            let report =
+                Report { outputs: &outputs, collapse, jacobian: &jacobian, magnet, uncertainty, warnings };
+            format!("{:#}\n", report.as_json())
         } else {
-            let note = told.as_ref().map_or_else(String::new, Told::note);
-            as_table(&outputs, told.as_ref()) + &note + &rest_note(&scene, &outputs, collapse.as_ref())
+            let note = bands.as_ref().map_or_else(String::new, Told::note);
+            as_table(&outputs, bands.as_ref()) + &note + &rest_note(&scene, &outputs, collapse)
         })?;
-        Ok(exit_status(&outputs, collapse.as_ref()))
+        Ok(exit_status(&outputs, collapse))
+    }
+
+    /// Bands of the outputs, where they are asked for and exist; a warning says why not.
+    fn bands(
+        &self,
+        file: &SceneFile,
+        manipulator: Option<&Manipulator>,
+        doing: &Doing,
+    ) -> Result<Option<Told>, Failure> {
+        if !self.uncertainty {
+            return Ok(None);
+        }
+        let Some(manipulator) = manipulator else {
+            warn("no bands: they need method \"potential\"");
+            return Ok(None);
+        };
+
+        doing.then("bands of the outputs");
+        match Told::of(file, manipulator, self.samples) {
+            Ok(bands) => Ok(Some(bands)),
+            Err(error @ Error::NoDerivatives(_)) => {
+                warn(&format!("no bands: {error}"));
+                Ok(None)
+            }
+            Err(error) => Err(error.into()),
+        }
     }
 }
 
