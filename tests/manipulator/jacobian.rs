@@ -13,13 +13,16 @@ use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::changes::{changed, inputs_and_sizes};
 use crate::given::pair;
-use crate::tolerance::{DIFFERENCE, JACOBIAN, PAIRS, assert_close};
+use crate::tolerance::{DIFFERENCE, JACOBIAN, JACOBIAN_CURVATURE, PAIRS, assert_close};
 
 /// Centreline points.
 const POINTS: usize = 5;
 
 /// Step of the differences in parts of each input's usual size; their error is of fourth order in it.
 const STEP: f64 = 1e-3;
+
+/// Processor time that a solve may take, s: no difference may end with the budget.
+const PATIENCE: f64 = 60.0;
 
 /// Random scenes.
 const CASES: u32 = 30;
@@ -114,7 +117,7 @@ fn by_differences(
 }
 
 /// The largest error of any output by any input, relative to the largest effect that an input of usual size has on
-/// that output, and where it is.
+/// that output and to what is allowed, and where it is.
 fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
     let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
     let mut all = inputs_and_sizes(inputs.ring_forces.len(), inputs.further.len());
@@ -142,12 +145,18 @@ fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f6
     for (output, input, axis, error, _) in &entries {
         let same = entries.iter().filter(|entry| entry.0 == *output);
         let scale = same.map(|entry| entry.4).fold(0.0, f64::max);
-        if *error > out.0 * scale {
-            out = (error / scale, format!("{output:?} by {input:?} {axis}"));
+        let allowed = scale * allowed(*output);
+        if *error > out.0 * allowed {
+            out = (error / allowed, format!("{output:?} by {input:?} {axis}"));
         }
     }
     assert_eq!(entries.len(), (jacobian.matrix().ncols() - others) * differences_of(manipulator));
     out
+}
+
+/// Largest error of the derivatives of an output, relative to the largest effect of any input.
+fn allowed(output: Output) -> f64 {
+    if matches!(output, Output::ShapeCurvature(_)) { JACOBIAN_CURVATURE } else { JACOBIAN }
 }
 
 fn differences_of(manipulator: &Manipulator) -> usize {
@@ -172,7 +181,13 @@ fn rod() -> Design {
 }
 
 fn settings(interaction: Interaction) -> Settings {
-    Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-13, ..Settings::default() }
+    Settings {
+        interaction,
+        pair_accuracy: PAIRS,
+        tolerance: 1e-13,
+        time_budget: PATIENCE,
+        ..Settings::default()
+    }
 }
 
 fn ready(design: &Design, interaction: Interaction, inputs: &Inputs) -> Manipulator {
@@ -184,8 +199,8 @@ fn ready(design: &Design, interaction: Interaction, inputs: &Inputs) -> Manipula
 fn check(name: &str, manipulator: &Manipulator, inputs: &Inputs) {
     let jacobian = manipulator.jacobian().unwrap();
     let (error, place) = worst(manipulator, &jacobian, inputs);
-    println!("{name}: {error:.1e} ({place})");
-    assert!(error <= JACOBIAN, "{name}: {place} is off by {error:e}");
+    println!("{name}: {error:.1e} of what is allowed ({place})");
+    assert!(error <= 1.0, "{name}: {place} is off by {error:e} times what is allowed");
 }
 
 #[test]
