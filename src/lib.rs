@@ -33,9 +33,10 @@ pub mod rod; // strain modes, kinematics, elastic energy, weight
 
 pub mod equilibrium; // the potential, its minimum, its stability
 
-pub mod methods; // other methods for the same equilibrium, kept to compare with
-
 pub mod manipulator; // the device as its user sees it: scene in, shape and forces out
+
+#[cfg(feature = "methods")]
+pub mod methods; // other methods for the same equilibrium, kept to compare with
 
 #[cfg(feature = "uncertainty")]
 pub mod uncertainty; // how sure the outputs are: bands and samples

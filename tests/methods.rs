@@ -2,8 +2,8 @@
 
 use mcm::design::Design;
 use mcm::equilibrium::{self, Inputs, Interaction};
-use mcm::manipulator::{Compared, Outputs, Scene, Solve, Status};
-use mcm::methods::{Method, Settings};
+use mcm::manipulator::{Followed, Outputs, Scene, Status};
+use mcm::methods::{Compared, Device, Method, Settings};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{
@@ -36,8 +36,8 @@ fn scene(table: &str, segments: usize, interaction: Interaction) -> Scene {
     scene
 }
 
-fn device(scene: &Scene, solver: Settings) -> Box<dyn Solve> {
-    Scene { solver, ..scene.clone() }.device(21).expect("supported")
+fn device(scene: &Scene, solver: Settings) -> Device {
+    Device::new(scene, solver, 21).expect("supported")
 }
 
 fn by(method: Method) -> Settings {
@@ -275,9 +275,11 @@ fn what_a_method_cannot_is_refused() {
         let mut inputs = Inputs::unloaded(2);
         inputs.uniform_field.y = 0.02;
         let outputs = manipulator.solve(&inputs).expect("valid inputs");
-        assert_eq!((outputs.status, outputs.method, outputs.stable), (Status::Solved, method, None));
-        let scene = Scene { solver: by(method), ..scene("", 1, Interaction::None) };
-        for error in [manipulator.jacobian().map(drop), scene.manipulator(2).map(drop)] {
+        assert_eq!((outputs.status, outputs.stable), (Status::Solved, None));
+        let scene = Scene { method: label.into(), ..scene("", 1, Interaction::None) };
+        let device = Device::of(&scene, 2).expect("supported");
+        assert_eq!(device.method(), method);
+        for error in [device.jacobian().map(drop), scene.manipulator(2).map(drop)] {
             assert!(error.expect_err(label).to_string().contains(label));
         }
     }

@@ -73,11 +73,12 @@ fn discretisation(settings: &Settings) -> Discretisation {
 }
 
 impl Chain {
+    #[cfg(feature = "methods")]
     pub(crate) fn new(design: &Design, settings: &Settings) -> Result<Self, Error> {
         Self::beside(design, settings, &[])
     }
 
-    /// The same, with the tables of `others` as far as they have those of its rings.
+    /// The chain of a design, with the tables of `others` as far as they have those of its rings.
     pub(super) fn beside(design: &Design, settings: &Settings, others: &[Arc<Self>]) -> Result<Self, Error> {
         let mut rings = Vec::new();
         let shaft = design.shaft().map_or(0, |_| SHAFT_ELEMENTS);

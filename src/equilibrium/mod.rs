@@ -67,10 +67,8 @@ mod wall_search;
 mod workspace;
 mod wrench_derivatives;
 
-pub(crate) use chain::{Chain, arc_lengths};
 #[cfg(target_family = "wasm")]
 pub use clock::set_clock;
-pub(crate) use contact::Placed;
 pub use continuation::{Diagram, Shape};
 pub(crate) use deadline::Deadline;
 pub(crate) use inputs::LONGEST_INSERTION;
@@ -81,13 +79,18 @@ pub use model_transfer::TipDeviation;
 pub(crate) use neighbours::{Linearised, Neighbourhood};
 pub use outcome::{Body, Budget, Contact, Outcome};
 pub use output_derivatives::Output;
-pub(crate) use pair_quadrature::PairQuadrature;
 pub use refinement::Refinement;
 pub use report::Report;
 pub use settings::{Interaction, Settings};
 pub use snapshot::BranchSnapshot;
 pub use solution::Solution;
 pub use solver::Equilibrium;
-pub(crate) use terms::{Frame, TermWrenches, Terms, blocks};
 pub use verifier::Verifier;
 pub use wall_forces::WallForces;
+#[cfg(feature = "methods")]
+pub(crate) use {
+    chain::{Chain, arc_lengths},
+    contact::Placed,
+    pair_quadrature::PairQuadrature,
+    terms::{Frame, TermWrenches, Terms, blocks},
+};

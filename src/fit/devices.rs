@@ -69,7 +69,7 @@ pub(super) fn with(file: &SceneFile, keys: &[String], values: &[f64]) -> Result<
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
     (&a.specification, &a.shaft, &a.guidewire) == (&b.specification, &b.shaft, &b.guidewire)
         && (&a.magnets, &a.further_magnets, &a.coils) == (&b.magnets, &b.further_magnets, &b.coils)
-        && (&a.settings, &a.solver, &a.vessel) == (&b.settings, &b.solver, &b.vessel)
+        && (&a.settings, &a.method, &a.vessel) == (&b.settings, &b.method, &b.vessel)
 }
 
 impl Rows {

@@ -9,8 +9,7 @@ use crate::equilibrium::{PlacedSource, Settings};
 use crate::error::{Error, Interval};
 use crate::geometry::Pose;
 use crate::magnetics::{Assembly, AxialMagnet, Sources};
-use crate::manipulator::{FeedMode, Inputs, Manipulator, Scene, SceneFile, Variant, Way};
-use crate::methods::Method;
+use crate::manipulator::{FeedMode, Inputs, Manipulator, POTENTIAL, Scene, SceneFile, Variant, Way};
 use crate::vessel::{Vessel, Wall};
 
 /// A pose as the host sets it, one component at a time: until all are set, its quaternion need not have unit norm.
@@ -121,11 +120,10 @@ impl HostValues {
     /// has derivatives and a state that can be saved.
     pub fn start(file: &SceneFile) -> Result<Self, Error> {
         let scene = file.scene()?;
-        let (method, supported) = (scene.solver.method, Method::Potential);
-        if method != supported {
-            let (method, supported) = (method.name(), supported.name());
+        if scene.method != POTENTIAL {
             return Err(Error::Unsupported(format!(
-                "an FMU solves by method \"{supported}\", not \"{method}\""
+                "an FMU solves by method \"{POTENTIAL}\", not \"{}\"",
+                scene.method
             )));
         }
         let (magnets, magnet) = if let Some(magnets) = &scene.magnets {

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::followed::Followed;
 use super::prediction::{REMEMBERED, predicted};
-use super::solve::Solve;
-use super::{Inputs, Outcome, Outputs, Snapshot, Status};
+use super::{Inputs, Manipulator, Outcome, Outputs, Snapshot, Status};
 use crate::equilibrium::Deadline;
 use crate::error::{Error, check};
 
@@ -52,8 +52,8 @@ pub struct Fold {
 /// # Ok::<(), mcm::error::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Branch<F> {
-    manipulator: Box<dyn Solve>,
+pub struct Branch<F, M = Manipulator> {
+    manipulator: M,
     inputs: F,
     span: f64,
     longest_step: f64,
@@ -64,7 +64,7 @@ pub struct Branch<F> {
     /// Whether the path went upwards where the branch was lost, if it was.
     lost: Option<bool>,
     /// What the last call found instead of a shape.
-    failed: Option<Box<dyn Solve>>,
+    failed: Option<M>,
     /// What the time budget made the last call leave out.
     left_out: Option<String>,
     folds: Vec<Fold>,
@@ -82,7 +82,7 @@ pub struct PathSnapshot {
     margins: Vec<(f64, f64)>,
 }
 
-impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
+impl<F: Fn(f64) -> Result<Inputs, Error>, M: Followed> Branch<F, M> {
     /// Creates the unsolved branch of `manipulator`; `inputs` gives the inputs at each path parameter.
     ///
     /// `span` is the range of the path parameter. No step between two solves is longer than `longest_step`: within a step the
@@ -90,15 +90,9 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     ///
     /// # Errors
     /// [`Error::Range`] for a span or a step that is not positive.
-    pub fn new(
-        manipulator: impl Into<Box<dyn Solve>>,
-        inputs: F,
-        span: f64,
-        longest_step: f64,
-    ) -> Result<Self, Error> {
+    pub fn new(manipulator: M, inputs: F, span: f64, longest_step: f64) -> Result<Self, Error> {
         check("span of the path", span, |v| v > 0.0, "> 0")?;
         check("longest step on the path", longest_step, |v| v > 0.0, "> 0")?;
-        let manipulator = manipulator.into();
         Ok(Self {
             time_budget: manipulator.time_budget(),
             manipulator,
@@ -122,7 +116,7 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// direction goes on from the last shape.
     ///
     /// # Errors
-    /// Those of the inputs and of [`Solve::solve`].
+    /// Those of the inputs and of [`Manipulator::solve`].
     pub fn to(&mut self, target: f64) -> Result<&Outputs, Error> {
         let clock = Deadline::new(self.time_budget);
         (self.failed, self.left_out) = (None, None);
@@ -196,9 +190,9 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
                 next = target;
             }
             let trial = self.trial(next, clock.left())?;
-            if on_branch(trial.as_ref()) {
+            if on_branch(&trial) {
                 (self.manipulator, here) = (trial, next);
-            } else if is_out_of_budget(trial.as_ref()) {
+            } else if is_out_of_budget(&trial) {
                 self.lose(trial, next > here); // whether there is a fold is not known
             } else {
                 here = self.pass_fold(here, next, trial, clock)?;
@@ -230,13 +224,13 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
         Ok(())
     }
 
-    fn lose(&mut self, failed: Box<dyn Solve>, upwards: bool) {
+    fn lose(&mut self, failed: M, upwards: bool) {
         (self.failed, self.lost) = (Some(failed), Some(upwards));
         self.margins.clear();
     }
 
     /// The manipulator after a solve from its present shape within `seconds`.
-    fn trial(&self, value: f64, seconds: f64) -> Result<Box<dyn Solve>, Error> {
+    fn trial(&self, value: f64, seconds: f64) -> Result<M, Error> {
         let mut trial = self.manipulator.clone();
         trial.set_time_budget(seconds);
         trial.solve(&(self.inputs)(value)?)?;
@@ -246,35 +240,29 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     /// Locates the fold by bisection between `here`, on the branch, and `next`, where the solve `beyond` left it.
     ///
     /// Moves to the shape beyond and returns its path parameter, or that of the last shape on the branch if none was found.
-    fn pass_fold(
-        &mut self,
-        here: f64,
-        next: f64,
-        beyond: Box<dyn Solve>,
-        clock: &Deadline,
-    ) -> Result<f64, Error> {
+    fn pass_fold(&mut self, here: f64, next: f64, beyond: M, clock: &Deadline) -> Result<f64, Error> {
         let (mut on, mut off) = (here, next);
-        let (mut after, mut nearest) = (found(off, beyond.as_ref()), beyond);
+        let (mut after, mut nearest) = (found(off, &beyond), beyond);
         while (off - on).abs() > FOLD_WIDTH * self.span && !self.is_late(clock, KEPT.1) {
             let middle = 0.5 * (on + off);
             let trial = self.trial(middle, clock.left() - self.kept(KEPT.1))?;
-            if on_branch(trial.as_ref()) {
+            if on_branch(&trial) {
                 (self.manipulator, on) = (trial, middle);
             } else if self.is_late(clock, KEPT.1) {
                 break;
             } else {
                 // A snap may fail to settle very close to the fold although it succeeds from farther on; that result is kept.
-                after = found(middle, trial.as_ref()).or(after);
+                after = found(middle, &trial).or(after);
                 (nearest, off) = (trial, middle);
             }
         }
         if !self.is_late(clock, KEPT.1) {
             nearest = self.trial(off, clock.left())?;
-            if on_branch(nearest.as_ref()) {
+            if on_branch(&nearest) {
                 self.manipulator = nearest;
                 return Ok(off); // reached with a smaller step: not a fold
             }
-            after = found(off, nearest.as_ref()).or(after);
+            after = found(off, &nearest).or(after);
         }
         let before = self.manipulator.measure_margin().clone();
         let (value, width, outcome) = (0.5 * (on + off), (off - on).abs(), nearest.outputs().outcome);
@@ -321,14 +309,14 @@ impl<F: Fn(f64) -> Result<Inputs, Error>> Branch<F> {
     }
 }
 
-fn is_out_of_budget(trial: &dyn Solve) -> bool {
+fn is_out_of_budget(trial: &impl Followed) -> bool {
     matches!(trial.outputs().outcome, Outcome::OutOfBudget(_))
 }
 
-fn on_branch(trial: &dyn Solve) -> bool {
+fn on_branch(trial: &impl Followed) -> bool {
     matches!(trial.outputs().status, Status::Solved | Status::NearFold)
 }
 
-fn found(value: f64, trial: &dyn Solve) -> Option<(f64, Box<dyn Solve>)> {
-    (trial.outputs().status != Status::NotSolved).then(|| (value, trial.duplicate()))
+fn found<M: Followed>(value: f64, trial: &M) -> Option<(f64, M)> {
+    (trial.outputs().status != Status::NotSolved).then(|| (value, trial.clone()))
 }

@@ -12,7 +12,6 @@ use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Report, Settings};
 use crate::error::Error;
 use crate::magnetics::Sources;
-use crate::methods::Method;
 use crate::vessel::Vessel;
 
 /// A manipulator solved by the potential method; it keeps its shape from one solve to the next.
@@ -383,7 +382,6 @@ fn resolution(hierarchy: &Hierarchy) -> Resolution {
     Resolution {
         interaction: settings.interaction,
         degree: settings.degree,
-        method: Method::Potential,
         error_estimate: hierarchy.error_estimate(),
         beyond_tolerance: hierarchy.is_beyond_tolerance(),
     }

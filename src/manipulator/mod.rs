@@ -2,9 +2,9 @@
 
 mod branch;
 mod collapse;
-mod compared;
 mod device;
 mod error_estimate;
+mod followed;
 mod hierarchy;
 mod measured_margin;
 mod models;
@@ -15,7 +15,6 @@ mod prediction;
 mod pushed;
 mod scene;
 mod sensitivities;
-mod solve;
 mod strains;
 mod tolerance;
 mod variation;
@@ -25,14 +24,15 @@ mod way;
 pub use crate::equilibrium::{Body, Budget, Contact, Input, Inputs, Jacobian, Outcome, Output, PlacedSource};
 pub use branch::{Branch, Fold, PathSnapshot};
 pub use collapse::{Collapse, Remedy, rings_attract};
-pub use compared::Compared;
 pub use device::{Manipulator, Snapshot};
+pub use followed::Followed;
 pub use models::models_of_auto;
 pub use neighbours::Neighbours;
+#[cfg(feature = "methods")]
+pub(crate) use outputs::Resolution;
 pub use outputs::{Outputs, Status};
-pub use scene::{FeedMode, Scene, SceneFile, Uncertainty};
+pub use scene::{FeedMode, METHODS, POTENTIAL, Scene, SceneFile, Uncertainty};
 pub use sensitivities::Sensitivities;
-pub use solve::Solve;
 pub use tolerance::TipTolerance;
 pub(crate) use variation::Number;
 pub use variation::Variant;

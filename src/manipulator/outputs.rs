@@ -7,7 +7,6 @@ use super::Inputs;
 use crate::equilibrium::{Interaction, Outcome, Report, Solution, WallForces};
 use crate::geometry::Pose;
 use crate::magnetics::Wrench;
-use crate::methods::Method;
 
 /// How the last solve ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -93,8 +92,6 @@ pub struct Outputs {
     pub energy: f64,
     /// Interaction level of the model in use.
     pub interaction: Interaction,
-    /// Solution method.
-    pub method: Method,
     /// Degree of the strain modes in use: higher than that of the settings where the tolerances need it.
     pub degree: usize,
     /// Estimated distance of the tip from the converged model, m.
@@ -109,24 +106,23 @@ pub struct Outputs {
     pub beyond_tolerance: bool,
 }
 
-/// Interaction level, degree, method and error estimate of a solution.
+/// Interaction level, degree and error estimate of a solution.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Resolution {
-    pub(super) interaction: Interaction,
-    pub(super) degree: usize,
-    pub(super) method: Method,
+pub(crate) struct Resolution {
+    pub(crate) interaction: Interaction,
+    pub(crate) degree: usize,
     /// Estimated distance of the tip from the converged model, m.
-    pub(super) error_estimate: f64,
+    pub(crate) error_estimate: f64,
     /// Whether it is larger than what is allowed.
-    pub(super) beyond_tolerance: bool,
+    pub(crate) beyond_tolerance: bool,
 }
 
 impl Outputs {
     /// Outputs of the straight, unloaded manipulator at the origin, the state of a new or reset `solution`.
-    pub(super) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
+    pub(crate) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
         let zero = Vector3::zeros();
         let (shape_arc_length, shape) = solution.shape().unzip();
-        let Resolution { interaction, degree, method, error_estimate, beyond_tolerance } = resolution;
+        let Resolution { interaction, degree, error_estimate, beyond_tolerance } = resolution;
         Self {
             tip_angle: 0.0,
             tip: solution.tip(),
@@ -161,12 +157,11 @@ impl Outputs {
             degree,
             error_estimate,
             beyond_tolerance,
-            method,
         }
     }
 
     /// Reads the shape and wrenches of the last solve, at `inputs`, without allocating but for the forces of a wall.
-    pub(super) fn read(&mut self, solution: &impl Solution, inputs: &Inputs, resolution: Resolution) {
+    pub(crate) fn read(&mut self, solution: &impl Solution, inputs: &Inputs, resolution: Resolution) {
         self.tip = solution.tip();
         self.tip_angle = inputs.base.axis().angle(&self.tip.axis());
         let magnetic = solution.magnetic_wrench();
@@ -189,8 +184,8 @@ impl Outputs {
         places.zip(solution.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
         self.rings.iter_mut().zip(solution.rings()).for_each(|(slot, pose)| *slot = pose);
         self.core_angles.iter_mut().zip(solution.core_angles()).for_each(|(slot, angle)| *slot = angle);
-        let Resolution { interaction, degree, method, error_estimate, beyond_tolerance } = resolution;
-        (self.interaction, self.degree, self.method) = (interaction, degree, method);
+        let Resolution { interaction, degree, error_estimate, beyond_tolerance } = resolution;
+        (self.interaction, self.degree) = (interaction, degree);
         (self.error_estimate, self.beyond_tolerance) = (error_estimate, beyond_tolerance);
     }
 
@@ -200,7 +195,7 @@ impl Outputs {
     }
 
     /// Reads tangents and curvatures of the shape, unless they are there already.
-    pub(super) fn read_strains(&mut self, solution: &impl Solution) {
+    pub(crate) fn read_strains(&mut self, solution: &impl Solution) {
         if self.has_strains() {
             return;
         }
@@ -211,7 +206,7 @@ impl Outputs {
     }
 
     /// Records how a solve ended; without a solution, the previous shape and its quantities are kept.
-    pub(super) fn record(&mut self, report: &Report, fold_margin: f64) {
+    pub(crate) fn record(&mut self, report: &Report, fold_margin: f64) {
         (self.outcome, self.progress) = (report.outcome, report.progress);
         (self.iterations, self.residual) = (report.iterations, report.residual);
         if !report.solved() {

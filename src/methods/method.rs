@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::equilibrium::Interaction;
+use crate::manipulator::METHODS;
 
 /// Method that solves for the equilibrium; all but the potential method serve for comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -26,14 +27,14 @@ pub enum Method {
 
 impl Method {
     /// Every method with its name in scene files.
-    pub const ALL: &[(Self, &str)] = &[
-        (Self::Potential, "potential"),
-        (Self::ShootingPaper, "shooting-fd"),
-        (Self::ShootingExact, "shooting"),
-        (Self::MultipleShooting, "multiple-shooting"),
-        (Self::Collocation, "collocation"),
-        (Self::ConstantCurvature, "constant-curvature"),
-        (Self::Planar, "planar"),
+    pub const ALL: [(Self, &str); METHODS.len()] = [
+        (Self::Potential, METHODS[0]),
+        (Self::ShootingPaper, METHODS[1]),
+        (Self::ShootingExact, METHODS[2]),
+        (Self::MultipleShooting, METHODS[3]),
+        (Self::Collocation, METHODS[4]),
+        (Self::ConstantCurvature, METHODS[5]),
+        (Self::Planar, METHODS[6]),
     ];
 
     /// The method with this name.

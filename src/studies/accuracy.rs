@@ -12,8 +12,8 @@ use super::progress::Progress;
 use super::scenes::{LEVELS, PAIR, SEGMENTS, later};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Outputs, Scene, Solve, Status};
-use crate::methods::{self, Method};
+use crate::manipulator::{Followed, Inputs, Outputs, Scene, Status};
+use crate::methods::{self, Device, Method};
 
 /// Name and scene text of each field: 10 mT at 90 and 150 deg from the axis, and the exact magnet pair beside it.
 const FIELDS: [(&str, &str); 3] = [
@@ -206,8 +206,8 @@ impl Case {
         Ok(points)
     }
 
-    fn device(&self, settings: Settings, solver: methods::Settings) -> Result<Box<dyn Solve>, Error> {
-        Scene { settings, solver, ..self.scene.clone() }.device(SHAPE_POINTS)
+    fn device(&self, settings: Settings, solver: methods::Settings) -> Result<Device, Error> {
+        Device::new(&Scene { settings, ..self.scene.clone() }, solver, SHAPE_POINTS)
     }
 
     fn reference(&self, settings: Settings) -> Result<Option<Outputs>, Error> {

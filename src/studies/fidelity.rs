@@ -10,7 +10,8 @@ use super::progress::Progress;
 use super::scenes::{PAIR, later};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Scene, Solve, Status, models_of_auto};
+use crate::manipulator::{Followed, Inputs, Scene, Status, models_of_auto};
+use crate::methods::Device;
 
 /// Name, number of segments and field of each scene.
 pub(super) const SCENES: [(&str, usize, &str); 4] = [
@@ -133,8 +134,8 @@ impl Walk {
     ) -> Result<Vec<Shown>, Error> {
         let mut followed = Vec::new();
         for model in models {
-            let mut device = model.device(2)?;
-            let shown = self.errors(device.as_mut(), reference)?;
+            let mut device = Device::of(model, 2)?;
+            let shown = self.errors(&mut device, reference)?;
             followed.push((device, shown));
             progress.done();
         }
@@ -151,8 +152,8 @@ impl Walk {
     }
 
     /// Errors of a device along the path against the model `reference`, without a time.
-    fn errors(&self, own: &mut dyn Solve, reference: &Scene) -> Result<Shown, Error> {
-        let mut reference = reference.device(2)?;
+    fn errors(&self, own: &mut Device, reference: &Scene) -> Result<Shown, Error> {
+        let mut reference = Device::of(reference, 2)?;
         let mut shown = Shown { time: f64::INFINITY, tip: 0.0, angle: 0.0 };
         for (step, inputs) in self.path.iter().enumerate() {
             let answer = own.solve(inputs)?;

@@ -57,11 +57,11 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
         Ok(())
     }),
     ("everything out of the plane (method `planar`)", |scene| {
-        scene.solver.method = Method::Planar;
+        scene.method = Method::Planar.name().into();
         Ok(())
     }),
     ("all strain except one curvature per core (method `constant-curvature`)", |scene| {
-        scene.solver.method = Method::ConstantCurvature;
+        scene.method = Method::ConstantCurvature.name().into();
         Ok(())
     }),
 ];

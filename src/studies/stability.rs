@@ -10,8 +10,8 @@ use super::scenes::{LEVELS, SEGMENTS};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::manipulator::{Inputs, Scene, Status, Way};
-use crate::methods::{self, Method};
+use crate::manipulator::{Followed, Inputs, Scene, Status, Way};
+use crate::methods::{Device, Method};
 use verification::{FineModel, Known};
 
 pub use verdict::Verdict;
@@ -109,9 +109,9 @@ impl Ray {
                 coils: Vec::new(),
                 inputs: self.inputs(0.0),
                 settings: Settings { interaction: self.interaction, ..Settings::default() },
-                solver: methods::Settings { method: *method, ..methods::Settings::default() },
+                method: method.name().into(),
             };
-            let mut manipulator = scene.device(2)?;
+            let mut manipulator = Device::of(&scene, 2)?;
             let accuracy = if *method == Method::ConstantCurvature { ARCS } else { RESOLVED };
             for (start, first) in [("cold", WARM_STEPS), ("warm", 1)] {
                 manipulator.reset();

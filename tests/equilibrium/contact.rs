@@ -6,8 +6,8 @@ use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Body, Contact, Equilibrium, Inputs, Interaction, Outcome, Settings, Solution};
 use mcm::geometry::Pose;
 use mcm::magnetics::{Assembly, AxialMagnet};
-use mcm::manipulator::{Compared, Manipulator, Scene, Solve, Status};
-use mcm::methods::{self, Method};
+use mcm::manipulator::{Followed, Manipulator, Scene, Status};
+use mcm::methods::{self, Compared, Device, Method};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::tolerance::{CONTACT_DEPTH, SAME_SHAPE};
@@ -172,11 +172,11 @@ fn a_bore_has_room_for_the_manipulator_and_its_wall_has_not() {
     ] {
         let design = Design::new(Specification::paper(3)).unwrap();
         let (magnet, settings) = (unfelt(tube), Settings { interaction, ..Settings::default() });
-        let mut manipulator: Box<dyn Solve> = if method == Method::Potential {
-            Manipulator::new(&design, Some(&magnet), settings, 2).unwrap().into()
+        let mut manipulator = if method == Method::Potential {
+            Device::Potential(Box::new(Manipulator::new(&design, Some(&magnet), settings, 2).unwrap()))
         } else {
             let solver = methods::Settings { method, ..Default::default() };
-            Compared::new(&design, Some(&magnet), settings, solver, 2).unwrap().into()
+            Device::Compared(Box::new(Compared::new(&design, Some(&magnet), settings, solver, 2).unwrap()))
         };
         for (aside, expected) in [(0.0, 0.0), (0.9e-3, 0.0), (1.1e-3, 0.1e-3), (1.5e-3, 0.5e-3)] {
             let magnet = Pose { position: Vector3::new(aside, 0.0, 8e-3), ..Pose::identity() };

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use mcm::error::Error;
-use mcm::manipulator::{Branch, Budget, Inputs, Jacobian, Outcome, Outputs, Scene, Solve, Status};
+use mcm::manipulator::{Branch, Budget, Followed, Inputs, Outcome, Outputs, Scene, Snapshot, Status};
 use nalgebra::Vector3;
 
 /// Processor time of each solve of the stand-in, and its budget.
@@ -17,7 +17,7 @@ struct Slow {
     outputs: Outputs,
 }
 
-impl Solve for Slow {
+impl Followed for Slow {
     fn solve(&mut self, inputs: &Inputs) -> Result<&Outputs, Error> {
         let start = ThreadTime::now();
         while start.elapsed() < SOLVE {}
@@ -32,8 +32,6 @@ impl Solve for Slow {
         &self.outputs
     }
 
-    fn reset(&mut self) {}
-
     fn start_anew(&mut self) {}
 
     fn time_budget(&self) -> f64 {
@@ -44,16 +42,14 @@ impl Solve for Slow {
         &self.outputs
     }
 
-    fn measure_strains(&mut self) -> &Outputs {
-        &self.outputs
+    fn set_time_budget(&mut self, _: f64) {}
+
+    fn snapshot(&self) -> Option<Snapshot> {
+        None
     }
 
-    fn jacobian(&self) -> Result<Jacobian, Error> {
-        Err(Error::NoDerivatives("a stand-in".into()))
-    }
-
-    fn duplicate(&self) -> Box<dyn Solve> {
-        Box::new(self.clone())
+    fn restore(&mut self, _: &Snapshot) -> Result<(), Error> {
+        Err(Error::Unsupported("a stand-in".into()))
     }
 }
 
@@ -69,7 +65,7 @@ fn across(field: f64) -> Inputs {
 #[test]
 fn the_search_for_a_fold_ends_with_the_budget_and_says_so() {
     let outputs = one_segment("").manipulator(2).unwrap().outputs().clone();
-    let slow: Box<dyn Solve> = Box::new(Slow { outputs });
+    let slow = Slow { outputs };
     let unsnapped = slow.clone();
     let mut branch = Branch::new(slow, |field| Ok(across(field)), 1.6, 1.6).unwrap();
     branch.to(0.0).unwrap();

@@ -35,7 +35,7 @@ fn a_remedy_is_one_line_with_key_and_value() {
 fn judged(text: &str) -> (Status, Option<Collapse>) {
     let file = SceneFile::parse(text, "judged").unwrap();
     let scene: Scene = file.scene().unwrap();
-    let outputs = scene.device(2).unwrap().solve(&scene.inputs).unwrap().clone();
+    let outputs = scene.manipulator(2).unwrap().solve(&scene.inputs).unwrap().clone();
     (outputs.status, Collapse::of(&file, &scene, &outputs).unwrap())
 }
 

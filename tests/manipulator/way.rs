@@ -4,6 +4,7 @@ use mcm::fmi::value::Value;
 use mcm::fmi::variable::Causality;
 use mcm::fmi::{Instance, Package};
 use mcm::manipulator::{Manipulator, Outputs, Scene, SceneFile, Status};
+use mcm::methods::Device;
 
 use crate::tolerance::{SAME_SHAPE, assert_close};
 
@@ -155,7 +156,7 @@ fn rows_that_are_none_are_refused_by_name_and_number() {
     let other =
         Scene::parse(&(row("\"field.uniform[2]\" = 0.01") + "[model]\nmethod = \"shooting\""), "test")
             .unwrap();
-    assert!(other.device(2).unwrap_err().to_string().contains("start.way needs method \"potential\""));
+    assert!(Device::of(&other, 2).unwrap_err().to_string().contains("start.way needs method \"potential\""));
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn every_method_is_tried_at_every_strength_cold_and_warm() {
     let attempts = attempts(1, Interaction::None, 0.0);
     for (_, method) in Method::ALL {
         for start in ["cold", "warm"] {
-            let own = attempts.iter().filter(|attempt| (attempt.method, attempt.start) == (*method, start));
+            let own = attempts.iter().filter(|attempt| (attempt.method, attempt.start) == (method, start));
             assert_eq!(own.count(), 8, "{method}, {start}");
         }
     }

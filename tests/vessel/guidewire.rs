@@ -4,6 +4,7 @@ use core::f64::consts::PI;
 
 use mcm::equilibrium::{Equilibrium, Input, Inputs, Interaction, Output, Settings, Solution};
 use mcm::manipulator::{Manipulator, Outputs, Scene};
+use mcm::methods::Device;
 use nalgebra::Vector3;
 
 use crate::tolerance::{
@@ -312,7 +313,7 @@ fn wrong_guidewires_are_refused_by_name() {
         assert!(error.contains(said), "{error}");
     }
     let text = "[design]\nsegments = 1\n[guidewire]\nradius_mm = 0.3\nelastic_modulus_mpa = 1.0\n[model]\nmethod = \"shooting\"";
-    let Err(error) = Scene::parse(text, "text").expect("a scene").device(2) else {
+    let Err(error) = Device::of(&Scene::parse(text, "text").expect("a scene"), 2) else {
         panic!("a comparison method takes a guidewire")
     };
     let error = error.to_string();

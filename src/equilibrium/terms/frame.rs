@@ -31,6 +31,10 @@ pub(crate) enum Frame<'a> {
     /// the sources at its points may have been evaluated already.
     Station(&'a Station, NearStation<'a>),
     /// Material of a section, per length or as a whole.
+    #[cfg_attr(
+        not(feature = "methods"),
+        expect(dead_code, reason = "of methods that integrate along the rod")
+    )]
     Section(&'a SectionMaterial),
     /// A ring by its number; the pose is that of its node, on its proximal face.
     Ring(usize, &'a RingBody),

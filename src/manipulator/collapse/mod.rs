@@ -9,13 +9,12 @@ use core::fmt;
 pub use remedy::Remedy;
 
 use self::remedy::{Search, at_rest};
-use super::scene::{Scene, SceneFile};
+use super::scene::{POTENTIAL, Scene, SceneFile};
 use super::{Outputs, Status};
 use crate::design::Specification;
 use crate::equilibrium::{Body, Contact, Deadline, Interaction, Outcome};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::methods::Method;
 
 /// Largest angle between the base's axis and that of any ring or the tip at which an unloaded device stands, rad.
 const UPRIGHT: f64 = FRAC_PI_2;
@@ -29,7 +28,7 @@ const UPRIGHT: f64 = FRAC_PI_2;
 /// let text = "[design]\nsegments = 2\n[design.helix]\nshore_a = 3.0\n[model]\ninteraction = \"full\"\ntime_budget_s = 60.0";
 /// let file = SceneFile::parse(text, "soft")?;
 /// let scene = file.scene()?;
-/// let outputs = scene.device(2)?.solve(&scene.inputs)?.clone();
+/// let outputs = scene.manipulator(2)?.solve(&scene.inputs)?.clone();
 /// let shut = Collapse::of(&file, &scene, &outputs)?.expect("two soft segments close").to_string();
 /// assert!(shut.contains("the rings pull this device shut (level full)"), "{shut}");
 /// assert!(shut.contains("it stands from design.helix.shore_a = "), "{shut}");
@@ -57,7 +56,7 @@ impl Collapse {
     /// As [`Scene::manipulator`] and [`super::Manipulator::solve`].
     pub fn of(file: &SceneFile, scene: &Scene, outputs: &Outputs) -> Result<Option<Self>, Error> {
         let level = richest(scene.settings.interaction);
-        let judged = scene.solver.method == Method::Potential && scene.vessel.is_none();
+        let judged = scene.method == POTENTIAL && scene.vessel.is_none();
         if !judged || !rings_attract(&scene.specification, level) {
             return Ok(None);
         }

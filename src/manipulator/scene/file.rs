@@ -13,7 +13,6 @@ use super::units::MM_PER_M;
 use super::vessel::{FeedEntries, VesselEntries};
 use crate::equilibrium::{Interaction, Settings};
 use crate::manipulator::way::WayRow;
-use crate::methods::Method;
 use crate::vessel::Lumen;
 
 /// A scene as its file states it, with all omitted entries filled in.
@@ -331,7 +330,7 @@ pub(super) struct GravityEntries {
     pub(super) acceleration_m_s2: [f64; 3],
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct ModelEntries {
@@ -340,9 +339,9 @@ pub(super) struct ModelEntries {
     #[cfg_attr(test, schemars(schema_with = "choices::levels"))]
     pub(super) interaction: Interaction,
     /// How the equilibrium is found: `potential`, or one of the others to compare with.
-    #[serde(serialize_with = "choices::write_method", deserialize_with = "choices::read_method")]
+    #[serde(deserialize_with = "choices::read_method")]
     #[cfg_attr(test, schemars(schema_with = "choices::methods"))]
-    pub(super) method: Method,
+    pub(super) method: String,
     /// Whether windings that touch stop the bending; left out: the level decides, `auto` has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) bending_stop: Option<bool>,
@@ -368,7 +367,7 @@ impl Default for ModelEntries {
         let settings = Settings::default();
         Self {
             interaction: Interaction::Auto,
-            method: Method::Potential,
+            method: choices::POTENTIAL.into(),
             bending_stop: None,
             tolerance_position_mm: settings.tolerance_position * MM_PER_M,
             tolerance_angle_deg: settings.tolerance_angle.to_degrees(),

@@ -23,18 +23,18 @@ mod units;
 mod vessel;
 mod warnings;
 
+pub use choices::{METHODS, POTENTIAL};
 pub use file::SceneFile;
 pub use uncertainty::Uncertainty;
 pub use vessel::FeedMode;
 
 use std::path::Path;
 
-use super::{Compared, Inputs, Manipulator, Solve, Way};
+use super::{Inputs, Manipulator, Way};
 use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
 use crate::magnetics::{Assembly, AxialMagnet, Coil, Sources};
-use crate::methods::{self, Method};
 use crate::vessel::Vessel;
 
 /// Everything that one solve needs, in SI units.
@@ -74,8 +74,8 @@ pub struct Scene {
     pub way: Way,
     /// Model settings and solver settings of the potential method.
     pub settings: Settings,
-    /// Solution method, and the resolution of the comparison methods.
-    pub solver: methods::Settings,
+    /// Solution method, as the scene's key `model.method` names it: one of [`METHODS`].
+    pub method: String,
 }
 
 impl Scene {
@@ -130,53 +130,20 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Scene::design`], [`Scene::sources`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
-    /// method other than the potential method, see [`Scene::device`].
+    /// method other than the potential method.
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
-        let (given, own) = (self.solver.method, Method::Potential);
-        if given != own {
-            let (given, own) = (given.name(), own.name());
+        if self.method != POTENTIAL {
             return Err(Error::Unsupported(format!(
-                "a manipulator solves by method \"{own}\", not \"{given}\""
+                "a manipulator solves by method \"{POTENTIAL}\", not \"{}\"",
+                self.method
             )));
         }
+
         let made = Manipulator::new(&self.design()?, &self.sources()?, self.settings, shape_points)?;
         let made = made.on_way(self.way.clone());
         Ok(match &self.vessel {
             Some(vessel) => made.in_vessel(vessel),
             None => made,
         })
-    }
-
-    /// A manipulator of this scene solved by the method that the scene names, unsolved.
-    ///
-    /// ```
-    /// use mcm::manipulator::Scene;
-    /// let text = "[design]\nsegments = 1\n[field]\nuniform_mt = [0, 20, 0]\n[model]\ninteraction = \"rings\"\n";
-    /// let angle = |method: &str| {
-    ///     let scene = Scene::parse(&format!("{text}method = \"{method}\""), "example")?;
-    ///     Ok::<f64, mcm::error::Error>(scene.device(2)?.solve(&scene.inputs)?.tip_angle)
-    /// };
-    /// assert!((angle("shooting")? - angle("potential")?).abs() < 1e-6);
-    /// # Ok::<(), mcm::error::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`Scene::manipulator`] and [`Compared::new`].
-    pub fn device(&self, shape_points: usize) -> Result<Box<dyn Solve>, Error> {
-        if self.solver.method == Method::Potential {
-            return Ok(self.manipulator(shape_points)?.into());
-        }
-        if self.vessel.is_some() || self.shaft.is_some() {
-            let given = self.solver.method.name();
-            return Err(Error::Unsupported(format!(
-                "a vessel and a shaft need method \"potential\", not \"{given}\""
-            )));
-        }
-        if !self.way.is_empty() {
-            let given = self.solver.method.name();
-            return Err(Error::Unsupported(format!("start.way needs method \"potential\", not \"{given}\"")));
-        }
-        let (design, sources) = (self.design()?, self.sources()?);
-        Ok(Compared::new(&design, &sources, self.settings, self.solver, shape_points)?.into())
     }
 }

@@ -20,7 +20,6 @@ use crate::error::{Error, check};
 use crate::magnetics::Assembly;
 use crate::manipulator::Inputs;
 use crate::manipulator::way::{Counts, Way};
-use crate::methods;
 use crate::vessel::Vessel;
 
 /// Relative depth in the wall that a device at rest on it may have by rounding of its numbers.
@@ -85,7 +84,6 @@ impl SceneFile {
         if let Some(vessel) = &vessel {
             fits(&design, vessel, &inputs)?;
         }
-        let solver = methods::Settings { method: self.model.method, ..methods::Settings::default() };
         let settings = self.settings()?;
         self.uncertainty()?;
         let way = Way::new(
@@ -110,7 +108,7 @@ impl SceneFile {
             inputs,
             way,
             settings,
-            solver,
+            method: self.model.method.clone(),
         };
         let sources = scene.sources()?;
         sources.check_apart(|number| {

@@ -3,8 +3,8 @@
 mod scenes;
 
 use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution, TipDeviation};
-use mcm::manipulator::{Outputs, Scene as Read, Status};
-use mcm::methods::Method;
+use mcm::manipulator::{Followed, Outputs, Scene as Read, Status};
+use mcm::methods::{Device, Method};
 use rayon::prelude::*;
 
 use crate::tolerance::{ESTIMATED_MEDIAN, ESTIMATED_SHARE, LEAST_TOLD};
@@ -105,7 +105,7 @@ fn the_degree_rises_with_the_bend_and_falls_again() {
 #[test]
 fn other_methods_tell_none() {
     let mut scene = bent();
-    scene.solver.method = Method::MultipleShooting;
-    let mut manipulator = scene.device(2).unwrap();
+    scene.method = Method::MultipleShooting.name().into();
+    let mut manipulator = Device::of(&scene, 2).unwrap();
     assert!(manipulator.solve(&scene.inputs).unwrap().error_estimate <= 0.0);
 }

@@ -3,6 +3,7 @@
 use mcm::error::Error;
 use mcm::manipulator::output_table::{self, Derivative, OutputRow, Owner, Scope};
 use mcm::manipulator::{Collapse, Jacobian, Outputs};
+use mcm::methods::Method;
 use nalgebra::SMatrix;
 use serde_json::{Value, json};
 
@@ -10,6 +11,7 @@ use crate::verdict;
 
 /// What a solve found.
 pub(super) struct Report<'a> {
+    pub(super) method: Method,
     pub(super) outputs: &'a Outputs,
     /// Why the device closes, if it does.
     pub(super) collapse: Option<&'a Collapse>,
@@ -48,7 +50,7 @@ impl Report<'_> {
             ("iterations", json!(outputs.iterations)),
             ("residual", json!(outputs.residual)),
             ("interaction", json!(outputs.interaction.name())),
-            ("method", json!(outputs.method.name())),
+            ("method", json!(self.method.name())),
             ("jacobian", json!(derivatives)),
             ("jacobian_note", json!(self.jacobian.as_ref().err().map(ToString::to_string))),
         ];

@@ -10,7 +10,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use mcm::error::Error;
-use mcm::manipulator::{Collapse, Manipulator, Outputs, SceneFile};
+use mcm::manipulator::{Collapse, Followed, Manipulator, Outputs, SceneFile};
+use mcm::methods::Device;
 use serde_json::Value;
 
 use self::json::Report;
@@ -74,7 +75,7 @@ impl Solve {
 
         let (level, budget) = (scene.settings.interaction.name(), scene.settings.time_budget);
         let doing = Doing::now(format!("making the models of level {level}"));
-        let mut manipulator = scene.device(self.shape_points)?;
+        let mut manipulator = Device::of(&scene, self.shape_points)?;
         doing.then(format!(
             "solving at level {level}, which may take {budget} s of processor time (model.time_budget_s)"
         ));
@@ -102,8 +103,9 @@ impl Solve {
         print(if self.json {
             let uncertainty = self.uncertainty.then(|| bands.as_ref().map_or(Value::Null, Told::as_json));
             let (magnet, warnings) = (scene.magnets.is_some(), file.warnings()?);
-            let report =
-                Report { outputs: &outputs, collapse, jacobian: &jacobian, magnet, uncertainty, warnings };
+            let method = manipulator.method();
+            let (outputs, jacobian) = (&outputs, &jacobian);
+            let report = Report { method, outputs, collapse, jacobian, magnet, uncertainty, warnings };
             format!("{:#}\n", report.as_json())
         } else {
             let note = bands.as_ref().map_or_else(String::new, Told::note);

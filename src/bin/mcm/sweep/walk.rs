@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 use mcm::error::Error;
-use mcm::manipulator::{Branch, Fold, Inputs, Scene, SceneFile};
+use mcm::manipulator::{Branch, Fold, Followed, Inputs, Scene, SceneFile};
+use mcm::methods::Device;
 use rayon::prelude::*;
 
 use super::journal::{Identity, Journal, Kept, Stage, State};
@@ -155,7 +156,7 @@ impl Steps<'_> {
         let Plan { along, back, .. } = self.plan;
         let others = &self.plan.combinations[self.number];
         let file = self.plan.with(others)?;
-        let manipulator = file.with(&along.key, along.values[0])?.scene()?.device(2)?;
+        let manipulator = Device::of(&file.with(&along.key, along.values[0])?.scene()?, 2)?;
         let inputs = |value| Ok(file.with(&along.key, value)?.scene()?.inputs);
         // With a single value, or equal ones, any span will do.
         let span = if along.span() > 0.0 { along.span() } else { 1.0 };
@@ -217,7 +218,7 @@ impl Steps<'_> {
                 return Ok(None);
             }
             let scene = file.with(&along.key, *value)?.scene()?;
-            let mut manipulator = scene.device(2)?;
+            let mut manipulator = Device::of(&scene, 2)?;
             manipulator.solve(&scene.inputs)?;
             let row = Row::new(
                 self.plan.columns,
@@ -245,7 +246,7 @@ impl Steps<'_> {
     /// Keeps the state after that many rows; a method without a state walks again from its first row.
     fn save<F: Fn(f64) -> Result<Inputs, Error>>(
         &self,
-        branch: &Branch<F>,
+        branch: &Branch<F, Device>,
         rows: usize,
         ways: &[Way],
     ) -> Result<(), Failure> {
@@ -273,6 +274,6 @@ fn in_order(rows: Vec<(usize, Row)>, count: usize) -> Vec<Option<Row>> {
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.solver, &a.vessel, &a.shaft, &a.guidewire)
-        == (&b.specification, &b.magnets, &b.settings, &b.solver, &b.vessel, &b.shaft, &b.guidewire)
+    (&a.specification, &a.magnets, &a.settings, &a.method, &a.vessel, &a.shaft, &a.guidewire)
+        == (&b.specification, &b.magnets, &b.settings, &b.method, &b.vessel, &b.shaft, &b.guidewire)
 }
