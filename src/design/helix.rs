@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::limits;
+use super::quantities::HELIX_WINDING_HEIGHT;
 use super::specification::Helix;
 use crate::error::{Error, check};
 
@@ -76,11 +77,12 @@ impl Helix {
         let winding_angle = self.boundary_angle / self.windings;
         let pitch = self.radius * winding_angle;
         let height = check(
-            "winding height h (m)",
+            HELIX_WINDING_HEIGHT.name,
             (self.length - self.windings * pitch) / (2.0 + self.windings),
             |h| h > 0.0,
             "> 0: the helix length must exceed radius times boundary angle",
-        )?;
+        )
+        .map_err(|error| error.of(&HELIX_WINDING_HEIGHT))?;
         Ok(HelixGeometry {
             winding_angle,
             pitch,

@@ -3,6 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use super::material::DENSEST_PACKING;
+use super::quantities as of;
 use super::specification::{
     Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
 };
@@ -79,39 +80,51 @@ const FIT: f64 = 1e-9;
 
 /// Checks the given quantities of a helix.
 pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
-    LENGTH.check("helix length L (m)", helix.length)?;
-    BOUNDARY_ANGLE.check("boundary angle Theta (rad)", helix.boundary_angle)?;
-    LENGTH.check("helix radius R (m)", helix.radius)?;
-    WINDINGS.check("windings W", helix.windings)?;
-    CORE_OUTER_RADIUS.check_beside("core outer radius r_oc (m)", helix.core_outer_radius, helix.radius)?;
-    CORE_INNER_RADIUS.check_beside(
-        "core inner radius r_ic (m)",
-        helix.core_inner_radius,
-        helix.core_outer_radius,
-    )?;
-    composite(helix.shore_a, helix.poisson, helix.volume_fraction, helix.particle_remanence)?;
-    helix.density.map_or(Ok(()), density)
+    of::HELIX_LENGTH.check(helix.length)?;
+    of::HELIX_BOUNDARY_ANGLE.check(helix.boundary_angle)?;
+    of::HELIX_RADIUS.check(helix.radius)?;
+    of::HELIX_WINDINGS.check(helix.windings)?;
+    of::HELIX_CORE_OUTER_RADIUS.check_beside(helix.core_outer_radius, helix.radius)?;
+    of::HELIX_CORE_INNER_RADIUS.check_beside(helix.core_inner_radius, helix.core_outer_radius)?;
+
+    of::HELIX_SHORE_A.check(helix.shore_a)?;
+    of::HELIX_POISSON.check(helix.poisson)?;
+    of::HELIX_VOLUME_FRACTION.check(helix.volume_fraction)?;
+    of::HELIX_PARTICLE_REMANENCE.check(helix.particle_remanence)?;
+    of::HELIX_DENSITY.check(helix.density.unwrap_or_default()).map(|_| ())
 }
 
 /// Checks the given quantities of the ring magnets.
 pub(super) fn ring(ring: &RingMagnet) -> Result<(), Error> {
-    LENGTH.check("ring length L_mag (m)", ring.length)?;
-    REMANENCE.check("ring remanence B_r (T)", ring.remanence)?;
-    RECOIL_PERMEABILITY.check("ring recoil permeability mu_r", ring.recoil_permeability)?;
-    density(ring.density)
+    of::RING_LENGTH.check(ring.length)?;
+    of::RING_REMANENCE.check(ring.remanence)?;
+    of::RING_RECOIL_PERMEABILITY.check(ring.recoil_permeability)?;
+    of::RING_DENSITY.check(ring.density).map(|_| ())
 }
 
 /// Checks a backbone that runs through bores of radius `bore` (m).
 pub(super) fn backbone(backbone: &Backbone, bore: f64) -> Result<(), Error> {
     let widest = bore * (1.0 + FIT);
-    BACKBONE_OUTER_RADIUS.check_beside("backbone outer radius (m)", backbone.outer_radius, widest)?;
-    tube("backbone", backbone)
+    of::BACKBONE_OUTER.check_beside(backbone.outer_radius, widest)?;
+    of::BACKBONE_INNER.check_beside(backbone.inner_radius, backbone.outer_radius)?;
+    match backbone.modulus {
+        Modulus::ShoreA(hardness) => of::BACKBONE_SHORE_A.check(hardness)?,
+        Modulus::Elastic(modulus) => of::BACKBONE_ELASTIC_MODULUS.check(modulus)?,
+    };
+    of::BACKBONE_POISSON.check(backbone.poisson)?;
+    of::BACKBONE_DENSITY.check(backbone.density).map(|_| ())
 }
 
 /// Checks the tube behind the base.
 pub(super) fn shaft(shaft: &Backbone) -> Result<(), Error> {
-    LENGTH.check("shaft outer radius (m)", shaft.outer_radius)?;
-    tube("shaft", shaft)
+    of::SHAFT_OUTER.check(shaft.outer_radius)?;
+    of::SHAFT_INNER.check_beside(shaft.inner_radius, shaft.outer_radius)?;
+    match shaft.modulus {
+        Modulus::ShoreA(hardness) => of::SHAFT_SHORE_A.check(hardness)?,
+        Modulus::Elastic(modulus) => of::SHAFT_ELASTIC_MODULUS.check(modulus)?,
+    };
+    of::SHAFT_POISSON.check(shaft.poisson)?;
+    of::SHAFT_DENSITY.check(shaft.density).map(|_| ())
 }
 
 /// Checks a guidewire that runs through `lumens`, each with its name and radius (m).
@@ -121,30 +134,17 @@ pub(super) fn guidewire(wire: &Guidewire, lumens: &[(&str, f64)]) -> Result<(), 
             let reason = format!("guidewire: the {body} has no lumen for it, its inner radius is 0");
             return Err(Error::Unsupported(reason));
         }
-        let quantity = "guidewire radius (m)";
-        GUIDEWIRE_RADIUS.check_beside(quantity, wire.radius, *radius).map_err(|_| {
+        of::WIRE_RADIUS.check_beside(wire.radius, *radius).map_err(|_| {
             let allowed = format!("> 0 and < {radius} (inner radius of the {body})");
-            Error::range(quantity, wire.radius, allowed)
+            Error::range(of::WIRE_RADIUS.name, wire.radius, allowed).of(&of::WIRE_RADIUS)
         })?;
     }
-    elastic(wire.elastic_modulus)
-}
-
-/// Checks bore and material of a tube.
-fn tube(name: &str, backbone: &Backbone) -> Result<(), Error> {
-    let quantity = format!("{name} inner radius (m)");
-    TUBE_INNER_RADIUS.check_beside(&quantity, backbone.inner_radius, backbone.outer_radius)?;
-    match backbone.modulus {
-        Modulus::ShoreA(hardness) => shore_a(hardness)?,
-        Modulus::Elastic(modulus) => elastic(modulus)?,
-    }
-    poisson(backbone.poisson)?;
-    density(backbone.density)
+    of::WIRE_ELASTIC_MODULUS.check(wire.elastic_modulus).map(|_| ())
 }
 
 /// Checks a chain of segments.
 pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
-    SEGMENTS.check("number of segments", chain.segments as f64)?;
+    of::NUMBER_OF_SEGMENTS.check(chain.segments as f64)?;
     helix(&chain.helix)?;
     ring(&chain.ring)?;
     spiral_start(&chain.spiral_start, chain.segments)?;
@@ -172,41 +172,21 @@ fn spiral_start(start: &SpiralStart, segments: usize) -> Result<(), Error> {
 
 /// Checks a plain magnetised rod.
 pub(super) fn cylinder(rod: &Cylinder) -> Result<(), Error> {
-    LENGTH.check("cylinder length (m)", rod.length)?;
-    LENGTH.check("cylinder radius (m)", rod.radius)?;
-    ROD_INNER_RADIUS.check_beside("cylinder inner radius (m)", rod.inner_radius, rod.radius)?;
+    of::ROD_LENGTH.check(rod.length)?;
+    of::ROD_RADIUS.check(rod.radius)?;
+    of::ROD_INNER.check_beside(rod.inner_radius, rod.radius)?;
     match rod.material {
         CylinderMaterial::Composite { shore_a, poisson, volume_fraction, particle_remanence } => {
-            composite(shore_a, poisson, volume_fraction, particle_remanence)?;
+            of::ROD_SHORE_A.check(shore_a)?;
+            of::ROD_POISSON.check(poisson)?;
+            of::ROD_VOLUME_FRACTION.check(volume_fraction)?;
+            of::ROD_PARTICLE_REMANENCE.check(particle_remanence)?;
         }
-        CylinderMaterial::Bulk { elastic_modulus, poisson: ratio, remanence: axial } => {
-            elastic(elastic_modulus)?;
-            poisson(ratio)?;
-            REMANENCE.check("cylinder remanence (T)", axial)?;
+        CylinderMaterial::Bulk { elastic_modulus, poisson, remanence } => {
+            of::ROD_ELASTIC_MODULUS.check(elastic_modulus)?;
+            of::ROD_POISSON.check(poisson)?;
+            of::ROD_REMANENCE.check(remanence)?;
         }
     }
-    rod.density.map_or(Ok(()), density)
-}
-
-fn composite(hardness: f64, ratio: f64, volume_fraction: f64, particle_remanence: f64) -> Result<(), Error> {
-    shore_a(hardness)?;
-    poisson(ratio)?;
-    VOLUME_FRACTION.check("volume fraction Phi", volume_fraction)?;
-    REMANENCE.check("particle remanence B_r (T)", particle_remanence).map(|_| ())
-}
-
-fn shore_a(value: f64) -> Result<(), Error> {
-    SHORE_A.check("Shore A hardness", value).map(|_| ())
-}
-
-fn poisson(value: f64) -> Result<(), Error> {
-    POISSON.check("Poisson's ratio", value).map(|_| ())
-}
-
-fn elastic(value: f64) -> Result<(), Error> {
-    ELASTIC_MODULUS.check("Young's modulus (Pa)", value).map(|_| ())
-}
-
-fn density(value: f64) -> Result<(), Error> {
-    DENSITY.check("density (kg/m3)", value).map(|_| ())
+    of::ROD_DENSITY.check(rod.density.unwrap_or_default()).map(|_| ())
 }

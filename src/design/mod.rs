@@ -7,6 +7,7 @@ pub mod limits;
 mod material;
 mod moment;
 mod preset;
+pub mod quantities;
 mod section;
 mod specification;
 pub mod unit_mistake;

@@ -42,6 +42,7 @@ mod pool;
 mod potential;
 mod predict;
 mod pushed_margin;
+pub mod quantities;
 mod refinement;
 mod report;
 mod response;

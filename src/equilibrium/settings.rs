@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::quantities;
 use crate::error::{Error, check};
 
 /// Level of magnetic interaction inside the manipulator. Its number is that of the FMU's enumeration.
@@ -154,14 +155,12 @@ impl Settings {
     /// [`Error::Range`] naming the first setting out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let positive = |value: f64| value > 0.0;
-        check("tolerance of the tip position", self.tolerance_position, positive, "> 0 m")?;
-        check("tolerance of the tip angle", self.tolerance_angle, positive, "> 0 rad")?;
-        check(
-            "relative tolerance of the tip position",
-            self.tolerance_relative,
-            |v| (0.0..=1.0).contains(&v),
-            "from 0 to 1",
-        )?;
+        quantities::TOLERANCE_POSITION.check(self.tolerance_position)?;
+        quantities::TOLERANCE_ANGLE.check(self.tolerance_angle)?;
+        quantities::TOLERANCE_RELATIVE.check(self.tolerance_relative)?;
+        quantities::ITERATIONS.check(f64::from(self.iterations))?;
+        quantities::TIME_BUDGET.check(self.time_budget)?;
+
         check("degree of the strain modes", self.degree as f64, |v| v <= 8.0, "from 0 to 8")?;
         check(
             "number of cylinder elements",
@@ -189,8 +188,6 @@ impl Settings {
             |v| (0.0..1.0).contains(&v),
             "in [0, 1)",
         )?;
-        check("number of iterations", f64::from(self.iterations), |v| v >= 1.0, ">= 1")?;
-        check("processor time of a solve", self.time_budget, positive, "> 0 s")?;
         Ok(self)
     }
 }

@@ -1,8 +1,11 @@
 //! The one public error: what was wrong, with which value, and what is allowed.
 
 mod interval;
+mod quantity;
 
 pub use interval::Interval;
+pub(crate) use quantity::quantities;
+pub use quantity::{Identity, Quantity};
 
 /// Everything that this crate refuses.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -17,6 +20,8 @@ pub enum Error {
         value: f64,
         /// The allowed range in words.
         allowed: String,
+        /// Which number of a scene it is; `None` for what no scene holds as it is.
+        identity: Option<Identity>,
     },
     /// A list has the wrong number of entries.
     #[error("{quantity} has {given} entries, expected {expected}")]
@@ -65,7 +70,7 @@ fn in_lines(errors: &[Error]) -> String {
 impl Error {
     /// An [`Error::Range`] for `quantity`.
     pub fn range(quantity: impl Into<String>, value: f64, allowed: impl Into<String>) -> Self {
-        Self::Range { quantity: quantity.into(), value, allowed: allowed.into() }
+        Self::Range { quantity: quantity.into(), value, allowed: allowed.into(), identity: None }
     }
 
     /// The error with these coordinates (m) of its point, in the frame in which it was given.

@@ -257,7 +257,7 @@ impl Instance {
             manipulator
         } else {
             let made = now.host_values.manipulator(self.package.table().counts().shape_points);
-            made.map_err(|error| self.package.table().named(error, &now.host_values))?
+            made.map_err(|error| self.package.table().named(error))?
         };
         let first = now.state == State::Initialization;
         let before = first.then(|| manipulator.clone());
@@ -280,7 +280,7 @@ impl Instance {
         let settings = &now.host_values.settings;
         manipulator.set_tolerance(TipTolerance::of(settings))?;
         let friction = manipulator.set_friction(now.host_values.friction);
-        friction.map_err(|error| self.package.table().named(error, &now.host_values))?;
+        friction.map_err(|error| self.package.table().named(error))?;
 
         let snaps = manipulator.outputs().snaps;
         let outputs = manipulator.follow(waypoints, now.snaps)?;

@@ -16,7 +16,6 @@ mod sources;
 mod vessel;
 
 use super::host_values::HostValues;
-use super::value::Value;
 use super::variable::{Causality, Variable};
 use crate::design::SpanKind;
 use crate::design::unit_mistake::UnitRule;
@@ -119,29 +118,20 @@ impl Table {
         self.variables.get(usize::try_from(reference).ok()?)
     }
 
-    /// The same error with the name of the parameter at fault, as far as its value and words of its name tell which one that is.
+    /// The error with the name of the parameter at fault, where it is about one of these.
     #[must_use]
-    pub fn named(&self, error: Error, values: &HostValues) -> Error {
-        let Error::Range { quantity, value, allowed } = &error else { return error };
-        let own = |variable: &Variable| variable.host_value(values).and_then(Value::real);
-        let mut found: Vec<&Variable> = (self.variables.iter())
-            .filter(|variable| variable.causality == Causality::Parameter)
-            .filter(|variable| own(variable).is_some_and(|own| own.total_cmp(value).is_eq()))
-            .collect();
-        if found.len() > 1 {
-            let said = quantity.to_lowercase();
-            let alike =
-                |name: &str| name.split(['.', '_', '[']).any(|word| word.len() > 3 && said.contains(word));
-            found.retain(|variable| alike(&variable.name));
+    pub fn named(&self, error: Error) -> Error {
+        let Error::Range { quantity, value, allowed, identity: Some(identity) } = &error else {
+            return error;
+        };
+        let name = identity.variable();
+        if self.reference(&name).is_none() {
+            return error;
         }
-        match found[..] {
-            [only] => {
-                let guess = UnitRule::of(&only.name).and_then(|rule| rule.guess(*value, 1.0));
-                let guess = guess.map_or_else(String::new, |guess| format!("; {guess}"));
-                Error::range(format!("{} ({quantity})", only.name), *value, format!("{allowed}{guess}"))
-            }
-            _ => error,
-        }
+
+        let guess = UnitRule::of(&name).and_then(|rule| rule.guess(*value, 1.0));
+        let guess = guess.map_or_else(String::new, |guess| format!("; {guess}"));
+        Error::range(format!("{name} ({quantity})"), *value, format!("{allowed}{guess}"))
     }
 
     /// Parameters that are allowed, but look as if they were given in another unit, each in a sentence that begins with its name; but for

@@ -10,8 +10,8 @@ use super::coil::Coil;
 use super::edge::{FIELD, GRADIENT, HESSIAN};
 use super::iron_core::IronCore;
 use super::jet::Jet;
-use super::limits::MAGNET_OFFSET;
 use super::overlap::{Outline, depth};
+use super::quantities::OFFSET;
 use super::winding::Winding;
 use crate::error::Error;
 use crate::geometry::Pose;
@@ -77,14 +77,11 @@ impl Assembly {
             });
         }
         let mut sources = Vec::with_capacity(magnets.len());
-        for magnet in &magnets {
-            MAGNET_OFFSET.check("magnet offset (m)", magnet.offset)?;
-            sources.push(AxialSource::new(
-                magnet.inner_radius,
-                magnet.radius,
-                magnet.length,
-                magnet.remanence,
-            )?);
+        for (number, magnet) in (1..).zip(&magnets) {
+            let AxialMagnet { inner_radius, radius, length, offset, remanence } = *magnet;
+            let source =
+                OFFSET.check(offset).and_then(|_| AxialSource::new(inner_radius, radius, length, remanence));
+            sources.push(source.map_err(|error| error.of_item(number))?);
         }
         for (index, first) in magnets.iter().enumerate() {
             let body = |magnet: &AxialMagnet| Outline::new(magnet.inner_radius, magnet.radius, magnet.length);

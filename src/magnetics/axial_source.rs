@@ -5,10 +5,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::axisymmetric::{Components, Meridian};
 use super::edge::{Edges, FIELD, GRADIENT, HESSIAN};
 use super::jet::Jet;
-use super::limits::{MAGNET_INNER_RADIUS, MAGNET_REMANENCE, SIZE};
 use super::multipole::{Multipole, TERMS};
 use super::overlap::Outline;
 use super::points::Edge;
+use super::quantities::{MAGNET_INNER, MAGNET_LENGTH, MAGNET_OUTER, REMANENCE};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
@@ -67,10 +67,10 @@ impl AxialSource {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn new(inner: f64, outer: f64, length: f64, remanence: f64) -> Result<Self, Error> {
-        SIZE.check("magnet outer radius (m)", outer)?;
-        MAGNET_INNER_RADIUS.check_beside("magnet inner radius (m)", inner, outer)?;
-        SIZE.check("magnet length (m)", length)?;
-        MAGNET_REMANENCE.check("magnet remanence (T)", remanence)?;
+        MAGNET_OUTER.check(outer)?;
+        MAGNET_INNER.check_beside(inner, outer)?;
+        MAGNET_LENGTH.check(length)?;
+        REMANENCE.check(remanence)?;
         let half = 0.5 * length;
         let edges = if inner > 0.0 {
             SourceEdges::Ring(Edges {

@@ -1,7 +1,7 @@
 //! A coil: the dimensions of its winding, and its core.
 
 use super::iron_core::IronCore;
-use super::limits::{COIL_INNER_RADIUS, COIL_TURNS, SIZE};
+use super::quantities::{COIL_INNER, COIL_LENGTH, COIL_OUTER, TURNS};
 use crate::error::Error;
 
 /// A thick solenoid: a winding of rectangular section whose turns fill it evenly, about its frame's `z`, centred at
@@ -29,10 +29,10 @@ impl Coil {
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let Self { inner_radius, outer_radius, length, turns, core } = self;
-        SIZE.check("coil outer radius (m)", outer_radius)?;
-        COIL_INNER_RADIUS.check_beside("coil inner radius (m)", inner_radius, outer_radius)?;
-        SIZE.check("coil length (m)", length)?;
-        COIL_TURNS.check("coil turns", turns)?;
+        COIL_OUTER.check(outer_radius)?;
+        COIL_INNER.check_beside(inner_radius, outer_radius)?;
+        COIL_LENGTH.check(length)?;
+        TURNS.check(turns)?;
         core.map_or(Ok(self), |core| core.checked().map(|_| self))
     }
 }

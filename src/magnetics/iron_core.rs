@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::axisymmetric::{Components, Meridian};
-use super::limits::{COIL_MULTIPOLE, SIZE};
 use super::multipole::{MOST_DEGREES, of_coefficients};
+use super::quantities::{MULTIPOLE, REACH};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
@@ -52,9 +52,9 @@ impl IronCore {
 
     /// Checks the numbers.
     pub(super) fn checked(self) -> Result<Self, Error> {
-        SIZE.check("coil reach (m)", self.reach)?;
+        REACH.check(self.reach)?;
         for coefficient in self.multipoles {
-            COIL_MULTIPOLE.check("coil multipole (T m^(l+2)/A)", coefficient)?;
+            MULTIPOLE.check(coefficient)?;
         }
         if self.multipoles.iter().all(|coefficient| *coefficient == 0.0) {
             return Err(Error::Unsupported(

@@ -19,6 +19,7 @@ mod mutual;
 mod overlap;
 mod pair_table;
 mod points;
+pub mod quantities;
 mod sheet;
 mod sheet_lanes;
 mod sources;

@@ -1,20 +1,18 @@
 //! Coulomb's law of friction, smoothed where it changes from sticking to sliding.
 
-use crate::error::{Error, Interval};
+use super::quantities::FRICTION;
+use crate::error::Error;
 
 /// Tangential displacement (m) over which friction builds up: sticking contacts give way by up to this much. It is well below what
 /// matters of a device of millimetres, and above what the solver leaves undetermined of its shape.
 pub const GIVE: f64 = 10e-6;
-
-/// Allowed coefficients of friction.
-pub const COEFFICIENT: Interval = Interval::at_least(0.0).at_most(10.0);
 
 /// Checks a coefficient of friction and returns it.
 ///
 /// # Errors
 /// [`Error::Range`] unless it is from 0 to 10.
 pub fn checked(coefficient: f64) -> Result<f64, Error> {
-    COEFFICIENT.check("vessel friction", coefficient)
+    FRICTION.check(coefficient)
 }
 
 /// Energy (m) of friction for a unit friction force at this slip `y` (m), its slope over `y` (1/m), and its second derivative

@@ -8,6 +8,7 @@ pub mod friction;
 mod grid;
 mod lumen;
 mod mesh;
+pub mod quantities;
 mod sampling;
 #[cfg(feature = "stl")]
 mod stl;

@@ -3,7 +3,8 @@
 use core::f64::consts::SQRT_2;
 
 use super::friction;
-use crate::error::{Error, Interval};
+use super::quantities::WALL_MODULUS;
+use crate::error::Error;
 use crate::numerics::onset::onset;
 
 /// Poisson's ratio of the wall: soft tissue and silicone keep their volume.
@@ -39,15 +40,12 @@ pub struct Wall {
 }
 
 impl Wall {
-    /// Allowed Young's moduli, Pa.
-    pub const MODULUS: Interval = Interval::at_least(1e3).at_most(1e12);
-
     /// A wall with this Young's modulus, Pa.
     ///
     /// # Errors
     /// [`Error::Range`] unless it is from 1e3 to 1e12 Pa.
     pub fn new(modulus: f64) -> Result<Self, Error> {
-        let modulus = Self::MODULUS.check("vessel wall modulus (Pa)", modulus)?;
+        let modulus = WALL_MODULUS.check(modulus)?;
         Ok(Self { modulus, friction: 0.0 })
     }
 

@@ -131,7 +131,7 @@ fn a_time_budget_that_is_none_is_refused() {
     instance.enter_initialization();
     assert_eq!(set(&mut instance, package.table(), "model.time_budget", 0.0), Ending::Ok);
     assert_eq!(instance.exit_initialization(), Ending::Error);
-    assert!(last(&told).contains("model.time_budget (processor time of a solve) = 0"), "{}", last(&told));
+    assert!(last(&told).contains("model.time_budget (processor time of a solve (s)) = 0"), "{}", last(&told));
     assert_eq!(set(&mut instance, package.table(), "model.time_budget", 0.5), Ending::Ok);
     assert_eq!(instance.exit_initialization(), Ending::Ok, "{}", last(&told));
 }

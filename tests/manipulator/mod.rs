@@ -11,6 +11,7 @@ mod jacobian;
 mod long_discs;
 mod near_fold;
 
+mod quantities;
 mod ranges;
 mod refusals;
 mod scene;

@@ -11,7 +11,7 @@ use super::rows::{Draft, Rows};
 use super::{Counts, access};
 use crate::design::CylinderMaterial::{self, Bulk, Composite};
 use crate::design::Specification::{Cylinder, Segmented};
-use crate::design::{self, DENSEST_PACKING, MOST_PERMEABLE, Modulus, SpiralKind};
+use crate::design::{self, Modulus, SpiralKind, quantities as of};
 
 /// How the spirals are arranged.
 static SPIRAL: Enumeration = Enumeration {
@@ -42,7 +42,7 @@ macro_rules! design_access {
     };
 }
 
-/// The same for a density that is optional: 0 stands for the density that follows from the composition.
+/// Reads and sets a density that is optional: 0 stands for the density that follows from the composition.
 macro_rules! density_access {
     ($design:pat => $density:expr) => {
         Access::Real {
@@ -87,36 +87,29 @@ impl Rows {
     }
 
     fn helix(&mut self) {
-        let helix_length = design_access!(Segmented(s) => s.helix.length);
-        let draft = length("design.helix.length", "Length of each helix", helix_length);
-        self.scalar(draft.known(Known::BodyLength));
-        let boundary_angle = design_access!(Segmented(s) => s.helix.boundary_angle);
-        let description = "Bending angle of a segment at which adjacent windings touch";
-        let draft = Draft::parameter("design.helix.boundary_angle", ANGLE, description, boundary_angle);
-        self.scalar(draft.min(0.0));
-        let radius = design_access!(Segmented(s) => s.helix.radius);
-        self.scalar(length("design.helix.radius", "Outer radius of helix and rings", radius));
-        let windings = design_access!(Segmented(s) => s.helix.windings);
-        let draft = Draft::parameter("design.helix.windings", RATIO, "Windings of each helix", windings);
-        self.scalar(draft.min(1.0));
-        let core_outer = design_access!(Segmented(s) => s.helix.core_outer_radius);
-        let description = "Outer radius of the core cylinder";
-        self.scalar(length("design.helix.core_outer_radius", description, core_outer));
-        let core_inner = design_access!(Segmented(s) => s.helix.core_inner_radius);
-        let description = "Inner radius of core cylinder, discs and rings";
-        self.scalar(length("design.helix.core_inner_radius", description, core_inner));
-        let hardness = design_access!(Segmented(s) => s.helix.shore_a);
-        self.scalar(shore("design.helix.shore_a", "Shore A hardness of the elastomer", hardness));
-        let ratio = design_access!(Segmented(s) => s.helix.poisson);
-        self.scalar(poisson("design.helix.poisson", ratio));
-        let fraction = design_access!(Segmented(s) => s.helix.volume_fraction);
-        self.scalar(volume_fraction("design.helix.volume_fraction", fraction));
+        let length = design_access!(Segmented(s) => s.helix.length);
+        self.scalar(Draft::holding(&of::HELIX_LENGTH, LENGTH, length).known(Known::BodyLength));
+        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        number(&of::HELIX_BOUNDARY_ANGLE, ANGLE, design_access!(Segmented(s) => s.helix.boundary_angle));
+        number(&of::HELIX_RADIUS, LENGTH, design_access!(Segmented(s) => s.helix.radius));
+        number(&of::HELIX_WINDINGS, RATIO, design_access!(Segmented(s) => s.helix.windings));
+        number(
+            &of::HELIX_CORE_OUTER_RADIUS,
+            LENGTH,
+            design_access!(Segmented(s) => s.helix.core_outer_radius),
+        );
+        number(
+            &of::HELIX_CORE_INNER_RADIUS,
+            LENGTH,
+            design_access!(Segmented(s) => s.helix.core_inner_radius),
+        );
+
+        number(&of::HELIX_SHORE_A, HARDNESS, design_access!(Segmented(s) => s.helix.shore_a));
+        number(&of::HELIX_POISSON, RATIO, design_access!(Segmented(s) => s.helix.poisson));
+        number(&of::HELIX_VOLUME_FRACTION, RATIO, design_access!(Segmented(s) => s.helix.volume_fraction));
         let particles = design_access!(Segmented(s) => s.helix.particle_remanence);
-        let description = "Remanence of the magnetic particles";
-        self.scalar(remanence("design.helix.particle_remanence", description, particles));
-        let composite = density_access!(Segmented(s) => s.helix.density);
-        let description = "Density of the composite; 0: by its volume fraction";
-        self.scalar(density("design.helix.density", description, composite));
+        number(&of::HELIX_PARTICLE_REMANENCE, REMANENCE, particles);
+        number(&of::HELIX_DENSITY, DENSITY, density_access!(Segmented(s) => s.helix.density));
     }
 
     fn spiral(&mut self, segments: usize) {
@@ -160,18 +153,13 @@ impl Rows {
     }
 
     fn ring(&mut self) {
-        let ring_length = design_access!(Segmented(s) => s.ring.length);
-        let draft = length("design.ring.length", "Length of each ring magnet", ring_length);
-        self.scalar(draft.known(Known::RingLength));
-        let of_rings = design_access!(Segmented(s) => s.ring.remanence);
-        self.scalar(remanence("design.ring.remanence", "Remanence of the ring magnets", of_rings));
+        let length = design_access!(Segmented(s) => s.ring.length);
+        self.scalar(Draft::holding(&of::RING_LENGTH, LENGTH, length).known(Known::RingLength));
+        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        number(&of::RING_REMANENCE, REMANENCE, design_access!(Segmented(s) => s.ring.remanence));
         let permeability = design_access!(Segmented(s) => s.ring.recoil_permeability);
-        let description = "Relative recoil permeability of the ring magnets; 1.05 for sintered NdFeB, 1: not weakened by \
-                           their own field";
-        let draft = Draft::parameter("design.ring.recoil_permeability", RATIO, description, permeability);
-        self.scalar(draft.min(1.0).max(MOST_PERMEABLE));
-        let of_rings = design_access!(Segmented(s) => s.ring.density);
-        self.scalar(density("design.ring.density", "Density of the ring magnets", of_rings));
+        number(&of::RING_RECOIL_PERMEABILITY, RATIO, permeability);
+        number(&of::RING_DENSITY, DENSITY, design_access!(Segmented(s) => s.ring.density));
     }
 
     fn backbone(&mut self, stiffness: &Modulus) {
@@ -181,104 +169,67 @@ impl Rows {
         };
         let description = "Whether a tube runs through all bodies";
         self.scalar(Draft::parameter("design.backbone.present", DataType::Boolean, description, present));
-        let outer_radius = access!(|values| values.backbone.outer_radius);
-        self.scalar(length("design.backbone.outer_radius", "Outer radius", outer_radius));
-        let inner_radius = access!(|values| values.backbone.inner_radius);
-        self.scalar(length("design.backbone.inner_radius", "Inner radius", inner_radius));
+
+        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        number(&of::BACKBONE_OUTER, LENGTH, access!(|values| values.backbone.outer_radius));
+        number(&of::BACKBONE_INNER, LENGTH, access!(|values| values.backbone.inner_radius));
         // The packed design states its stiffness in one of two ways, and the variable is named after that one.
-        self.scalar(match stiffness {
-            Modulus::ShoreA(_) => shore(
-                "design.backbone.shore_a",
-                "Shore A hardness",
-                Access::Real {
-                    get: |values, _| match values.backbone.modulus {
-                        Modulus::ShoreA(value) | Modulus::Elastic(value) => value,
-                    },
-                    set: |values, _, value| values.backbone.modulus = Modulus::ShoreA(value),
-                },
-            ),
-            Modulus::Elastic(_) => modulus(
-                "design.backbone.elastic_modulus",
-                Access::Real {
-                    get: |values, _| match values.backbone.modulus {
-                        Modulus::ShoreA(value) | Modulus::Elastic(value) => value,
-                    },
-                    set: |values, _, value| values.backbone.modulus = Modulus::Elastic(value),
-                },
-            ),
-        });
-        self.scalar(poisson("design.backbone.poisson", access!(|values| values.backbone.poisson)));
-        self.scalar(density("design.backbone.density", "Density", access!(|values| values.backbone.density)));
+        let get = |values: &HostValues, _| match values.backbone.modulus {
+            Modulus::ShoreA(value) | Modulus::Elastic(value) => value,
+        };
+        match stiffness {
+            Modulus::ShoreA(_) => {
+                let set =
+                    |values: &mut HostValues, _, value| values.backbone.modulus = Modulus::ShoreA(value);
+                number(&of::BACKBONE_SHORE_A, HARDNESS, Access::Real { get, set });
+            }
+            Modulus::Elastic(_) => {
+                let set =
+                    |values: &mut HostValues, _, value| values.backbone.modulus = Modulus::Elastic(value);
+                number(&of::BACKBONE_ELASTIC_MODULUS, MODULUS, Access::Real { get, set });
+            }
+        }
+        number(&of::BACKBONE_POISSON, RATIO, access!(|values| values.backbone.poisson));
+        number(&of::BACKBONE_DENSITY, DENSITY, access!(|values| values.backbone.density));
     }
 
     fn cylinder(&mut self, material: &CylinderMaterial) {
         use design::Cylinder as Rod;
-        let rod_length = design_access!(Cylinder(c) => c.length);
-        self.scalar(length("design.cylinder.length", "Length", rod_length).known(Known::BodyLength));
-        let radius = design_access!(Cylinder(c) => c.radius);
-        self.scalar(length("design.cylinder.radius", "Outer radius", radius));
-        let inner_radius = design_access!(Cylinder(c) => c.inner_radius);
-        self.scalar(length("design.cylinder.inner_radius", "Inner radius", inner_radius));
+
+        let length = design_access!(Cylinder(c) => c.length);
+        self.scalar(Draft::holding(&of::ROD_LENGTH, LENGTH, length).known(Known::BodyLength));
+        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        number(&of::ROD_RADIUS, LENGTH, design_access!(Cylinder(c) => c.radius));
+        number(&of::ROD_INNER, LENGTH, design_access!(Cylinder(c) => c.inner_radius));
         match material {
             Composite { .. } => {
                 let hardness =
                     design_access!(Cylinder(Rod { material: Composite { shore_a, .. }, .. }) => *shore_a);
-                self.scalar(shore("design.cylinder.shore_a", "Shore A hardness of the elastomer", hardness));
+                number(&of::ROD_SHORE_A, HARDNESS, hardness);
                 let ratio =
                     design_access!(Cylinder(Rod { material: Composite { poisson, .. }, .. }) => *poisson);
-                self.scalar(poisson("design.cylinder.poisson", ratio));
+                number(&of::ROD_POISSON, RATIO, ratio);
                 let fraction = design_access!(
                     Cylinder(Rod { material: Composite { volume_fraction, .. }, .. }) => *volume_fraction
                 );
-                self.scalar(volume_fraction("design.cylinder.volume_fraction", fraction));
+                number(&of::ROD_VOLUME_FRACTION, RATIO, fraction);
                 let particles = design_access!(
                     Cylinder(Rod { material: Composite { particle_remanence, .. }, .. }) => *particle_remanence
                 );
-                let description = "Remanence of the magnetic particles";
-                self.scalar(remanence("design.cylinder.particle_remanence", description, particles));
+                number(&of::ROD_PARTICLE_REMANENCE, REMANENCE, particles);
             }
             Bulk { .. } => {
                 let elastic_modulus = design_access!(
                     Cylinder(Rod { material: Bulk { elastic_modulus, .. }, .. }) => *elastic_modulus
                 );
-                self.scalar(modulus("design.cylinder.elastic_modulus", elastic_modulus));
+                number(&of::ROD_ELASTIC_MODULUS, MODULUS, elastic_modulus);
                 let ratio = design_access!(Cylinder(Rod { material: Bulk { poisson, .. }, .. }) => *poisson);
-                self.scalar(poisson("design.cylinder.poisson", ratio));
+                number(&of::ROD_POISSON, RATIO, ratio);
                 let axial =
                     design_access!(Cylinder(Rod { material: Bulk { remanence, .. }, .. }) => *remanence);
-                self.scalar(remanence("design.cylinder.remanence", "Remanence along the axis", axial));
+                number(&of::ROD_REMANENCE, REMANENCE, axial);
             }
         }
-        let of_rod = density_access!(Cylinder(c) => c.density);
-        self.scalar(density("design.cylinder.density", "Density; 0: by the material's rule", of_rod));
+        number(&of::ROD_DENSITY, DENSITY, density_access!(Cylinder(c) => c.density));
     }
-}
-
-fn length(name: &str, description: &str, access: Access) -> Draft {
-    Draft::parameter(name, LENGTH, description, access).min(0.0)
-}
-
-fn shore(name: &str, description: &str, access: Access) -> Draft {
-    Draft::parameter(name, HARDNESS, description, access).min(0.0).max(100.0)
-}
-
-fn modulus(name: &str, access: Access) -> Draft {
-    Draft::parameter(name, MODULUS, "Young's modulus", access).min(0.0)
-}
-
-fn poisson(name: &str, access: Access) -> Draft {
-    Draft::parameter(name, RATIO, "Poisson's ratio", access).min(0.0).max(0.5)
-}
-
-fn volume_fraction(name: &str, access: Access) -> Draft {
-    let description = "Volume fraction of magnetic particles";
-    Draft::parameter(name, RATIO, description, access).min(0.0).max(DENSEST_PACKING)
-}
-
-fn remanence(name: &str, description: &str, access: Access) -> Draft {
-    Draft::parameter(name, REMANENCE, description, access)
-}
-
-fn density(name: &str, description: &str, access: Access) -> Draft {
-    Draft::parameter(name, DENSITY, description, access).min(0.0)
 }

@@ -9,6 +9,8 @@ use super::super::variable::Access;
 use super::access;
 use super::rows::{Draft, Rows};
 use crate::equilibrium::Interaction;
+use crate::equilibrium::quantities::{TIME_BUDGET, TOLERANCE_ANGLE, TOLERANCE_POSITION, TOLERANCE_RELATIVE};
+use crate::magnetics::quantities as of;
 use crate::manipulator::Input;
 
 /// Level of local interaction.
@@ -39,21 +41,15 @@ impl Rows {
     }
 
     fn magnet(&mut self, item: usize) {
-        let mut row = |part: &str, quantity, description, min: Option<f64>, access| {
-            let name = format!("magnet.design.cylinder[{}].{part}", item + 1);
-            let draft = Draft::parameter(name, quantity, description, access);
-            self.scalar_of(item, min.into_iter().fold(draft, Draft::min).known(Known::Source));
+        let mut number = |quantity, unit, access| {
+            let draft = Draft::holding(quantity, unit, access).of_item(item).known(Known::Source);
+            self.scalar_of(item, draft);
         };
-        let radius = access!(|values, index| values.magnets[index.item].radius);
-        row("radius", LENGTH, "Outer radius", Some(0.0), radius);
-        let inner_radius = access!(|values, index| values.magnets[index.item].inner_radius);
-        row("inner_radius", LENGTH, "Inner radius", Some(0.0), inner_radius);
-        let length = access!(|values, index| values.magnets[index.item].length);
-        row("length", LENGTH, "Length along the axis", Some(0.0), length);
-        let offset = access!(|values, index| values.magnets[index.item].offset);
-        row("offset", LENGTH, "Position of its centre along the assembly's axis", None, offset);
-        let remanence = access!(|values, index| values.magnets[index.item].remanence);
-        row("remanence", REMANENCE, "Remanence along the axis", None, remanence);
+        number(&of::MAGNET_OUTER, LENGTH, access!(|values, index| values.magnets[index.item].radius));
+        number(&of::MAGNET_INNER, LENGTH, access!(|values, index| values.magnets[index.item].inner_radius));
+        number(&of::MAGNET_LENGTH, LENGTH, access!(|values, index| values.magnets[index.item].length));
+        number(&of::OFFSET, LENGTH, access!(|values, index| values.magnets[index.item].offset));
+        number(&of::REMANENCE, REMANENCE, access!(|values, index| values.magnets[index.item].remanence));
     }
 
     fn model_parameters(&mut self) {
@@ -69,21 +65,14 @@ impl Rows {
             (DataType::Enumeration(&INTERACTION), "Level of local magnetic interaction");
         self.scalar(Draft::parameter("model.interaction", data_type, description, interaction));
 
+        let mut tolerance = |quantity, unit, access| {
+            self.scalar(Draft::holding(quantity, unit, access).tunable().known(Known::Accuracy));
+        };
         let position = access!(|values| values.settings.tolerance_position);
-        let description = "How far the tip may be from the converged answer of the model; the relative tolerance may ask for less";
-        let draft = Draft::parameter("model.tolerance_position", LENGTH, description, position);
-        self.scalar(draft.min(0.0).tunable().known(Known::Accuracy));
-
-        let angle = access!(|values| values.settings.tolerance_angle);
-        let description = "How far the tip may be turned against the converged answer of the model";
-        let draft = Draft::parameter("model.tolerance_angle", ANGLE, description, angle);
-        self.scalar(draft.min(0.0).tunable().known(Known::Accuracy));
-
+        tolerance(&TOLERANCE_POSITION, LENGTH, position);
+        tolerance(&TOLERANCE_ANGLE, ANGLE, access!(|values| values.settings.tolerance_angle));
         let relative = access!(|values| values.settings.tolerance_relative);
-        let description = "How far the tip may be from the converged answer of the model, relative to its distance from its \
-                           unloaded place; 0: the other two alone count";
-        let draft = Draft::parameter("model.tolerance_relative", RATIO, description, relative);
-        self.scalar(draft.min(0.0).max(1.0).tunable().known(Known::Accuracy));
+        tolerance(&TOLERANCE_RELATIVE, RATIO, relative);
 
         let bending_stop = Access::Boolean {
             get: |values| values.settings.has_bending_stop(),
@@ -94,8 +83,6 @@ impl Rows {
         self.scalar(Draft::parameter("model.bending_stop", DataType::Boolean, description, bending_stop));
 
         let budget = access!(|values| values.settings.time_budget);
-        let description = "Processor time that a solve may take before it ends as out of budget";
-        let draft = Draft::parameter("model.time_budget", TIME, description, budget);
-        self.scalar(draft.min(0.0).known(Known::Accuracy));
+        self.scalar(Draft::holding(&TIME_BUDGET, TIME, budget).known(Known::Accuracy));
     }
 }

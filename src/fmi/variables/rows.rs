@@ -1,10 +1,13 @@
 //! Rows while the table is being written: scalars and arrays from drafts.
 
+use core::ops::Bound::{self, Excluded, Included, Unbounded};
+
 use super::super::dependency::{Dependency, Known};
 use super::super::derivative_role::DerivativeRole;
 use super::super::units::{QUATERNION, Quantity};
 use super::super::value::{DataType, Value};
 use super::super::variable::{Access, Availability, Causality, Index, Variability, Variable};
+use crate::error;
 
 /// A row before it is known which element of which array it becomes.
 ///
@@ -46,6 +49,11 @@ impl Draft {
         self
     }
 
+    /// The draft with the number of an item, counted from 0, in place of `*` in its name.
+    pub(super) fn of_item(self, item: usize) -> Self {
+        self.with(|row| row.name = row.name.replace('*', &(item + 1).to_string()))
+    }
+
     fn tagged(self, causality: Causality, variability: Variability) -> Self {
         self.with(|row| (row.causality, row.variability) = (causality, variability))
     }
@@ -75,6 +83,21 @@ impl Draft {
     ) -> Self {
         let row = Self::new(name, data_type.into(), description, access);
         row.tagged(Causality::Parameter, Variability::Fixed)
+    }
+
+    /// A fixed parameter that holds this quantity, in this unit.
+    pub(super) fn holding(
+        quantity: &'static error::Quantity,
+        unit: impl Into<DataType>,
+        access: Access,
+    ) -> Self {
+        let limit = |bound: Bound<f64>| match bound {
+            Included(limit) | Excluded(limit) => Some(limit),
+            Unbounded => None,
+        };
+        let (min, max) = (limit(quantity.interval.low), limit(quantity.interval.high));
+        let row = Self::parameter(quantity.variable, unit, quantity.description, access);
+        row.with(|row| (row.min, row.max) = (min, max))
     }
 
     /// A result without derivatives: it is local, since some hosts read every output as a Real and ask for its derivatives.

@@ -9,6 +9,7 @@ use super::super::variable::Access;
 use super::access;
 use super::rows::{Draft, Rows};
 use crate::manipulator::{FeedMode, Input};
+use crate::vessel::quantities::{FRICTION, WALL_MODULUS};
 
 /// How the device is held at its base.
 static FEED: Enumeration = Enumeration {
@@ -78,13 +79,9 @@ impl Rows {
         }
         if start.vessel.is_some() {
             let modulus = access!(|values| values.wall_modulus);
-            let draft =
-                Draft::parameter("vessel.wall_modulus", MODULUS, "Young's modulus of the wall", modulus);
-            self.scalar(draft.min(0.0));
+            self.scalar(Draft::holding(&WALL_MODULUS, MODULUS, modulus));
             let friction = access!(|values| values.friction);
-            let description = "Coefficient of Coulomb friction between the device and the wall";
-            let draft = Draft::parameter("vessel.friction", RATIO, description, friction);
-            self.scalar(draft.min(0.0).max(10.0).tunable().known(Known::Friction));
+            self.scalar(Draft::holding(&FRICTION, RATIO, friction).tunable().known(Known::Friction));
         }
     }
 }

@@ -103,7 +103,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for an empty list.
     pub fn assembly(&self) -> Result<Option<Assembly>, Error> {
-        self.magnets.clone().map(Assembly::new).transpose()
+        self.magnets.clone().map(Assembly::new).transpose().map_err(|error| error.of_item(1))
     }
 
     /// The checked field sources: the external magnet, further magnets and coils.
@@ -111,8 +111,12 @@ impl Scene {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for too many sources or a magnet without cylinders.
     pub fn sources(&self) -> Result<Sources, Error> {
-        let magnets = self.further_magnets.iter().cloned().map(Assembly::new);
-        let coils = self.coils.iter().copied().map(Assembly::of_coil);
+        let magnets = (2..)
+            .zip(&self.further_magnets)
+            .map(|(number, magnets)| Assembly::new(magnets.clone()).map_err(|error| error.of_item(number)));
+        let coils = (1..)
+            .zip(&self.coils)
+            .map(|(number, coil)| Assembly::of_coil(*coil).map_err(|error| error.of_item(number)));
         Sources::new(self.assembly()?, magnets.chain(coils).collect::<Result<_, _>>()?)
     }
 

@@ -15,21 +15,6 @@ pub(super) const INSERTION: Interval = Interval::at_least(0.0).at_most(1000.0);
 /// Reach of the guidewire from the port, mm.
 pub(super) const GUIDEWIRE_INSERTION: Interval = Interval::at_least(0.0).at_most(2000.0);
 
-/// Tolerance of the tip position, mm.
-pub(super) const TOLERANCE_POSITION: Interval = Interval::above(0.0);
-
-/// Tolerance of the tip angle, deg.
-pub(super) const TOLERANCE_ANGLE: Interval = Interval::above(0.0);
-
-/// Tolerance of the tip position relative to the tip's distance from its unloaded place.
-pub(super) const TOLERANCE_RELATIVE: Interval = Interval::at_least(0.0).at_most(1.0);
-
-/// Iterations of one solve.
-pub(super) const ITERATIONS: Interval = Interval::at_least(1.0).at_most(1e6);
-
-/// Processor time of one solve, s.
-pub(super) const TIME_BUDGET: Interval = Interval::above(0.0);
-
 /// Standard deviations of any number.
 pub(super) const DEVIATION: Interval = Interval::above(0.0);
 
@@ -38,7 +23,7 @@ pub(super) const CORRELATION: Interval = Interval::within(1.0);
 
 /// The keys that these ranges are of.
 #[cfg(test)]
-pub(super) const KEYS: [(&str, Interval); 15] = [
+pub(super) const KEYS: [(&str, Interval); 9] = [
     ("design.spiral_start_deg", SPIRAL_START),
     ("field.turn_deg", TURN),
     ("magnet.turn_deg", TURN),
@@ -46,12 +31,6 @@ pub(super) const KEYS: [(&str, Interval); 15] = [
     ("feed.roll_deg", TURN),
     ("feed.insertion_mm", INSERTION),
     ("guidewire.insertion_mm", GUIDEWIRE_INSERTION),
-    ("model.tolerance_position_mm", TOLERANCE_POSITION),
-    ("model.tolerance_angle_deg", TOLERANCE_ANGLE),
-    ("model.tolerance_relative", TOLERANCE_RELATIVE),
-    ("model.time_budget_s", TIME_BUDGET),
-    ("model.iterations", ITERATIONS),
-    ("coil.multipoles", crate::magnetics::limits::COIL_MULTIPOLE),
     ("uncertainty.*", DEVIATION),
     ("correlation.*", CORRELATION),
 ];

@@ -5,10 +5,7 @@ use toml::Value;
 
 use super::file::{FieldEntries, ModelEntries, SceneFile};
 use super::pose::{in_metres, pose, turn, turned};
-use super::ranges::{
-    GUIDEWIRE_INSERTION, INSERTION, ITERATIONS, TIME_BUDGET, TOLERANCE_ANGLE, TOLERANCE_POSITION,
-    TOLERANCE_RELATIVE, TURN,
-};
+use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TURN};
 use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T};
@@ -66,7 +63,7 @@ impl SceneFile {
         for (number, magnet) in self.magnet.0.iter().enumerate() {
             let cylinders = magnet.cylinders();
             Assembly::new(cylinders.clone()).map_err(|error| match error {
-                Error::Range { .. } => error,
+                Error::Range { .. } => error.of_item(number + 1),
                 of_the_list => {
                     Error::Unsupported(format!("{}.cylinders: {of_the_list}", self.magnet.key(number)))
                 }
@@ -75,7 +72,9 @@ impl SceneFile {
         }
         let mut all = all.into_iter();
         let (magnets, further_magnets) = (all.next(), all.collect());
-        let coils = (1..).zip(&self.coil).map(|(number, coil)| coil.si(&format!("coil[{number}]")));
+        let coils = (1..)
+            .zip(&self.coil)
+            .map(|(number, coil)| coil.si(&format!("coil[{number}]")).map_err(|error| error.of_item(number)));
         let coils = coils.collect::<Result<_, _>>()?;
         let vessel = self.vessel.as_ref().map(vessel_of).transpose()?.flatten();
         let shaft = self.shaft(&specification)?;
@@ -211,23 +210,18 @@ impl SceneFile {
 
     fn settings(&self) -> Result<Settings, Error> {
         let ModelEntries { interaction, method: _, bending_stop, mutual_wrenches, .. } = self.model;
-        let position =
-            TOLERANCE_POSITION.check("model.tolerance_position_mm", self.model.tolerance_position_mm)?;
-        let angle = TOLERANCE_ANGLE.check("model.tolerance_angle_deg", self.model.tolerance_angle_deg)?;
-        let relative = TOLERANCE_RELATIVE.check("model.tolerance_relative", self.model.tolerance_relative)?;
-        ITERATIONS.check("model.iterations", self.model.iterations as f64)?;
-
-        Ok(Settings {
+        let settings = Settings {
             interaction,
             bending_stop,
             mutual_wrenches,
-            tolerance_position: position / MM_PER_M,
-            tolerance_angle: angle.to_radians(),
-            tolerance_relative: relative,
-            time_budget: TIME_BUDGET.check("model.time_budget_s", self.model.time_budget_s)?,
+            tolerance_position: self.model.tolerance_position_mm / MM_PER_M,
+            tolerance_angle: self.model.tolerance_angle_deg.to_radians(),
+            tolerance_relative: self.model.tolerance_relative,
+            time_budget: self.model.time_budget_s,
             iterations: u32::try_from(self.model.iterations).unwrap_or(u32::MAX),
             ..Settings::default()
-        })
+        };
+        settings.checked()
     }
 }
 
