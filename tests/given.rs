@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use mcm::magnetics::{Assembly, AxialMagnet};
+use mcm::magnetics::{AxialMagnet, Cylinders, Source};
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand::rngs::StdRng;
@@ -21,8 +21,8 @@ pub(crate) fn cylinder() -> AxialMagnet {
 }
 
 /// That magnet (Richter et al., Fig. 7C): two cylinders with a gap of 10 mm.
-pub(crate) fn pair() -> Assembly {
+pub(crate) fn pair() -> Source {
     let magnets =
         vec![AxialMagnet { offset: -20.0e-3, ..cylinder() }, AxialMagnet { offset: 20.0e-3, ..cylinder() }];
-    Assembly::new(magnets).expect("allowed")
+    Cylinders::new(magnets).expect("allowed").into()
 }

@@ -73,8 +73,8 @@ fn errors(length: f64, a: &Outputs, b: &Outputs) -> Errors {
     let turn = (a.tip.rotation - b.tip.rotation).norm();
     let tip = (a.tip.position - b.tip.position).norm();
     let wrenches = |out: &Outputs| {
-        let forces = [out.magnetic_force, out.base_reaction_force, out.magnet_reaction_force];
-        let torques = [out.magnetic_torque, out.base_reaction_moment, out.magnet_reaction_torque];
+        let forces = [out.magnetic_force, out.base_reaction_force, out.reactions[0].force];
+        let torques = [out.magnetic_torque, out.base_reaction_moment, out.reactions[0].torque];
         [forces, torques.map(|torque| torque / length)].concat()
     };
     let size = wrenches(b).iter().map(Vector3::norm).fold(0.0, f64::max);
@@ -248,7 +248,7 @@ fn warm_is_as_cold() {
         let mut warm = device(&scene, by(method));
         assert_eq!(warm.solve(&scene.inputs).expect("valid").status, Status::Solved, "{label}");
         let mut moved = scene.clone();
-        moved.inputs.magnet.position.z += 5e-3;
+        moved.inputs.sources[0].pose.position.z += 5e-3;
         assert_eq!(warm.solve(&moved.inputs).expect("valid").status, Status::Solved, "{label}");
         let cold = solved(&moved, by(method));
         let length = scene.design().expect("a design").length();

@@ -8,7 +8,7 @@ use super::solution::Solution;
 use super::solver::Equilibrium;
 use super::wall_forces::WallForces;
 use crate::geometry::Pose;
-use crate::magnetics::Wrench;
+use crate::magnetics::{Sources, Wrench};
 
 impl Solution for Equilibrium {
     fn tip(&self) -> Pose {
@@ -59,6 +59,10 @@ impl Solution for Equilibrium {
 
     fn magnetic_wrench(&self) -> Wrench {
         self.work.wrenches.magnetic()
+    }
+
+    fn sources(&self) -> &Sources {
+        &self.sources
     }
 
     fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench {

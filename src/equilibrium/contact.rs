@@ -10,7 +10,7 @@ use super::settings::{Interaction, Settings};
 use super::terms::overlap;
 use super::workspace::Workspace;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, Outline, SourceName, Sources};
+use crate::magnetics::{Outline, Source, SourceName, Sources};
 use crate::numerics::maximum::largest;
 
 /// Number of parts of an element at whose ends its sections are tested.
@@ -57,10 +57,10 @@ impl Placed<'_> {
         if settings.interaction != Interaction::None {
             self.among_rings(&mut deepest);
         }
-        for (number, assembly) in sources.numbered() {
-            let placed = inputs.source(number);
+        for (number, kind) in sources.list().iter().enumerate() {
+            let placed = inputs.sources.get(number);
             if let Some(placed) = placed.filter(|placed| sources.is_there(number, placed.strength)) {
-                self.with_source((sources.name(number), assembly, &placed.pose), &section, &mut deepest);
+                self.with_source((sources.name(number), kind, &placed.pose), &section, &mut deepest);
             }
         }
         deepest
@@ -77,30 +77,31 @@ impl Placed<'_> {
 
     fn with_source(
         &self,
-        (source, magnet, at): (SourceName, &Assembly, &Pose),
+        (source, magnet, at): (SourceName, &Source, &Pose),
         section: impl Fn(usize, f64) -> Pose,
         deepest: &mut Option<Contact>,
     ) {
         let local = |pose: &Pose| at.rotation.tr_mul(&(pose.position - at.position));
         let distance = |pose: &Pose| magnet.distance(&local(pose));
-        if let Some(reach) = magnet.reach() {
+        let reach = magnet.unknown_within();
+        if reach > 0.0 {
             let within = |pose: &Pose| reach - local(pose).norm();
             for (i, ring) in self.chain.rings.iter().enumerate() {
                 let depth = within(&ring.centre(&self.nodes[ring.node]));
-                add(deepest, with_cylinder(Body::Ring(i), (source, 0), depth));
+                add(deepest, with_part(Body::Ring(i), (source, 0), depth));
             }
             for (k, element) in self.chain.elements.iter().enumerate() {
                 let depth = within(&section(k, 0.5 * element.length));
-                add(deepest, with_cylinder(Body::Segment(k), (source, 0), depth));
+                add(deepest, with_part(Body::Segment(k), (source, 0), depth));
             }
         }
         for (i, ring) in self.chain.rings.iter().enumerate() {
             let centre = ring.centre(&self.nodes[ring.node]);
             let outline = ring.outline();
             if distance(&centre) < ring.ring.outer_radius + ring.half_length() {
-                for (number, (cylinder, place)) in magnet.outlines().enumerate() {
-                    let depth = outline.depth_in(&cylinder, &seen(&centre, at, &place));
-                    add(deepest, with_cylinder(Body::Ring(i), (source, number), depth));
+                for (number, part) in magnet.parts().iter().enumerate() {
+                    let depth = outline.depth_in(&part.outline, &seen(&centre, at, &part.centre));
+                    add(deepest, with_part(Body::Ring(i), (source, number), depth));
                 }
             }
         }
@@ -109,32 +110,32 @@ impl Placed<'_> {
             if distance(&self.nodes[k + 1]) > reach {
                 continue;
             }
-            for (number, (cylinder, place)) in magnet.outlines().enumerate() {
+            for (number, part) in magnet.parts().iter().enumerate() {
                 let disc = Outline::new(0.0, radius, 0.0);
                 let level = |s: f64| {
-                    let pose = seen(&section(k, s), at, &place);
-                    disc.level_in(&cylinder, &pose, reach).unwrap_or(f64::NEG_INFINITY)
+                    let pose = seen(&section(k, s), at, &part.centre);
+                    disc.level_in(&part.outline, &pose, reach).unwrap_or(f64::NEG_INFINITY)
                 };
                 // Between two sections nothing can be closer by more than their distance and their relative rotation, at
                 // most half a turn in total.
                 let worth = -(STRETCHED * element.length + core::f64::consts::PI * radius) / PARTS as f64;
                 let (depth, _) = largest(level, [0.0, element.length], PARTS, worth);
                 if depth > TOUCHING * radius {
-                    add(deepest, with_cylinder(Body::Segment(k), (source, number), depth));
+                    add(deepest, with_part(Body::Segment(k), (source, number), depth));
                 }
             }
         }
     }
 }
 
-/// The pose relative to a cylinder whose centre is at `place` in the frame of the magnet, which is at `at` in the world.
+/// The pose relative to a part whose centre is at `place` in the frame of the magnet, which is at `at` in the world.
 fn seen(pose: &Pose, at: &Pose, place: &Vector3<f64>) -> Pose {
     let pose = pose.seen_from(at);
     Pose { position: pose.position - place, ..pose }
 }
 
-fn with_cylinder(first: Body, (source, cylinder): (SourceName, usize), depth: f64) -> Contact {
-    Contact { first, second: Body::Source(source, cylinder), depth }
+fn with_part(first: Body, (source, part): (SourceName, usize), depth: f64) -> Contact {
+    Contact { first, second: Body::Source(source, part), depth }
 }
 
 /// Keeps the deeper contact.

@@ -121,9 +121,7 @@ fn vessel_rates(load: &Load, arm: &Vector3<f64>, into: &Matrix3<f64>) -> Matrix6
 /// position (rad): six columns, a row for each input.
 pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
     let Inputs {
-        magnet,
-        magnet_strength: _, // does not change
-        further,
+        sources,
         uniform_field,
         field_gradient,
         base,
@@ -151,9 +149,7 @@ pub(super) fn base_transport(inputs: &Inputs, counts: &Counts) -> DMatrix<f64> {
         let velocity = |point: &Vector3<f64>| shift + spin.cross(&(point - base));
         set(Input::VesselPosition, shift.as_slice());
         set(Input::VesselRotation, spin.as_slice());
-        set(Input::MagnetPosition, velocity(&magnet.position).as_slice());
-        set(Input::MagnetRotation, spin.as_slice());
-        for (number, source) in further.iter().enumerate() {
+        for (number, source) in sources.iter().enumerate() {
             set(Input::SourcePosition(number), velocity(&source.pose.position).as_slice());
             set(Input::SourceRotation(number), spin.as_slice());
         }

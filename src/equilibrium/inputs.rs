@@ -19,24 +19,20 @@ const ASIDE: f64 = 0.5;
 /// Maximum length of an input step, relative to the previous step, for which extrapolation is used.
 const FARTHEST: f64 = 4.0;
 
-/// Pose and strength of a further source: of a magnet after the first one, or of a coil.
+/// Pose and strength of a magnet or coil.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PlacedSource {
-    /// Pose of the magnet assembly or coil.
+    /// Its pose.
     pub pose: Pose,
     /// Factor on a magnet's field, or current through a coil, A; 0 switches it off.
     pub strength: f64,
 }
 
-/// Pose and strength of the external magnet and of further sources, background field, base pose and loads.
+/// Poses and strengths of magnets and coils, background field, base pose and loads.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Inputs {
-    /// Pose of the external magnet assembly.
-    pub magnet: Pose,
-    /// Factor on the assembly's field; 0 switches it off.
-    pub magnet_strength: f64,
-    /// Further magnets, then coils, in the order of [`crate::magnetics::Sources::further`]; one for each of them.
-    pub further: Vec<PlacedSource>,
+    /// Magnets and coils, one for each in the order of [`Sources::list`].
+    pub sources: Vec<PlacedSource>,
     /// Uniform background field, T.
     pub uniform_field: Vector3<f64>,
     /// Components `dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz` of a linear field about the world origin, T/m.
@@ -68,13 +64,11 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Inputs without field or load, base at the origin; `rings` is the number of rings of the design.
+    /// Inputs without magnet, coil, field or load, base at the origin; `rings` is the number of rings of the design.
     #[must_use]
     pub fn unloaded(rings: usize) -> Self {
         Self {
-            magnet: Pose::identity(),
-            magnet_strength: 0.0,
-            further: Vec::new(),
+            sources: Vec::new(),
             uniform_field: Vector3::zeros(),
             field_gradient: [0.0; 5],
             base: Pose::identity(),
@@ -96,10 +90,10 @@ impl Inputs {
     /// The same poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
-        let Self { magnet, base, insertion, roll, guidewire_insertion, .. } = *self;
-        let further = self.further.iter().map(|source| PlacedSource { strength: 0.0, ..*source }).collect();
+        let Self { base, insertion, roll, guidewire_insertion, .. } = *self;
+        let sources = self.sources.iter().map(|source| PlacedSource { strength: 0.0, ..*source }).collect();
         let unloaded = Self::unloaded(self.ring_forces.len());
-        Self { magnet, further, base, insertion, roll, guidewire_insertion, ..unloaded }
+        Self { sources, base, insertion, roll, guidewire_insertion, ..unloaded }
     }
 
     /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
@@ -118,30 +112,22 @@ impl Inputs {
         Pose { rotation: self.base.rotation * turn, ..self.base }
     }
 
-    /// Pose and strength of a source by its number: 0 is the external magnet, from 1 on the further ones.
-    #[must_use]
-    pub fn source(&self, number: usize) -> Option<PlacedSource> {
-        match number.checked_sub(1) {
-            None => Some(PlacedSource { pose: self.magnet, strength: self.magnet_strength }),
-            Some(further) => self.further.get(further).copied(),
-        }
-    }
-
     /// Wrench of all other sources on each where these inputs place them; see [`Sources::mutual_wrenches`].
     ///
     /// # Errors
     /// As [`Sources::mutual_wrenches`].
     pub fn mutual_wrenches(&self, sources: &Sources) -> Result<Vec<Wrench>, Error> {
-        sources.mutual_wrenches(|number| self.source(number).map(|placed| (placed.pose, placed.strength)))
+        sources
+            .mutual_wrenches(|number| self.sources.get(number).map(|placed| (placed.pose, placed.strength)))
     }
 
     /// Copies `other`, without allocation if it has the same numbers of rings and sources.
     pub fn copy_from(&mut self, other: &Self) {
-        let (mut ring_forces, mut further) =
-            (std::mem::take(&mut self.ring_forces), std::mem::take(&mut self.further));
+        let (mut ring_forces, mut sources) =
+            (std::mem::take(&mut self.ring_forces), std::mem::take(&mut self.sources));
         ring_forces.clone_from(&other.ring_forces);
-        further.clone_from(&other.further);
-        *self = Self { further, ring_forces, ..*other };
+        sources.clone_from(&other.sources);
+        *self = Self { sources, ring_forces, ..*other };
     }
 
     /// Interpolates by the fraction `t` towards `other`; orientations turn along the shortest arc.
@@ -150,9 +136,7 @@ impl Inputs {
         let mix = |a: &Vector3<f64>, b: &Vector3<f64>| a.lerp(b, t);
         let number = |a: f64, b: f64| a + t * (b - a);
         Self {
-            magnet: self.magnet.between(&other.magnet, t),
-            magnet_strength: number(self.magnet_strength, other.magnet_strength),
-            further: (self.further.iter().zip(&other.further))
+            sources: (self.sources.iter().zip(&other.sources))
                 .map(|(a, b)| PlacedSource {
                     pose: a.pose.between(&b.pose, t),
                     strength: number(a.strength, b.strength),
@@ -201,9 +185,7 @@ impl Inputs {
     /// The components of each quantity, with its name and unit.
     fn quantities(&self) -> impl Iterator<Item = (&'static str, &[f64])> {
         let Self {
-            magnet,
-            magnet_strength,
-            further,
+            sources,
             uniform_field,
             field_gradient,
             base,
@@ -219,9 +201,6 @@ impl Inputs {
             softening,
         } = self;
         let named = [
-            ("magnet position (m)", magnet.position.as_slice()),
-            ("magnet orientation", magnet.rotation.as_slice()),
-            ("magnet strength", std::slice::from_ref(magnet_strength)),
             ("uniform field (T)", uniform_field.as_slice()),
             ("field gradient (T/m)", field_gradient),
             ("base position (m)", base.position.as_slice()),
@@ -236,35 +215,36 @@ impl Inputs {
             ("widening of the lumen (m)", std::slice::from_ref(widening)),
             ("softening of the wall", std::slice::from_ref(softening)),
         ];
-        let further = further.iter().flat_map(|source| {
+        let sources = sources.iter().flat_map(|source| {
             [
-                ("position of a further source (m)", source.pose.position.as_slice()),
-                ("orientation of a further source", source.pose.rotation.as_slice()),
-                ("strength of a further source", std::slice::from_ref(&source.strength)),
+                ("magnet or coil position (m)", source.pose.position.as_slice()),
+                ("magnet or coil orientation", source.pose.rotation.as_slice()),
+                ("magnet strength or coil current (A)", std::slice::from_ref(&source.strength)),
             ]
         });
         let forces = ring_forces.iter().map(|force| ("ring force (N)", force.as_slice()));
-        named.into_iter().chain(further).chain(forces)
+        sources.chain(named).chain(forces)
     }
 
-    /// Checks that every further source has its pose and strength, and that no two sources overlap; those that are where they were
+    /// Checks that every source has its pose and strength, and that no two sources overlap; those that are where they were
     /// in `before` are known to be apart.
     ///
     /// # Errors
     /// [`Error::Count`] where there are more or fewer, [`Error::Unsupported`] for two that overlap.
     pub(crate) fn check_sources(&self, sources: &Sources, before: Option<&Self>) -> Result<(), Error> {
-        let (given, needed) = (self.further.len(), sources.further().len());
+        let (given, needed) = (self.sources.len(), sources.list().len());
         if given == needed {
             return sources.check_apart(|number| {
                 let here = |inputs: &Self| {
-                    inputs.source(number).filter(|source| sources.is_there(number, source.strength))
+                    let source = inputs.sources.get(number)?;
+                    sources.is_there(number, source.strength).then_some(source.pose)
                 };
-                let pose = here(self)?.pose;
-                Some((pose, before.and_then(here).is_none_or(|known| known.pose != pose)))
+                let pose = here(self)?;
+                Some((pose, before.and_then(here) != Some(pose)))
             });
         }
-        let expected = format!("{needed}, one for each further magnet and coil");
-        Err(Error::Count { quantity: "poses of further sources".into(), given, expected })
+        let expected = format!("{needed}, one for each magnet and coil");
+        Err(Error::Count { quantity: "list of placed sources".into(), given, expected })
     }
 
     /// Checks that every number is finite and that there is one force for each of `rings` rings.

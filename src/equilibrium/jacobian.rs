@@ -94,10 +94,11 @@ impl Jacobian {
     }
 
     /// The actuation Jacobian: displacement (m) and rotation (rad) of the tip with respect to displacement and rotation
-    /// of the magnet about its centre, world axes.
+    /// of a magnet or coil about its centre, world axes; `None` for a source that is not there.
     #[must_use]
-    pub fn tip_by_magnet(&self) -> Matrix6<f64> {
-        self.matrix.fixed_view::<6, 6>(self.tip(), Input::MagnetPosition.columns().start).into_owned()
+    pub fn tip_by_source(&self, number: usize) -> Option<Matrix6<f64>> {
+        let columns = self.columns(Input::SourcePosition(number))?;
+        Some(self.matrix.fixed_view::<6, 6>(self.tip(), columns.start).into_owned())
     }
 
     /// Displacement (m) and rotation (rad) of the tip with respect to the uniform background field (T), world axes.

@@ -8,17 +8,11 @@ use core::ops::Range;
 /// rad; see [`crate::geometry::Pose::rotation_rate`] for the components of a quaternion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Input {
-    /// Position of the external magnet, m.
-    MagnetPosition,
-    /// Rotation of the external magnet, rad.
-    MagnetRotation,
-    /// Factor on the field of the external magnet, 1.
-    MagnetStrength,
-    /// Position of a further source (counted from 0; magnets first, then coils), m.
+    /// Position of a magnet or coil (counted from 0, in the order of [`super::Inputs::sources`]), m.
     SourcePosition(usize),
-    /// Rotation of a further source, rad.
+    /// Rotation of a magnet or coil, rad.
     SourceRotation(usize),
-    /// Factor on the field of a further magnet, 1, or current through a coil, A.
+    /// Factor on the field of a magnet, 1, or current through a coil, A.
     SourceStrength(usize),
     /// Uniform background field, T.
     UniformField,
@@ -50,11 +44,8 @@ pub enum Input {
     RingForce(usize),
 }
 
-/// Inputs of every design in the order of their columns; the forces on the rings follow, then the further sources.
-const INPUTS: [Input; 16] = [
-    Input::MagnetPosition,
-    Input::MagnetRotation,
-    Input::MagnetStrength,
+/// Inputs of every design in the order of their columns; the forces on the rings follow, then the sources.
+const INPUTS: [Input; 13] = [
     Input::UniformField,
     Input::FieldGradient,
     Input::TipForce,
@@ -77,8 +68,7 @@ impl Input {
     /// Number of columns of this input.
     pub(super) const fn width(self) -> usize {
         match self {
-            Self::MagnetStrength
-            | Self::SourceStrength(_)
+            Self::SourceStrength(_)
             | Self::Roll
             | Self::Insertion
             | Self::FeedForce
@@ -88,7 +78,7 @@ impl Input {
         }
     }
 
-    /// The columns of this input, for any design that has this ring; those of the further sources depend on the number of rings:
+    /// The columns of this input, for any design that has this ring; those of the sources depend on the number of rings:
     /// [`Counts::columns`].
     pub(super) fn columns(self) -> Range<usize> {
         let before: usize =
@@ -97,7 +87,7 @@ impl Input {
         first..first + self.width()
     }
 
-    /// Number of a further source and which of its inputs this is; `None` for another input.
+    /// Number of a source and which of its inputs this is; `None` for another input.
     fn of_source(self) -> Option<(usize, usize)> {
         match self {
             Self::SourcePosition(source) => Some((source, 0)),
@@ -116,32 +106,27 @@ impl Input {
 /// Number of columns of a source: displacement, rotation and strength.
 pub(super) const OF_SOURCE: usize = 2 * VECTOR + 1;
 
-/// Numbers of rings, shape points and cores of a design, and of sources beside the external magnet.
+/// Numbers of rings, shape points and cores of a design, and of sources.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Counts {
     pub(super) rings: usize,
     pub(super) shape_points: usize,
     pub(super) cores: usize,
-    pub(super) further: usize,
+    pub(super) sources: usize,
 }
 
 impl Counts {
     /// Number of columns.
     pub(super) fn inputs(&self) -> usize {
-        self.of_further(self.further)
-    }
-
-    /// First column of a further source.
-    fn of_further(&self, source: usize) -> usize {
-        Input::RingForce(self.rings).columns().start + source * OF_SOURCE
+        self.of_source(self.sources).start
     }
 
     /// The columns of an input; `None` for a ring or source that is not there.
     pub(super) fn columns(&self, input: Input) -> Option<Range<usize>> {
         let columns = match input.of_source() {
-            Some((source, _)) if source >= self.further => return None,
+            Some((source, _)) if source >= self.sources => return None,
             Some((source, within)) => {
-                let first = self.of_further(source) + within;
+                let first = self.of_source(source).start + within;
                 first..first + input.width()
             }
             None => input.columns(),
@@ -150,17 +135,14 @@ impl Counts {
         Some(columns).filter(|_| exists)
     }
 
-    /// The columns of a source by its number: 0 is the external magnet.
+    /// The columns of a source by its number.
     pub(super) fn of_source(&self, number: usize) -> Range<usize> {
-        let first = match number.checked_sub(1) {
-            None => Input::MagnetPosition.columns().start,
-            Some(further) => self.of_further(further),
-        };
+        let first = Input::RingForce(self.rings).columns().start + number * OF_SOURCE;
         first..first + OF_SOURCE
     }
 
     /// Whether a column is one of the external field: of a source or of the background.
     pub(super) fn is_of_field(&self, column: usize) -> bool {
-        column < Input::FieldGradient.columns().end || column >= self.of_further(0)
+        column < Input::FieldGradient.columns().end || column >= self.of_source(0).start
     }
 }

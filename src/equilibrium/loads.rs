@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Matrix6};
 
 use super::pair_loads::Made;
 use super::potential::Potential;
-use super::source::StationFields;
+use super::source_field::StationFields;
 use super::terms::{Frame, Mixed, NearStation, RingsOnSpans, TermWrenches, blocks};
 use crate::geometry::hat;
 use crate::numerics::dense;

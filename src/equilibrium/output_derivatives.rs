@@ -40,13 +40,9 @@ pub enum Output {
     BaseReactionForce,
     /// Moment that the clamp exerts about the base position, N m.
     BaseReactionMoment,
-    /// Force on the external magnet, N.
-    MagnetReactionForce,
-    /// Torque on the external magnet about its centre, N m.
-    MagnetReactionTorque,
-    /// Force on a further source (counted from 0), N.
+    /// Force on a magnet or coil, N.
     SourceReactionForce(usize),
-    /// Torque on a further source about its centre, N m.
+    /// Torque on a magnet or coil about its centre, N m.
     SourceReactionTorque(usize),
     /// External field at the tip, T.
     TipField,
@@ -72,7 +68,7 @@ pub enum Output {
 }
 
 /// Outputs of every design in the order of their rows; the [`BLOCKS`] follow.
-const OUTPUTS: [Output; 12] = [
+const OUTPUTS: [Output; 10] = [
     Output::TipAngle,
     Output::TipPosition,
     Output::TipRotation,
@@ -80,8 +76,6 @@ const OUTPUTS: [Output; 12] = [
     Output::MagneticTorque,
     Output::BaseReactionForce,
     Output::BaseReactionMoment,
-    Output::MagnetReactionForce,
-    Output::MagnetReactionTorque,
     Output::TipField,
     Output::FeedLength,
     Output::FeedReaction,
@@ -139,7 +133,7 @@ impl Counts {
             Owner::Point(point) => (point, self.shape_points),
             Owner::Ring(ring) => (ring, self.rings),
             Owner::Core(core) => (core, self.cores),
-            Owner::Source(source) => (source, self.further),
+            Owner::Source(source) => (source, self.sources),
         }
     }
 

@@ -83,8 +83,8 @@ impl Settings {
 impl Equilibrium {
     /// Whether there are fields that vary over a ring, so that quadratures are needed.
     fn has_quadratures(&self, inputs: &Inputs) -> bool {
-        let is_on = |(number, _)| inputs.source(number).is_some_and(|source| source.strength != 0.0);
-        self.sources.numbered().any(is_on) || self.settings.interaction != Interaction::None
+        let any_is_on = inputs.sources.iter().any(|source| source.strength != 0.0);
+        any_is_on || self.settings.interaction != Interaction::None
     }
 }
 

@@ -60,7 +60,7 @@ impl Equilibrium {
             rings: self.chain.rings.len(),
             shape_points: self.shape.len(),
             cores: self.chain.cores.len(),
-            further: inputs.further.len(),
+            sources: inputs.sources.len(),
         };
         let shape = self.branch.unknowns.clone();
         let by_insertion = self.by_insertion(inputs, &shape);

@@ -72,8 +72,7 @@ impl Equilibrium {
 
     /// A number that equilibria of one design, discretisation, magnet and vessel have in common: a checksum of all their numbers.
     fn mark(&self) -> u32 {
-        let sources = self.sources.numbered().map(|(number, source)| (number, source.made_from()));
-        let sources: Vec<_> = sources.collect();
+        let sources: Vec<_> = self.sources.list().iter().map(|source| source.identity()).collect();
         let vessel = self.vessel().map(|vessel| (vessel.lumen.checksum(), vessel.wall.modulus()));
         crc32fast::hash(format!("{:?} {sources:?} {vessel:?}", self.chain.made_from()).as_bytes())
     }

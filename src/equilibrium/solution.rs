@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::inputs::Inputs;
 use super::wall_forces::WallForces;
 use crate::geometry::Pose;
-use crate::magnetics::Wrench;
+use crate::magnetics::{Sources, Wrench};
 
 /// The last solved shape and its loads, world frame, SI units; before the first solve, the straight shape at the origin.
 pub trait Solution {
@@ -41,7 +41,10 @@ pub trait Solution {
         None
     }
 
-    /// Wrench on the source of this number (0: the external magnet) about its centre; `inputs` must be those of the last solve.
+    /// The magnets and coils around the manipulator.
+    fn sources(&self) -> &Sources;
+
+    /// Wrench on the source of this number about its centre; `inputs` must be those of the last solve.
     fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench;
 
     /// External field (T) at a point, m; `None` inside a magnet or coil.

@@ -160,12 +160,6 @@ impl Equilibrium {
         self.core_angles().zip(stops).map(|(angle, stop)| stop.map_or(0.0, |stop| stop.closed(angle)))
     }
 
-    /// The external magnet, and further magnets and coils.
-    #[must_use]
-    pub fn sources(&self) -> &Sources {
-        &self.sources
-    }
-
     /// The settings of the model and its solver.
     #[must_use]
     pub fn settings(&self) -> &Settings {

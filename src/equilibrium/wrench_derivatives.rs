@@ -9,7 +9,7 @@ use super::solver::Equilibrium;
 use crate::geometry::hat;
 
 impl Equilibrium {
-    /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on the magnet.
+    /// Wrenches of the external field on the chain, of the clamp on the chain, and of the chain on magnets and coils.
     pub(super) fn add_wrenches(&self, rows: &mut OutputDerivatives<'_>, response: &Response) {
         let Response { by_base, columns, unknowns, .. } = response;
         let mut with_field = by_base.clone();
@@ -24,29 +24,16 @@ impl Equilibrium {
         let clamp = [Output::BaseReactionForce, Output::BaseReactionMoment];
         rows.set_wrench(clamp, &response.clamp, &self.base_reaction());
 
-        self.add_source_wrench(
-            rows,
-            response,
-            0,
-            [Output::MagnetReactionForce, Output::MagnetReactionTorque],
-        );
-        for further in 0..response.counts.further {
-            let outputs = [Output::SourceReactionForce(further), Output::SourceReactionTorque(further)];
-            self.add_source_wrench(rows, response, further + 1, outputs);
+        for number in 0..response.counts.sources {
+            self.add_source_wrench(rows, response, number);
         }
     }
 
     /// Wrench of the chain on the source of this number.
-    fn add_source_wrench(
-        &self,
-        rows: &mut OutputDerivatives<'_>,
-        response: &Response,
-        number: usize,
-        outputs: [Output; 2],
-    ) {
+    fn add_source_wrench(&self, rows: &mut OutputDerivatives<'_>, response: &Response, number: usize) {
         let Response { by_base, columns, unknowns, counts, .. } = response;
         let inputs = rows.inputs;
-        let Some(placed) = inputs.source(number) else { return };
+        let Some(placed) = inputs.sources.get(number) else { return };
         let reaction = self.source_reaction(number, inputs);
         let own = counts.of_source(number);
         let (position, motion) = (own.start..own.start + 3, own.start..own.start + 6);
@@ -59,6 +46,7 @@ impl Equilibrium {
         let mut by_position = torque.columns_range_mut(position);
         by_position += hat(&reaction.force);
         transport_base(&mut on_source, by_base);
+        let outputs = [Output::SourceReactionForce(number), Output::SourceReactionTorque(number)];
         rows.set_wrench(outputs, &(on_source - by_shape), &reaction);
     }
 }

@@ -24,10 +24,7 @@ fn overlaid(device: &Inputs, row: &Inputs, tables: &[&str]) -> Inputs {
     for table in tables {
         match *table {
             "field" => (out.uniform_field, out.field_gradient) = (row.uniform_field, row.field_gradient),
-            "magnet" | "coil" => {
-                (out.magnet, out.magnet_strength) = (row.magnet, row.magnet_strength);
-                out.further.clone_from(&row.further);
-            }
+            "magnet" | "coil" => out.sources.clone_from(&row.sources),
             "base" => out.base = row.base,
             "load" => {
                 (out.tip_force, out.tip_moment) = (row.tip_force, row.tip_moment);
@@ -68,8 +65,7 @@ pub(super) fn with(file: &SceneFile, keys: &[String], values: &[f64]) -> Result<
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
     (&a.specification, &a.shaft, &a.guidewire) == (&b.specification, &b.shaft, &b.guidewire)
-        && (&a.magnets, &a.further_magnets, &a.coils) == (&b.magnets, &b.further_magnets, &b.coils)
-        && (&a.settings, &a.method, &a.vessel) == (&b.settings, &b.method, &b.vessel)
+        && (&a.sources, &a.settings, &a.method, &a.vessel) == (&b.sources, &b.settings, &b.method, &b.vessel)
 }
 
 impl Rows {

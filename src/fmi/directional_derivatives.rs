@@ -115,8 +115,7 @@ impl At<'_> {
     /// The pose whose rotation an input is.
     fn posed(&self, input: Input) -> Option<&UncheckedPose> {
         match input {
-            Input::MagnetRotation => Some(&self.values.magnet),
-            Input::SourceRotation(number) => self.values.further.get(number).map(|source| &source.pose),
+            Input::SourceRotation(number) => self.values.sources.get(number).map(|source| &source.pose),
             _ => Some(&self.values.base),
         }
     }

@@ -8,7 +8,7 @@ use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::{PlacedSource, Settings};
 use crate::error::{Error, Interval};
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialMagnet, Sources};
+use crate::magnetics::{AxialMagnet, Cylinders, Drive, Source, Sources};
 use crate::manipulator::{FeedMode, Inputs, Manipulator, POTENTIAL, Scene, SceneFile, Variant, Way};
 use crate::vessel::{Vessel, Wall};
 
@@ -23,11 +23,11 @@ pub struct UncheckedPose {
     pub start: [f64; 4],
 }
 
-/// A magnet after the first one, or a coil.
+/// A magnet or coil as the host places it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FurtherSource {
-    /// What makes the field.
-    pub assembly: Arc<Assembly>,
+pub struct SourceValues {
+    /// What makes the field; of the first magnet with the cylinders that it starts with.
+    pub kind: Source,
     /// Its pose.
     pub pose: UncheckedPose,
     /// Factor on a magnet's field, or current through a coil, A.
@@ -37,12 +37,8 @@ pub struct FurtherSource {
 /// The value of every input and parameter, in SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HostValues {
-    /// Pose of the external magnet.
-    pub magnet: UncheckedPose,
-    /// Factor on the external magnet's field; 0 switches it off.
-    pub magnet_strength: f64,
-    /// The further magnets, then the coils.
-    pub further: Vec<FurtherSource>,
+    /// The magnets, of which the first is always there, then the coils.
+    pub sources: Vec<SourceValues>,
     /// Uniform background field, T, world frame.
     pub uniform_field: [f64; 3],
     /// Gradient of the linear background field, T/m: dBx/dx, dBx/dy, dBx/dz, dBy/dy, dBy/dz.
@@ -84,7 +80,7 @@ pub struct HostValues {
     pub wall_modulus: f64,
     /// Coefficient of friction between the device and the wall.
     pub friction: f64,
-    /// The cylinders of the external magnet.
+    /// The cylinders of the first magnet, which are parameters.
     pub magnets: Vec<AxialMagnet>,
     /// How the device comes to its first inputs.
     pub way: Way,
@@ -126,28 +122,20 @@ impl HostValues {
                 scene.method
             )));
         }
-        let (magnets, magnet) = if let Some(magnets) = &scene.magnets {
-            (magnets.clone(), scene.inputs.magnet)
-        } else {
-            let usual = Scene::parse(SWITCHED_OFF, "usual magnet")?;
-            (usual.magnets.unwrap_or_default(), usual.inputs.magnet)
-        };
         let inputs = &scene.inputs;
-        let sources = scene.sources()?;
-        let further = sources.further().iter().zip(&inputs.further).map(|(assembly, placed)| FurtherSource {
-            assembly: Arc::new(assembly.clone()),
-            pose: placed.pose.into(),
-            strength: placed.strength,
-        });
-        let further = further.collect();
+        let mut sources = placed(&scene);
+        let mut magnets = file.magnet_cylinders();
+        if scene.sources.magnet().is_none() {
+            let usual = SceneFile::parse(SWITCHED_OFF, "usual magnet")?;
+            magnets = usual.magnet_cylinders();
+            sources.splice(0..0, placed(&usual.scene()?));
+        }
         let backbone = match &scene.specification {
             Specification::Segmented(segmented) => segmented.backbone,
             Specification::Cylinder(_) => None,
         };
         Ok(Self {
-            magnet: magnet.into(),
-            magnet_strength: inputs.magnet_strength,
-            further,
+            sources,
             uniform_field: inputs.uniform_field.into(),
             field_gradient: inputs.field_gradient,
             base: inputs.base.into(),
@@ -180,16 +168,22 @@ impl HostValues {
 
     /// All poses that a host sets.
     fn poses(&self) -> impl Iterator<Item = &UncheckedPose> {
-        [&self.magnet, &self.base].into_iter().chain(self.further.iter().map(|source| &source.pose))
+        self.sources.iter().map(|source| &source.pose).chain([&self.base])
     }
 
     /// An orientation that is not of unit norm but normalised, and its norm.
     #[must_use]
-    pub fn off_unit_norm(&self) -> Option<(&'static str, f64)> {
-        let names = ["magnet.orientation", "base.orientation"];
-        let names = names.into_iter().chain(std::iter::repeat("the orientation of a further magnet or coil"));
-        let norms = names.zip(self.poses()).map(|(name, pose)| (name, pose.norm()));
-        norms.into_iter().find(|(_, norm)| *norm >= UNCONNECTED_NORM && (norm - 1.0).abs() > NORM_SLACK)
+    pub fn off_unit_norm(&self) -> Option<(String, f64)> {
+        let is_off = |norm: f64| norm >= UNCONNECTED_NORM && (norm - 1.0).abs() > NORM_SLACK;
+        let mut norms = self.poses().map(UncheckedPose::norm).enumerate();
+        let (number, norm) = norms.find(|(_, norm)| is_off(*norm))?;
+        Some((self.orientation(Some(number)), norm))
+    }
+
+    /// The name of the orientation of a source, or of the base.
+    pub(super) fn orientation(&self, source: Option<usize>) -> String {
+        let source = source.and_then(|number| self.source_names().nth(number));
+        source.map_or_else(|| "base".into(), |(name, _)| name) + ".orientation"
     }
 
     /// Whether an orientation counts as one that nothing is connected to.
@@ -198,14 +192,21 @@ impl HostValues {
         self.poses().any(UncheckedPose::is_unconnected)
     }
 
-    /// The structured name of each further source, and whether it is a coil: `magnet[2]`, ..., `coil[1]`, ....
-    pub fn source_names(&self) -> impl Iterator<Item = (String, bool)> {
-        let (mut magnets, mut coils) = (1, 0);
-        self.further.iter().map(move |source| {
-            let is_coil = source.assembly.coil().is_some();
-            let (kind, count) = if is_coil { ("coil", &mut coils) } else { ("magnet", &mut magnets) };
+    /// The structured name of each source, and what drives it: `magnet`, `magnet[2]`, ..., `coil[1]`, ....
+    pub fn source_names(&self) -> impl Iterator<Item = (String, Drive)> {
+        let (mut magnets, mut coils) = (0, 0);
+        self.sources.iter().map(move |source| {
+            let drive = source.kind.drive();
+            let count = match drive {
+                Drive::Factor => &mut magnets,
+                Drive::Current => &mut coils,
+            };
             *count += 1;
-            (format!("{kind}[{count}]"), is_coil)
+            let name = match (drive, *count) {
+                (Drive::Factor, 1) => drive.noun().into(),
+                (_, count) => format!("{}[{count}]", drive.noun()),
+            };
+            (name, drive)
         })
     }
 
@@ -214,20 +215,19 @@ impl HostValues {
     /// # Errors
     /// [`Error::Range`] naming the quaternion that does not have unit norm.
     pub fn inputs(&self) -> Result<Inputs, Error> {
-        let further = self.source_names().zip(&self.further).map(|((name, _), source)| {
-            let pose = source.pose.pose(&format!("{name}.orientation"))?;
-            let is_coil = source.assembly.coil().is_some();
-            let strength = if is_coil { source.strength } else { switched(source.strength) };
+        let sources = self.sources.iter().enumerate().map(|(number, source)| {
+            let pose = source.pose.pose(|| self.orientation(Some(number)))?;
+            let strength = match source.kind.drive() {
+                Drive::Factor => switched(source.strength),
+                Drive::Current => source.strength,
+            };
             Ok(PlacedSource { pose, strength })
         });
-        let further = further.collect::<Result<_, Error>>()?;
         Ok(Inputs {
-            magnet: self.magnet.pose("magnet.orientation")?,
-            magnet_strength: switched(self.magnet_strength),
-            further,
+            sources: sources.collect::<Result<_, Error>>()?,
             uniform_field: self.uniform_field.into(),
             field_gradient: self.field_gradient,
-            base: self.base.pose("base.orientation")?,
+            base: self.base.pose(|| self.orientation(None))?,
             insertion: self.insertion,
             feed_force: (self.feed_mode == FeedMode::Force).then_some(self.feed_force),
             roll: self.roll,
@@ -256,10 +256,15 @@ impl HostValues {
     }
 
     /// The checked magnets and coils.
-    fn sources(&self) -> Result<Sources, Error> {
-        let magnet = Some(Assembly::new(self.magnets.clone())?);
-        let further = self.further.iter().map(|source| (*source.assembly).clone()).collect();
-        Sources::new(magnet, further)
+    ///
+    /// # Errors
+    /// Those of [`Cylinders::new`].
+    pub fn sources(&self) -> Result<Sources, Error> {
+        let mut list: Vec<Source> = self.sources.iter().map(|source| source.kind.clone()).collect();
+        if let Some(first) = list.first_mut().filter(|_| !self.magnets.is_empty()) {
+            *first = Cylinders::new(self.magnets.clone())?.into();
+        }
+        Sources::new(list)
     }
 
     /// The vessel with the wall that the parameters describe, checked.
@@ -274,7 +279,7 @@ impl HostValues {
     /// The device that the parameters describe in its surroundings, checked, with its inputs.
     ///
     /// # Errors
-    /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`HostValues::inputs`].
+    /// Those of [`HostValues::design`], [`Cylinders::new`], [`Wall::new`] and [`HostValues::inputs`].
     pub fn variant(&self) -> Result<Variant, Error> {
         let (design, sources) = (self.design()?, self.sources()?);
         Ok(Variant { design, sources, vessel: self.in_wall()?, inputs: self.inputs()? })
@@ -283,7 +288,7 @@ impl HostValues {
     /// The manipulator that the parameters describe, not yet solved.
     ///
     /// # Errors
-    /// Those of [`HostValues::design`], [`Assembly::new`], [`Wall::new`] and [`Manipulator::new`].
+    /// Those of [`HostValues::design`], [`Cylinders::new`], [`Wall::new`] and [`Manipulator::new`].
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         let (design, vessel) = (self.design()?, self.in_wall()?);
         let made = Manipulator::new(&design, self.sources()?, self.settings, shape_points)?;
@@ -301,6 +306,17 @@ impl HostValues {
         let settings = Settings { tolerance_position, tolerance_angle, tolerance_relative, ..self.settings };
         Self { settings, friction: start.friction, ..self.clone() }
     }
+}
+
+/// The sources of a scene where it places them.
+fn placed(scene: &Scene) -> Vec<SourceValues> {
+    let each = scene.sources.list().iter().zip(&scene.inputs.sources);
+    let values = each.map(|(kind, placed)| SourceValues {
+        kind: kind.clone(),
+        pose: placed.pose.into(),
+        strength: placed.strength,
+    });
+    values.collect()
 }
 
 /// The strength of a magnet as it acts.
@@ -341,7 +357,7 @@ impl UncheckedPose {
 
     /// # Errors
     /// [`Error::Range`] for a quaternion whose norm is from 0.001 to 0.5, or above 2.
-    fn pose(&self, orientation: &str) -> Result<Pose, Error> {
+    fn pose(&self, orientation: impl Fn() -> String) -> Result<Pose, Error> {
         if self.is_unconnected() {
             return Pose::new(self.position, self.start);
         }
@@ -349,7 +365,7 @@ impl UncheckedPose {
         if !NORMALISED.contains(norm) {
             let allowed =
                 "from 0.5 to 2, as an orientation is normalised, or below 0.001, where it is not connected";
-            return Err(Error::range(format!("norm of {orientation}"), norm, allowed));
+            return Err(Error::range(format!("norm of {}", orientation()), norm, allowed));
         }
         Pose::new(self.position, self.orientation.map(|component| component / norm))
     }

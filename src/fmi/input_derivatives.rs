@@ -72,21 +72,18 @@ impl InputDerivatives {
                 variable.set(&mut moved, Value::Real(value))?;
             }
         }
-        let further = moved.further.iter_mut().zip(&from.further);
-        let further = further.map(|(a, b)| ("further source's orientation", &mut a.pose, &b.pose));
-        let first = [
-            ("magnet.orientation", &mut moved.magnet, &from.magnet),
-            ("base.orientation", &mut moved.base, &from.base),
-        ];
-        for (name, moved, from) in first.into_iter().chain(further) {
+        let sources = moved.sources.iter_mut().zip(&from.sources);
+        let sources = sources.enumerate().map(|(number, (a, b))| (Some(number), &mut a.pose, &b.pose));
+        for (source, moved, before) in sources.chain([(None, &mut moved.base, &from.base)]) {
             // An orientation that nothing turns stays as the host has set it, to the last bit.
-            if moved.orientation.map(f64::to_bits) != from.orientation.map(f64::to_bits) {
-                if moved.is_unconnected() && from.is_unconnected() {
+            if moved.orientation.map(f64::to_bits) != before.orientation.map(f64::to_bits) {
+                if moved.is_unconnected() && before.is_unconnected() {
                     continue; // its start value holds all the way
                 }
                 if moved.is_unconnected() {
                     // Set so by the host, it would count as not connected.
-                    return Err(Error::range(format!("norm of {name} during the step"), 0.0, "not 0"));
+                    let quantity = format!("norm of {} during the step", from.orientation(source));
+                    return Err(Error::range(quantity, 0.0, "not 0"));
                 }
                 moved.normalise();
             }
@@ -106,9 +103,8 @@ impl InputDerivatives {
         duration: f64,
     ) -> Result<(Vec<Inputs>, HostValues), Error> {
         let end = self.moved(table, from, duration)?;
-        let further = from.further.iter().zip(&end.further).map(|(a, b)| turn(&a.pose, &b.pose));
-        let turn = f64::max(turn(&from.magnet, &end.magnet), turn(&from.base, &end.base));
-        let turn = further.fold(turn, f64::max);
+        let sources = from.sources.iter().zip(&end.sources).map(|(a, b)| turn(&a.pose, &b.pose));
+        let turn = sources.fold(turn(&from.base, &end.base), f64::max);
         let mut waypoints = Vec::new();
         let mut reached = 0.0;
         while reached + LARGEST_TURN < turn {

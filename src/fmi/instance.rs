@@ -240,7 +240,9 @@ impl Instance {
             );
             self.told.unconnected = true;
         }
-        if let Some((name, norm)) = values.off_unit_norm().filter(|_| !self.told.norm) {
+        if !self.told.norm
+            && let Some((name, norm)) = values.off_unit_norm()
+        {
             self.log.notice(&format!("{name} has the norm {norm:.4}: orientations are normalised"));
             self.told.norm = true;
         }

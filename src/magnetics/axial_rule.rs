@@ -130,6 +130,11 @@ impl AxialRule {
         self.points.iter().copied()
     }
 
+    /// The same as a list.
+    pub(crate) fn nodes(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
     /// The points as dipoles, by their weights, in a plane that contains the axis; their first coordinate is the height above
     /// the body's lower face.
     pub(crate) fn upright(&self) -> &DipoleSheet {

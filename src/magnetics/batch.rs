@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axial_source::AxialSource;
 use super::axisymmetric::{Components, Meridian};
-use super::edge::{GRADIENT, HESSIAN};
+use super::edge::{FIELD, GRADIENT, HESSIAN};
 use super::jet::Jet;
 use super::multipole;
 use super::points::{self, COMPONENTS, Origin, Row, WIDTH};
@@ -69,6 +69,16 @@ impl AxialSource {
         self.add_jets(0.0, points, out)
     }
 
+    /// Adds the field at `points`, seen from a frame in which the magnet's centre is at `height` on the axis.
+    pub(super) fn add_fields(
+        &self,
+        height: f64,
+        points: &[Vector3<f64>],
+        out: &mut [Vector3<f64>],
+    ) -> Result<(), Error> {
+        self.each::<FIELD>(height, points, |number, at, components| out[number] += components.field(at))
+    }
+
     /// Adds the field and its gradient at `points`, seen from a frame in which the magnet's centre is at `height` on the axis.
     pub(super) fn add_field_gradients(
         &self,
@@ -96,6 +106,24 @@ impl AxialSource {
 
     /// Hands the components at each point, by its number, to `put`; the magnet's centre is at `height` on the axis.
     fn each<const ORDER: u8>(
+        &self,
+        height: f64,
+        points: &[Vector3<f64>],
+        mut put: impl FnMut(usize, &Meridian, &Components),
+    ) -> Result<(), Error> {
+        if points.len() < FEWEST {
+            for (number, point) in points.iter().enumerate() {
+                let found = self.components::<ORDER>(&Vector3::new(point.x, point.y, point.z - height));
+                let (at, components) = found.map_err(|error| error.at((*point).into()))?;
+                put(number, &at, &components);
+            }
+            return Ok(());
+        }
+        self.side_by_side::<ORDER>(height, points, put)
+    }
+
+    /// The same for enough points to fill the lanes.
+    fn side_by_side<const ORDER: u8>(
         &self,
         height: f64,
         points: &[Vector3<f64>],

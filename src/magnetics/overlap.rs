@@ -50,6 +50,24 @@ impl Outline {
         Self { inner, outer, half: 0.5 * length }
     }
 
+    /// Inner radius, m; 0 for a solid body.
+    #[must_use]
+    pub fn inner_radius(&self) -> f64 {
+        self.inner
+    }
+
+    /// Outer radius, m.
+    #[must_use]
+    pub fn outer_radius(&self) -> f64 {
+        self.outer
+    }
+
+    /// Length along the axis, m.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        2.0 * self.half
+    }
+
     /// Largest depth of a point of this body, at `pose` in the other's frame, below the other's surface, m; 0 if the
     /// two share no volume.
     ///

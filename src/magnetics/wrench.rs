@@ -5,7 +5,6 @@ use core::f64::consts::PI;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::assembly::Assembly;
 use super::axial_source::AxialSource;
 use super::overlap;
 use crate::constants::VACUUM_PERMEABILITY;
@@ -83,27 +82,12 @@ impl AxialSource {
     }
 }
 
-impl Assembly {
-    /// The wrench on `body` at `pose` in the assembly's frame, in its axes; see [`AxialSource::wrench_on`].
-    ///
-    /// # Errors
-    /// As [`AxialSource::wrench_on`].
-    pub fn wrench_on(&self, body: &AxialSource, pose: &Pose, accuracy: f64) -> Result<Wrench, Error> {
-        check_accuracy(accuracy)?;
-        for (outline, centre) in self.outlines() {
-            let seen = Pose { position: pose.position - centre, ..*pose };
-            overlap::check(&outline, &body.outline(), &seen)?;
-        }
-        adaptive(body, pose, accuracy, self.distance(&pose.position), |point| self.field(point))
-    }
-}
-
 pub(super) fn check_accuracy(accuracy: f64) -> Result<f64, Error> {
     check("accuracy of the wrench", accuracy, |v| (FINEST..=0.1).contains(&v), "from 1e-12 to 0.1")
 }
 
 /// The wrench by the charges on the faces of `body`, as accurate as asked for.
-fn adaptive(
+pub(super) fn adaptive(
     body: &AxialSource,
     pose: &Pose,
     accuracy: f64,

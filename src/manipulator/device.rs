@@ -9,7 +9,7 @@ use super::tolerance::TipTolerance;
 use super::way::Way;
 use super::{Inputs, Jacobian, Outputs, Status};
 use crate::design::Design;
-use crate::equilibrium::{Equilibrium, Report, Settings};
+use crate::equilibrium::{Equilibrium, Report, Settings, Solution};
 use crate::error::Error;
 use crate::magnetics::Sources;
 use crate::vessel::Vessel;

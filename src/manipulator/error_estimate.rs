@@ -64,9 +64,7 @@ impl ErrorEstimate {
         let moved = TipDeviation::between(&tip, &self.tip);
         let Inputs {
             // These act through the field at the tip and the tip pose, which are compared below.
-            magnet: _,
-            magnet_strength: _,
-            further: _,
+            sources: _,
             uniform_field: _,
             base: _,
             insertion: _,

@@ -30,7 +30,7 @@ pub use models::models_of_auto;
 pub use neighbours::Neighbours;
 #[cfg(feature = "methods")]
 pub(crate) use outputs::Resolution;
-pub use outputs::{Outputs, Status};
+pub use outputs::{Outputs, Reaction, Status};
 pub use scene::{FeedMode, METHODS, POTENTIAL, Scene, SceneFile, Uncertainty};
 pub use sensitivities::Sensitivities;
 pub use tolerance::TipTolerance;

@@ -27,10 +27,10 @@ impl Scene {
     /// The checked device of the scene in its surroundings, with its inputs.
     ///
     /// # Errors
-    /// As [`Scene::design`] and [`Scene::assembly`].
+    /// As [`Scene::design`].
     pub fn variant(&self) -> Result<Variant, Error> {
-        let (design, sources) = (self.design()?, self.sources()?);
-        Ok(Variant { design, sources, vessel: self.vessel.clone(), inputs: self.inputs.clone() })
+        let (sources, vessel) = (self.sources.clone(), self.vessel.clone());
+        Ok(Variant { design: self.design()?, sources, vessel, inputs: self.inputs.clone() })
     }
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Inputs;
 use crate::equilibrium::{Interaction, Outcome, Report, Solution, WallForces};
 use crate::geometry::Pose;
-use crate::magnetics::Wrench;
+use crate::magnetics::{SourceName, Wrench};
 
 /// How the last solve ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -19,6 +19,17 @@ pub enum Status {
     Snapped,
     /// Not solved: the other outputs are the last good ones.
     NotSolved,
+}
+
+/// Wrench of the manipulator on a magnet or coil about its centre.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Reaction {
+    /// On which.
+    pub source: SourceName,
+    /// Force, N.
+    pub force: Vector3<f64>,
+    /// Torque, N m.
+    pub torque: Vector3<f64>,
 }
 
 /// The result of one solve.
@@ -36,13 +47,9 @@ pub struct Outputs {
     pub base_reaction_force: Vector3<f64>,
     /// Moment that the clamp exerts on the manipulator, about the base position, N m.
     pub base_reaction_moment: Vector3<f64>,
-    /// Force on the external magnet, N.
-    pub magnet_reaction_force: Vector3<f64>,
-    /// Torque on the external magnet about its centre, N m.
-    pub magnet_reaction_torque: Vector3<f64>,
-    /// Wrench on each further magnet and coil about its centre, N and N m, in the order of [`crate::magnetics::Sources::further`].
-    pub further_reactions: Vec<Wrench>,
-    /// Wrench of all other magnets and coils on each, the external magnet first, about its centre, N and N m; empty until
+    /// Wrench of the manipulator on each magnet and coil about its centre, in the order of [`super::Inputs::sources`].
+    pub reactions: Vec<Reaction>,
+    /// Wrench of all other magnets and coils on each, in that order, about its centre, N and N m; empty until
     /// [`super::Manipulator::measure_mutual_wrenches`] computes them.
     pub mutual_wrenches: Vec<Wrench>,
     /// External field at the tip, T.
@@ -130,9 +137,7 @@ impl Outputs {
             magnetic_torque: zero,
             base_reaction_force: zero,
             base_reaction_moment: zero,
-            magnet_reaction_force: zero,
-            magnet_reaction_torque: zero,
-            further_reactions: Vec::new(),
+            reactions: Vec::new(),
             mutual_wrenches: Vec::new(),
             tip_field: zero,
             shape_arc_length,
@@ -168,14 +173,14 @@ impl Outputs {
         (self.magnetic_force, self.magnetic_torque) = (magnetic.force, magnetic.torque);
         let base = solution.base_reaction();
         (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
-        let magnet = solution.source_reaction(0, inputs);
         self.mutual_wrenches.clear();
         self.shape_tangents.clear();
         self.shape_curvatures.clear();
-        self.further_reactions.clear();
-        let further = (1..=inputs.further.len()).map(|number| solution.source_reaction(number, inputs));
-        self.further_reactions.extend(further);
-        (self.magnet_reaction_force, self.magnet_reaction_torque) = (magnet.force, magnet.torque);
+        self.reactions.clear();
+        self.reactions.extend((0..inputs.sources.len()).map(|number| {
+            let Wrench { force, torque } = solution.source_reaction(number, inputs);
+            Reaction { source: solution.sources().name(number), force, torque }
+        }));
         self.tip_field = solution.field_at(inputs, &self.tip.position).unwrap_or_default();
         self.wall = solution.wall();
         self.feed_reaction = solution.feed_reaction(inputs);
@@ -187,6 +192,16 @@ impl Outputs {
         let Resolution { interaction, degree, error_estimate, beyond_tolerance } = resolution;
         (self.interaction, self.degree) = (interaction, degree);
         (self.error_estimate, self.beyond_tolerance) = (error_estimate, beyond_tolerance);
+    }
+
+    /// The reaction on the external magnet, if there is one.
+    pub(super) fn on_magnet(&self) -> Option<&Reaction> {
+        self.reactions.first().filter(|reaction| reaction.source == SourceName::Magnet(0))
+    }
+
+    /// The reactions on all other magnets and coils.
+    pub(super) fn on_others(&self) -> &[Reaction] {
+        self.reactions.get(usize::from(self.on_magnet().is_some())..).unwrap_or(&[])
     }
 
     /// Whether the strains of the shape are computed.

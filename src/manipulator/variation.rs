@@ -25,7 +25,7 @@ const SHRUNK: [f64; 3] = [1.0, 0.1, 0.01];
 pub struct Variant {
     /// The device.
     pub design: Design,
-    /// The external magnet, and further magnets and coils.
+    /// The magnets and coils.
     pub sources: Sources,
     /// The vessel around it; `None` for none.
     pub vessel: Option<Vessel>,

@@ -31,8 +31,8 @@ const PLAUSIBLE: f64 = 0.5;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Way {
     rows: Vec<WayRow>,
-    /// Magnets after the first one, which stand before the coils among the further sources.
-    further_magnets: usize,
+    /// Number of coils, which stand behind all magnets among the sources.
+    coils: usize,
 }
 
 impl Way {
@@ -45,9 +45,9 @@ impl Way {
     /// [`Error::Count`] for too many rows; [`Error::Unsupported`] for a name that is no input of the device, with the row's number, and for
     /// an orientation of which only some components are named; [`Error::Range`] for a number that is not finite or no orientation.
     pub(super) fn new(rows: &[WayRow], counts: Counts, own: &Inputs) -> Result<Self, Error> {
-        let further_magnets = counts.further_magnets;
+        let coils = counts.coils;
         if rows.is_empty() {
-            return Ok(Self { rows: Vec::new(), further_magnets }); // most scenes: the names cost more than the rest of the scene
+            return Ok(Self { rows: Vec::new(), coils }); // most scenes: the names cost more than the rest of the scene
         }
         let names = counts.names();
         if rows.len() > Self::MOST {
@@ -62,7 +62,7 @@ impl Way {
                 )));
             }
         }
-        let way = Self { rows: rows.to_vec(), further_magnets };
+        let way = Self { rows: rows.to_vec(), coils };
         way.points(own)?;
         Ok(way)
     }
@@ -87,7 +87,7 @@ impl Way {
         let point = |(number, row): (usize, &WayRow)| {
             let mut draft = Draft::of(own);
             for (name, value) in row {
-                let slot = draft.slot(name, self.further_magnets);
+                let slot = draft.slot(name, self.coils);
                 let refused = || {
                     Error::Unsupported(format!("start.way[{number}]: `{name}` is no input of this device"))
                 };
@@ -152,9 +152,10 @@ impl DraftPose {
 
 /// Inputs of which single numbers are set by their names.
 struct Draft {
-    magnet: DraftPose,
     base: DraftPose,
-    further: Vec<(DraftPose, f64)>,
+    sources: Vec<(DraftPose, f64)>,
+    /// The external magnet of a device that has none: it is an input of the FMU.
+    absent: (DraftPose, f64),
     inputs: Inputs,
     /// The push on a shaft whose length is given instead.
     idle: f64,
@@ -162,64 +163,70 @@ struct Draft {
 
 impl Draft {
     fn of(own: &Inputs) -> Self {
-        let further = own.further.iter().map(|source| (DraftPose::of(&source.pose), source.strength));
+        let sources = own.sources.iter().map(|source| (DraftPose::of(&source.pose), source.strength));
         Self {
-            magnet: DraftPose::of(&own.magnet),
             base: DraftPose::of(&own.base),
-            further: further.collect(),
+            sources: sources.collect(),
+            absent: (DraftPose::of(&Pose::identity()), 0.0),
             inputs: own.clone(),
             idle: 0.0,
         }
     }
 
     /// The place of the number with this name.
-    fn slot(&mut self, name: &str, further_magnets: usize) -> Option<&mut f64> {
+    fn slot(&mut self, name: &str, coils: usize) -> Option<&mut f64> {
         let (stem, component) = indexed(name);
-        let inputs = &mut self.inputs;
-        match stem {
-            "magnet.strength" => return Some(&mut inputs.magnet_strength),
-            "feed.insertion" => return Some(&mut inputs.insertion),
-            "feed.roll" => return Some(&mut inputs.roll),
-            "feed.force" => return Some(inputs.feed_force.as_mut().unwrap_or(&mut self.idle)),
-            "guidewire.insertion" => return Some(&mut inputs.guidewire_insertion),
-            "field.uniform" => return inputs.uniform_field.get_mut(component?),
-            "field.gradient" => return inputs.field_gradient.get_mut(component?),
-            "tip.load_force" => return inputs.tip_force.get_mut(component?),
-            "tip.load_moment" => return inputs.tip_moment.get_mut(component?),
-            _ => {}
-        }
         let (body, part) = stem.split_once('.')?;
         let (kind, number) = indexed(body);
-        match (kind, number) {
-            ("magnet", None) => self.magnet.slot(part, component?),
-            ("base", None) => self.base.slot(part, component?),
-            ("ring", Some(ring)) if part == "load_force" => {
-                inputs.ring_forces.get_mut(ring)?.get_mut(component?)
-            }
-            ("magnet" | "coil", Some(number)) => {
-                // The first magnet has no number, and coils come after all magnets.
-                let index =
-                    if kind == "coil" { Some(further_magnets + number) } else { number.checked_sub(1) };
-                let (pose, strength) = self.further.get_mut(index?)?;
+        match kind {
+            "magnet" | "coil" => {
+                let (pose, strength) = self.source(kind, number, coils)?;
                 match part {
                     "strength" | "current" => Some(strength),
                     _ => pose.slot(part, component?),
                 }
             }
+            "base" => self.base.slot(part, component?),
+            "ring" if part == "load_force" => self.inputs.ring_forces.get_mut(number?)?.get_mut(component?),
+            _ => self.load(stem, component),
+        }
+    }
+
+    /// The place of a number of the field, the feed or the tip's loads.
+    fn load(&mut self, stem: &str, component: Option<usize>) -> Option<&mut f64> {
+        let inputs = &mut self.inputs;
+        match stem {
+            "feed.insertion" => Some(&mut inputs.insertion),
+            "feed.roll" => Some(&mut inputs.roll),
+            "feed.force" => Some(inputs.feed_force.as_mut().unwrap_or(&mut self.idle)),
+            "guidewire.insertion" => Some(&mut inputs.guidewire_insertion),
+            "field.uniform" => inputs.uniform_field.get_mut(component?),
+            "field.gradient" => inputs.field_gradient.get_mut(component?),
+            "tip.load_force" => inputs.tip_force.get_mut(component?),
+            "tip.load_moment" => inputs.tip_moment.get_mut(component?),
             _ => None,
         }
     }
 
+    /// The source of this kind and number; the first magnet has no number, and coils stand behind all magnets.
+    fn source(&mut self, kind: &str, number: Option<usize>, coils: usize) -> Option<&mut (DraftPose, f64)> {
+        let magnets = self.sources.len().checked_sub(coils)?;
+        match (kind, number) {
+            ("coil", number) => self.sources.get_mut(magnets + number?),
+            (_, None) if magnets == 0 => Some(&mut self.absent),
+            (_, number) => self.sources[..magnets].get_mut(number.unwrap_or(0)),
+        }
+    }
+
     fn inputs(self, own: &Inputs) -> Result<Inputs, Error> {
-        let further = self
-            .further
+        let sources = self
+            .sources
             .into_iter()
-            .zip(&own.further)
+            .zip(&own.sources)
             .map(|((pose, strength), own)| Ok(PlacedSource { pose: pose.pose(&own.pose)?, strength }));
         Ok(Inputs {
-            magnet: self.magnet.pose(&own.magnet)?,
             base: self.base.pose(&own.base)?,
-            further: further.collect::<Result<_, Error>>()?,
+            sources: sources.collect::<Result<_, Error>>()?,
             ..self.inputs
         })
     }
@@ -236,7 +243,7 @@ fn indexed(name: &str) -> (&str, Option<usize>) {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Counts {
     pub(super) rings: usize,
-    pub(super) further_magnets: usize,
+    pub(super) magnets: usize,
     pub(super) coils: usize,
     pub(super) shaft: bool,
     pub(super) guidewire: bool,
@@ -251,7 +258,7 @@ impl Counts {
             _ => names.extend((1..=count).map(|k| format!("{stem}[{k}]"))),
         };
 
-        let magnets = (2..self.further_magnets + 2).map(|k| (format!("magnet[{k}]"), "strength"));
+        let magnets = (2..=self.magnets).map(|k| (format!("magnet[{k}]"), "strength"));
         let coils = (1..=self.coils).map(|k| (format!("coil[{k}]"), "current"));
         for (source, strength) in [("magnet".to_owned(), "strength")].into_iter().chain(magnets).chain(coils)
         {

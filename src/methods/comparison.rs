@@ -256,6 +256,10 @@ impl Solution for Comparison {
         self.state.wrenches.magnetic()
     }
 
+    fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
     fn source_reaction(&self, number: usize, inputs: &Inputs) -> Wrench {
         self.state.wrenches.on_source(number, inputs)
     }

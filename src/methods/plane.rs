@@ -36,11 +36,11 @@ impl Plane {
             ("tip force", inputs.tip_force),
         ];
         inside.extend(inputs.ring_forces.iter().map(|force| ("ring force", *force)));
-        for (number, _) in sources.numbered() {
-            if let Some(source) = inputs.source(number).filter(|source| source.strength != 0.0) {
-                inside.push(("magnet's axis", source.pose.axis()));
-                inside.push(("magnet's position", source.pose.position - base.position));
-            }
+        for (_, source) in
+            sources.list().iter().zip(&inputs.sources).filter(|(_, placed)| placed.strength != 0.0)
+        {
+            inside.push(("magnet's axis", source.pose.axis()));
+            inside.push(("magnet's position", source.pose.position - base.position));
         }
         // Direction in which the tip moment rotates the tangent.
         let turned = ("tip moment", inputs.tip_moment.cross(&axis));

@@ -3,9 +3,9 @@
 use nalgebra::{DVector, Vector3};
 
 use super::limits::{Limit, Limits};
-use super::moves::Freedom;
+use super::moves::{Freedom, MAGNET, MAGNET_POSITION, MAGNET_ROTATION};
 use crate::geometry::Pose;
-use crate::magnetics::Assembly;
+use crate::magnetics::Source;
 use crate::manipulator::{Input, Inputs, Jacobian, Output, Outputs};
 
 /// Step of the differences that give the direction of the shortest distance, m.
@@ -29,23 +29,31 @@ struct Nearest {
     gap: f64,
     /// Direction in which the gap grows fastest, world axes.
     away: Vector3<f64>,
+    /// From the centre of the magnet to the point, m.
+    arm: Vector3<f64>,
 }
 
 /// The magnet and the thickness of the device.
 #[derive(Debug, Clone)]
 pub(super) struct Bodies {
-    pub(super) magnet: Option<Assembly>,
+    pub(super) magnet: Option<Source>,
     pub(super) radius: f64,
 }
 
 impl Bodies {
-    /// Gap between magnet and device, m; infinite without a magnet.
-    pub(super) fn gap(&self, magnet: &Pose, outputs: &Outputs) -> f64 {
-        self.nearest(magnet, outputs).map_or(f64::INFINITY, |nearest| nearest.gap)
+    /// Pose of the magnet, if there is one.
+    pub(super) fn placed<'a>(&self, inputs: &'a Inputs) -> Option<&'a Pose> {
+        let magnet = self.magnet.as_ref().and(inputs.sources.get(MAGNET));
+        magnet.map(|placed| &placed.pose)
     }
 
-    fn nearest(&self, pose: &Pose, outputs: &Outputs) -> Option<Nearest> {
-        let magnet = self.magnet.as_ref()?;
+    /// Gap between magnet and device, m; infinite without a magnet.
+    pub(super) fn gap(&self, inputs: &Inputs, outputs: &Outputs) -> f64 {
+        self.nearest(inputs, outputs).map_or(f64::INFINITY, |nearest| nearest.gap)
+    }
+
+    fn nearest(&self, inputs: &Inputs, outputs: &Outputs) -> Option<Nearest> {
+        let (magnet, pose) = (self.magnet.as_ref()?, self.placed(inputs)?);
         let local = |point: &Vector3<f64>| pose.rotation.tr_mul(&(point - pose.position));
         let distances = outputs.shape.iter().map(|point| magnet.distance(&local(point)));
         let (point, distance) = distances.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
@@ -54,7 +62,8 @@ impl Bodies {
             let by = Vector3::ith(axis, STEP);
             (magnet.distance(&(place + by)) - magnet.distance(&(place - by))) / (2.0 * STEP)
         });
-        Some(Nearest { point, gap: distance - self.radius, away: pose.rotation * away })
+        let (gap, arm) = (distance - self.radius, outputs.shape[point] - pose.position);
+        Some(Nearest { point, gap, away: pose.rotation * away, arm })
     }
 
     /// The limits that a step from here may meet.
@@ -76,12 +85,12 @@ impl Bodies {
         let only = |input: Input, freedom: &Freedom, along: Vector3<f64>| {
             if freedom.input == input { freedom.along.dot(&along) } else { 0.0 }
         };
-        if let Some([low, high]) = &limits.workspace {
-            let place = inputs.magnet.position;
+        if let (Some([low, high]), Some(magnet)) = (&limits.workspace, self.placed(inputs)) {
+            let place = magnet.position;
             for axis in 0..3 {
                 let unit = Vector3::ith(axis, 1.0);
-                add(Limit::Workspace, place[axis] - low[axis], &|f| only(Input::MagnetPosition, f, unit));
-                add(Limit::Workspace, high[axis] - place[axis], &|f| only(Input::MagnetPosition, f, -unit));
+                add(Limit::Workspace, place[axis] - low[axis], &|f| only(MAGNET_POSITION, f, unit));
+                add(Limit::Workspace, high[axis] - place[axis], &|f| only(MAGNET_POSITION, f, -unit));
             }
         }
         if let Some((largest, along)) = limits.field.zip(inputs.uniform_field.try_normalize(0.0)) {
@@ -91,11 +100,10 @@ impl Bodies {
         for (slack, way) in [(inputs.insertion, 1.0), (LONGEST - inputs.insertion, -1.0)] {
             add(Limit::Insertion, slack, &|f| only(Input::Insertion, f, Vector3::x() * way));
         }
-        if let Some(Nearest { point, gap, away }) = self.nearest(&inputs.magnet, outputs) {
-            let arm = outputs.shape[point] - inputs.magnet.position;
+        if let Some(Nearest { point, gap, away, arm }) = self.nearest(inputs, outputs) {
             add(Limit::Distance, gap - limits.distance, &|freedom| {
-                let by_magnet = only(Input::MagnetPosition, freedom, -away)
-                    + only(Input::MagnetRotation, freedom, -arm.cross(&away));
+                let by_magnet =
+                    only(MAGNET_POSITION, freedom, -away) + only(MAGNET_ROTATION, freedom, -arm.cross(&away));
                 by_magnet + freedom.rate(jacobian, Output::ShapePoint(point)).dot(&away)
             });
         }

@@ -5,6 +5,7 @@ use nalgebra::{DVector, Vector3};
 use super::limits::Limits;
 use crate::error::Error;
 use crate::geometry::{Pose, RotationVector};
+use crate::magnetics::{Drive, Sources};
 use crate::manipulator::{Input, Inputs, Jacobian, Output, Scene};
 
 /// An input that may be moved.
@@ -20,14 +21,21 @@ pub enum Move {
     UniformField,
     /// Length of shaft inside the port.
     Insertion,
-    /// Current through a coil, both counted from 0: its number among the coils, and among the further sources.
+    /// Current through a coil, both counted from 0: its number among the coils, and among all sources.
     CoilCurrent {
         /// Number of the coil.
         coil: usize,
-        /// Its place in [`Inputs::further`].
+        /// Its place in [`Inputs::sources`].
         source: usize,
     },
 }
+
+/// The external magnet among the sources.
+pub(super) const MAGNET: usize = 0;
+
+/// Its pose among the inputs.
+pub(super) const MAGNET_POSITION: Input = Input::SourcePosition(MAGNET);
+pub(super) const MAGNET_ROTATION: Input = Input::SourceRotation(MAGNET);
 
 /// The name that stands for the currents of all coils.
 const CURRENTS: &str = "coil.current";
@@ -61,9 +69,7 @@ impl Move {
     /// [`Error::Unsupported`] for another name, and for currents where there is no coil.
     pub fn named(name: &str, scene: &Scene) -> Result<Vec<Self>, Error> {
         if name == CURRENTS {
-            let before = scene.further_magnets.len();
-            let each = |coil| Self::CoilCurrent { coil, source: before + coil };
-            let all: Vec<Self> = (0..scene.coils.len()).map(each).collect();
+            let all: Vec<Self> = coils(&scene.sources).collect();
             let none = || Error::Unsupported(format!("`{name}` cannot be moved: the scene has no coil"));
             return if all.is_empty() { Err(none()) } else { Ok(all) };
         }
@@ -79,6 +85,12 @@ impl Move {
     pub fn name(self) -> &'static str {
         NAMES.iter().find(|(_, each)| *each == self).map_or(CURRENTS, |(name, _)| name)
     }
+}
+
+/// The currents of all coils among these sources.
+pub(super) fn coils(sources: &Sources) -> impl Iterator<Item = Move> {
+    let driven = sources.list().iter().enumerate().filter(|(_, source)| source.drive() == Drive::Current);
+    driven.enumerate().map(|(coil, (source, _))| Move::CoilCurrent { coil, source })
 }
 
 /// One freedom: an input and the direction along which it moves by one step.
@@ -109,16 +121,16 @@ pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<
         match each {
             Move::MagnetPosition => {
                 for axis in axes {
-                    add(Input::MagnetPosition, axis * limits.step);
+                    add(MAGNET_POSITION, axis * limits.step);
                 }
             }
             Move::MagnetOrientation => {
                 for column in 0..2 {
-                    let across = inputs.magnet.rotation.column(column).into_owned();
-                    add(Input::MagnetRotation, across * limits.turn);
+                    let across = inputs.sources[MAGNET].pose.rotation.column(column).into_owned();
+                    add(MAGNET_ROTATION, across * limits.turn);
                 }
             }
-            Move::MagnetStrength => add(Input::MagnetStrength, Vector3::x() * STRENGTH_STEP),
+            Move::MagnetStrength => add(Input::SourceStrength(MAGNET), Vector3::x() * STRENGTH_STEP),
             Move::UniformField => {
                 for axis in axes {
                     add(Input::UniformField, axis * FIELD_STEP);
@@ -140,15 +152,16 @@ pub(super) fn moved(inputs: &Inputs, freedoms: &[Freedom], step: &DVector<f64>) 
     for (freedom, by) in freedoms.iter().zip(step) {
         let by = freedom.along * *by;
         match freedom.input {
-            Input::MagnetPosition => out.magnet.position += by,
-            Input::MagnetRotation => turn += by,
-            Input::MagnetStrength => out.magnet_strength += by.x,
+            Input::SourcePosition(source) => out.sources[source].pose.position += by,
+            Input::SourceRotation(_) => turn += by,
+            Input::SourceStrength(source) => out.sources[source].strength += by.x,
             Input::UniformField => out.uniform_field += by,
-            Input::SourceStrength(source) => out.further[source].strength += by.x,
             _ => out.insertion += by.x,
         }
     }
-    out.magnet.rotation = turned(&out.magnet, turn);
+    if let Some(magnet) = out.sources.get_mut(MAGNET) {
+        magnet.pose.rotation = turned(&magnet.pose, turn);
+    }
     out
 }
 
@@ -165,17 +178,19 @@ fn turned(pose: &Pose, by: Vector3<f64>) -> nalgebra::Matrix3<f64> {
 
 /// The step that leads from the inputs of these freedoms to `goal`, without the magnet's spin.
 pub(super) fn between(inputs: &Inputs, freedoms: &[Freedom], goal: &Inputs) -> DVector<f64> {
-    let (from, to) = (inputs.magnet.axis(), goal.magnet.axis());
-    let turn = turn(&from, &to, &inputs.magnet.rotation.column(0).into_owned());
+    let strength = |inputs: &Inputs, source: usize| inputs.sources[source].strength;
+    let position = |inputs: &Inputs, source: usize| inputs.sources[source].pose.position;
     let each = |freedom: &Freedom| {
         let by = match freedom.input {
-            Input::MagnetPosition => goal.magnet.position - inputs.magnet.position,
-            Input::MagnetRotation => turn,
-            Input::MagnetStrength => Vector3::x() * (goal.magnet_strength - inputs.magnet_strength),
-            Input::UniformField => goal.uniform_field - inputs.uniform_field,
-            Input::SourceStrength(source) => {
-                Vector3::x() * (goal.further[source].strength - inputs.further[source].strength)
+            Input::SourcePosition(source) => position(goal, source) - position(inputs, source),
+            Input::SourceRotation(source) => {
+                let [from, to] = [inputs, goal].map(|inputs| inputs.sources[source].pose);
+                turn(&from.axis(), &to.axis(), &from.rotation.column(0).into_owned())
             }
+            Input::SourceStrength(source) => {
+                Vector3::x() * (strength(goal, source) - strength(inputs, source))
+            }
+            Input::UniformField => goal.uniform_field - inputs.uniform_field,
             _ => Vector3::x() * (goal.insertion - inputs.insertion),
         };
         by.dot(&freedom.along) / freedom.along.norm_squared()

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::bounds::{Bodies, Bound};
 use super::limits::{Limit, Limits};
-use super::moves::{Freedom, Move, freedoms, moved};
+use super::moves::{Freedom, MAGNET, Move, freedoms, moved};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outputs, Status};
 
@@ -49,9 +49,10 @@ impl State {
         step: &DVector<f64>,
     ) -> Result<Result<Self, Limit>, Error> {
         let mut inputs = moved(&self.inputs, freedoms, step);
-        if let Some([low, high]) = &rules.limits.workspace {
+        let magnet = rules.bodies.magnet.as_ref().and(inputs.sources.get_mut(MAGNET));
+        if let (Some([low, high]), Some(magnet)) = (&rules.limits.workspace, magnet) {
             // A step that ends on a face of the box ends there to rounding.
-            let place = &mut inputs.magnet.position;
+            let place = &mut magnet.pose.position;
             *place = place.zip_zip_map(low, high, |at, low, high| {
                 if at < low && low - at < ROUNDING {
                     low
@@ -79,7 +80,7 @@ impl State {
         if outputs.snaps != snaps || outputs.stable == Some(false) {
             return Ok(Err(Limit::Snap));
         }
-        if rules.bodies.gap(&next.inputs.magnet, outputs) < rules.limits.distance {
+        if rules.bodies.gap(&next.inputs, outputs) < rules.limits.distance {
             return Ok(Err(Limit::Distance));
         }
         let least = rules.limits.margin;
@@ -128,8 +129,8 @@ impl State {
 impl Rules {
     /// The limit that these inputs exceed before anything is solved.
     fn forbids(&self, inputs: &Inputs) -> Option<Limit> {
-        if let Some([low, high]) = &self.limits.workspace {
-            let place = inputs.magnet.position;
+        if let (Some([low, high]), Some(magnet)) = (&self.limits.workspace, self.bodies.placed(inputs)) {
+            let place = magnet.position;
             let inside = |axis: usize| (low[axis]..=high[axis]).contains(&place[axis]);
             if !(0..3).all(inside) {
                 return Some(Limit::Workspace);

@@ -5,7 +5,7 @@ use super::approach::{Attempt, Step, approach};
 use super::bounds::Bodies;
 use super::limits::{Limit, Limits};
 use super::linear::Linear;
-use super::moves::{Move, freedoms};
+use super::moves::{Move, coils, freedoms};
 use super::state::{Rules, State};
 use super::target::{Residual, Target, Tolerances};
 use super::tree::Tree;
@@ -78,11 +78,10 @@ impl Steering {
             let (known, what) = match each {
                 Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
                 Move::UniformField => (true, ""),
-                Move::CoilCurrent { coil, source } => {
-                    let of_scene = *coil < scene.coils.len() && *source == scene.further_magnets.len() + coil;
-                    (of_scene, "the scene has no such coil")
+                Move::CoilCurrent { .. } => {
+                    (coils(&scene.sources).any(|own| own == *each), "the scene has no such coil")
                 }
-                _ => (scene.magnets.is_some(), "the scene has no magnet"),
+                _ => (scene.sources.magnet().is_some(), "the scene has no magnet"),
             };
             if !known {
                 return refuse(format!("`{name}` cannot be moved: {what}"));
@@ -92,7 +91,7 @@ impl Steering {
             }
         }
         let design = scene.design()?;
-        let bodies = Bodies { magnet: scene.assembly()?, radius: design.largest_radius() };
+        let bodies = Bodies { magnet: scene.sources.magnet().cloned(), radius: design.largest_radius() };
         // Two points a segment: the device between them is as near to the magnet to a tenth of a millimetre.
         let mut manipulator = scene.manipulator(2 * design.segments().len() + 2)?;
         let inputs = scene.inputs.clone();

@@ -5,7 +5,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use super::approach::{Step, straight};
-use super::moves::{Move, between};
+use super::moves::{MAGNET, Move, between};
 use super::state::{Rules, State};
 use crate::error::Error;
 use crate::manipulator::Inputs;
@@ -71,24 +71,25 @@ impl Tree {
         for each in &rules.moves {
             match each {
                 Move::MagnetPosition => {
-                    let centre = out.magnet.position;
+                    let place = &mut out.sources[MAGNET].pose.position;
+                    let centre = *place;
                     let around = Vector3::repeat(AROUND);
                     let [low, high] = rules.limits.workspace.unwrap_or([centre - around, centre + around]);
-                    out.magnet.position = (low + high) * 0.5 + (high - low).map(|side| 0.5 * side * number());
+                    *place = (low + high) * 0.5 + (high - low).map(|side| 0.5 * side * number());
                 }
                 Move::MagnetOrientation => {
                     let axis = Vector3::from_fn(|_, _| number());
-                    let turn = UnitQuaternion::rotation_between(&out.magnet.axis(), &axis);
-                    if let Some(turn) = turn {
-                        out.magnet.rotation = turn.to_rotation_matrix().matrix() * out.magnet.rotation;
+                    let pose = &mut out.sources[MAGNET].pose;
+                    if let Some(turn) = UnitQuaternion::rotation_between(&pose.axis(), &axis) {
+                        pose.rotation = turn.to_rotation_matrix().matrix() * pose.rotation;
                     }
                 }
-                Move::MagnetStrength => out.magnet_strength *= 1.0 + STRENGTH * number(),
+                Move::MagnetStrength => out.sources[MAGNET].strength *= 1.0 + STRENGTH * number(),
                 Move::UniformField => {
                     let most = rules.limits.field.unwrap_or(FIELD) / 3.0_f64.sqrt();
                     out.uniform_field = Vector3::from_fn(|_, _| most * number());
                 }
-                Move::CoilCurrent { source, .. } => out.further[*source].strength += CURRENT * number(),
+                Move::CoilCurrent { source, .. } => out.sources[*source].strength += CURRENT * number(),
                 Move::Insertion => {
                     out.insertion = (out.insertion + INSERTION * number()).clamp(0.0, 1.0);
                 }

@@ -14,7 +14,7 @@ use super::experiment::{SEGMENTS, magnet_pair};
 use super::progress::Progress;
 use super::study::Study;
 use crate::design::{Design, Specification};
-use crate::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Shape};
+use crate::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Shape};
 use crate::error::Error;
 use crate::geometry::Pose;
 use crate::numerics::continuation::PointKind;
@@ -157,8 +157,10 @@ fn nearing() -> Result<Found, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
     let rings = design.rings().count();
     let way = move |millimetres: f64| Inputs {
-        magnet: Pose { position: Vector3::new(0.0, -1e-3 * millimetres, 0.0), ..Pose::identity() },
-        magnet_strength: 1.0,
+        sources: vec![PlacedSource {
+            pose: Pose { position: Vector3::new(0.0, -1e-3 * millimetres, 0.0), ..Pose::identity() },
+            strength: 1.0,
+        }],
         ..Inputs::unloaded(rings)
     };
     let case = Case {

@@ -36,7 +36,7 @@ impl Map {
     fn at(sources: &Sources, placed: &[PlacedSource], point: &Vector3<f64>) -> Result<Self, Error> {
         let mut rows = DMatrix::zeros(8, placed.len());
         for ((coil, PlacedSource { pose, .. }), mut column) in
-            sources.further().iter().zip(placed).zip(rows.column_iter_mut())
+            sources.list().iter().zip(placed).zip(rows.column_iter_mut())
         {
             let (field, gradient) = coil.field_gradient_from(pose, point)?;
             column.rows_mut(0, 3).copy_from(&field);
@@ -78,7 +78,7 @@ fn directions() -> impl Iterator<Item = Vector3<f64>> {
 /// None for these coils; those of the fields are passed on.
 pub fn coils() -> Result<Study, Error> {
     let scene = Scene::parse(SCENE, "eight coils")?;
-    let (sources, placed) = (scene.sources()?, &scene.inputs.further);
+    let (sources, placed) = (&scene.sources, &scene.inputs.sources);
     let fields: Vec<_> = directions().map(|n| DVector::from_column_slice(n.as_slice())).collect();
     let gradients: Vec<_> = directions()
         .map(|n| {
@@ -90,7 +90,7 @@ pub fn coils() -> Result<Study, Error> {
     let mut columns = vec![Column::new("place_mm", PLACES_MM.to_vec())];
     for (axis, name) in [(0, "x"), (2, "z")] {
         let reached = PLACES_MM.map(|place| {
-            let map = Map::at(&sources, placed, &(Vector3::ith(axis, 1e-3 * place)))?;
+            let map = Map::at(sources, placed, &(Vector3::ith(axis, 1e-3 * place)))?;
             Ok::<_, Error>([1e3 * map.reach(&fields)?[0], map.reach(&gradients)?[0]])
         });
         let reached = reached.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -98,7 +98,7 @@ pub fn coils() -> Result<Study, Error> {
         columns.push(Column::new(format!("field_{name}_mt"), part(0)));
         columns.push(Column::new(format!("gradient_{name}_t_per_m"), part(1)));
     }
-    let middle = Map::at(&sources, placed, &Vector3::zeros())?;
+    let middle = Map::at(sources, placed, &Vector3::zeros())?;
     let [field, gradient] = [middle.reach(&fields)?, middle.reach(&gradients)?];
     let row = |quantity: &str, [least, most]: [f64; 2], remark: &str| Comparison {
         quantity: quantity.into(),

@@ -13,7 +13,7 @@ use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::geometry::{Pose, RotationVector};
-use crate::manipulator::{Inputs, Manipulator, Status};
+use crate::manipulator::{Inputs, Manipulator, PlacedSource, Status};
 
 /// Numbers of steps along a path, from a single jump to the reference.
 const STEPS: [u32; 13] = [1, 2, 3, 4, 5, 7, 10, 20, 50, 100, 200, 500, FINEST];
@@ -101,12 +101,12 @@ impl Way {
     fn walked(&self, steps: u32, progress: &dyn Progress) -> Result<Walked, Error> {
         let mut manipulator = self.manipulator.clone();
         let before = manipulator.outputs().snaps;
-        let mut magnet = (self.inputs)(0.0).magnet.position;
+        let mut magnet = (self.inputs)(0.0).sources[0].pose.position;
         let (mut step, mut refused) = (0.0_f64, 0);
         for number in 1..=steps {
             let inputs = (self.inputs)(f64::from(number) / f64::from(steps));
-            step = step.max(1e3 * (inputs.magnet.position - magnet).norm());
-            magnet = inputs.magnet.position;
+            step = step.max(1e3 * (inputs.sources[0].pose.position - magnet).norm());
+            magnet = inputs.sources[0].pose.position;
             refused += u32::from(manipulator.solve(&inputs)?.status == Status::NotSolved);
             progress.done();
         }
@@ -162,7 +162,7 @@ fn ways() -> Result<Vec<Way>, Error> {
 fn beside(place: Vector3<f64>, turn: f64) -> Inputs {
     let rotation = RotationVector::new(Vector3::new(PI + turn, 0.0, 0.0)).matrix();
     let magnet = Pose { position: place + Vector3::new(0.0, 0.0, MIDDLE), rotation };
-    Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }
+    Inputs { sources: vec![PlacedSource { pose: magnet, strength: 1.0 }], ..Inputs::unloaded(SEGMENTS + 1) }
 }
 
 /// The path of `fmu/demo` without its return, since a single step from start to start would not move the magnet: past the manipulator

@@ -6,7 +6,7 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Cylinder, CylinderMaterial, Design, Helix, Ring, Span, Specification, Spiral};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{Assembly, AxialMagnet, AxialSource};
+use crate::magnetics::{AxialMagnet, AxialSource, Cylinders, Source};
 use crate::numerics::quadrature::gauss_legendre;
 
 /// Radius of the external magnets, m.
@@ -26,7 +26,7 @@ const ACCURACY: f64 = 1e-8;
 const SPIRAL_NODES: [usize; 3] = [16, 3, 6];
 
 /// The external magnet: two N45 cylinders of 45 mm by 30 mm with a gap of 10 mm, on a common axis.
-pub(super) fn magnet_pair() -> Result<Assembly, Error> {
+pub(super) fn magnet_pair() -> Result<Source, Error> {
     let magnet = |offset| AxialMagnet {
         radius: MAGNET_RADIUS,
         inner_radius: 0.0,
@@ -34,7 +34,7 @@ pub(super) fn magnet_pair() -> Result<Assembly, Error> {
         offset,
         remanence: 1.35,
     };
-    Assembly::new(vec![magnet(-20e-3), magnet(20e-3)])
+    Ok(Cylinders::new(vec![magnet(-20e-3), magnet(20e-3)])?.into())
 }
 
 /// The magnetic polymer cylinder of the same length and diameter as the device, volume fraction 0.2.
@@ -65,7 +65,7 @@ pub(super) fn axis_distance(distance: f64) -> f64 {
 /// and its axis points along `-z`, so that its field beside it points along the device's magnetisation and attracts.
 pub(super) fn held_force(
     design: &Design,
-    magnet: &Assembly,
+    magnet: &Source,
     distance: f64,
     offset: f64,
 ) -> Result<Vector3<f64>, Error> {
@@ -95,13 +95,13 @@ pub(super) fn held_force(
     Ok(turn.transpose() * force)
 }
 
-fn force_on_ring(magnet: &Assembly, ring: &Ring, base: &mut Pose) -> Result<Vector3<f64>, Error> {
+fn force_on_ring(magnet: &Source, ring: &Ring, base: &mut Pose) -> Result<Vector3<f64>, Error> {
     let body = AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?;
     force_on(magnet, &body, base)
 }
 
 /// Force (N) on a body whose first face is at `base`; advances `base` to its other face.
-fn force_on(magnet: &Assembly, body: &AxialSource, base: &mut Pose) -> Result<Vector3<f64>, Error> {
+fn force_on(magnet: &Source, body: &AxialSource, base: &mut Pose) -> Result<Vector3<f64>, Error> {
     let wrench = magnet.wrench_on(body, &base.advanced(0.5 * body.length()), ACCURACY)?;
     *base = base.advanced(body.length());
     Ok(wrench.force)
@@ -109,7 +109,7 @@ fn force_on(magnet: &Assembly, body: &AxialSource, base: &mut Pose) -> Result<Ve
 
 /// Force on a spiral whose span begins at `base`: the volume integral of `M grad(B d3)`.
 fn force_on_spiral(
-    magnet: &Assembly,
+    magnet: &Source,
     span: &Span,
     spiral: &Spiral,
     base: &Pose,

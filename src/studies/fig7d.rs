@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::experiment::{DISTANCE, axis_distance, magnet_pair};
 use super::study::{Column, Comparison, Mark, Study, Value};
 use crate::error::Error;
-use crate::magnetics::{Assembly, Dipole};
+use crate::magnetics::{Dipole, Source};
 
 /// Distances from the surface of the magnets, mm.
 const DISTANCES_MM: [u32; 3] = [30, 40, 50];
@@ -55,14 +55,14 @@ pub fn fig7d() -> Result<Study, Error> {
 }
 
 /// `B_z`, `B_y` (mT), `dB_z/dz`, `dB_z/dy`, `dB_y/dy` (T/m) at `distance` from the surface and `z` along it (m).
-fn beside(magnet: &Assembly, distance: f64, z: f64) -> Result<[f64; 5], Error> {
+fn beside(magnet: &Source, distance: f64, z: f64) -> Result<[f64; 5], Error> {
     // Half a turn about x lies between the device's axes and the magnet's: y and z change sign.
     let (field, gradient) = magnet.field_gradient(&Vector3::new(0.0, -axis_distance(distance), -z))?;
     let gradients = [(2, 2), (2, 1), (1, 1)].map(|index| gradient[index]);
     Ok([-field.z * 1e3, -field.y * 1e3, gradients[0], gradients[1], gradients[2]])
 }
 
-fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Error> {
+fn comparison(magnet: &Source, places: &[f64]) -> Result<Vec<Comparison>, Error> {
     let stated = |[low, high]: [f64; 2]| Value::Range(low, high);
     let rows = places.iter().map(|z| Ok((*z, beside(magnet, DISTANCE, z * MM)?)));
     let rows = rows.collect::<Result<Vec<_>, Error>>()?;
@@ -75,7 +75,7 @@ fn comparison(magnet: &Assembly, places: &[f64]) -> Result<Vec<Comparison>, Erro
         .iter()
         .map(|(z, row)| (z.abs(), row[2].abs()))
         .fold((0.0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
-    let dipole = Dipole::new(Vector3::z() * magnet.moment())?;
+    let dipole = Dipole::new(magnet.moment())?;
     let single = -dipole.field(&Vector3::new(0.0, axis_distance(DISTANCE), 0.0))?.z * 1e3;
     Ok(vec![
         Comparison {

@@ -10,7 +10,7 @@ use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::manipulator::{Branch, Inputs, Manipulator};
+use crate::manipulator::{Branch, Inputs, Manipulator, PlacedSource};
 
 /// Distance of the magnet's axis from the manipulator's, m.
 const DISTANCE: f64 = 0.12;
@@ -88,5 +88,5 @@ pub(super) fn manipulator() -> Result<Manipulator, Error> {
 /// Inputs with the magnet, magnetised along +z, at `place` (mm) along the manipulator.
 pub(super) fn inputs(place: f64) -> Inputs {
     let magnet = Pose { position: Vector3::new(0.0, -DISTANCE, 1e-3 * place), ..Pose::identity() };
-    Inputs { magnet, magnet_strength: 1.0, ..Inputs::unloaded(SEGMENTS + 1) }
+    Inputs { sources: vec![PlacedSource { pose: magnet, strength: 1.0 }], ..Inputs::unloaded(SEGMENTS + 1) }
 }

@@ -7,7 +7,7 @@ use super::progress::Progress;
 use crate::design::{Specification, SpiralKind};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
-use crate::magnetics::{Assembly, AxialMagnet};
+use crate::magnetics::{AxialMagnet, Cylinders, FieldSource, Source, Sources};
 use crate::manipulator::Scene;
 use crate::methods::Method;
 
@@ -53,7 +53,8 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
         Ok(())
     }),
     ("the extent of the magnets (a dipole)", |scene| {
-        scene.magnets = scene.magnets.take().map(dipole).transpose()?;
+        let dipoles = scene.sources.list().iter().map(dipole).collect::<Result<_, Error>>()?;
+        scene.sources = Sources::new(dipoles)?;
         Ok(())
     }),
     ("everything out of the plane (method `planar`)", |scene| {
@@ -96,9 +97,9 @@ pub fn omissions(progress: &dyn Progress) -> Result<Vec<Omission>, Error> {
     Ok(out)
 }
 
-/// A cylinder with the magnets' moment, so small that its field is that of a dipole.
-fn dipole(magnets: Vec<AxialMagnet>) -> Result<Vec<AxialMagnet>, Error> {
-    let moment = Assembly::new(magnets)?.moment();
+/// A cylinder with the moment of a magnet, so small that its field is that of a dipole.
+fn dipole(magnet: &Source) -> Result<Source, Error> {
+    let moment = magnet.moment().z;
     let unit = AxialMagnet {
         radius: SMALL,
         inner_radius: 0.0,
@@ -106,6 +107,6 @@ fn dipole(magnets: Vec<AxialMagnet>) -> Result<Vec<AxialMagnet>, Error> {
         offset: 0.0,
         remanence: 1.0,
     };
-    let remanence = moment / Assembly::new(vec![unit])?.moment();
-    Ok(vec![AxialMagnet { remanence, ..unit }])
+    let remanence = moment / Cylinders::new(vec![unit])?.moment().z;
+    Ok(Cylinders::new(vec![AxialMagnet { remanence, ..unit }])?.into())
 }

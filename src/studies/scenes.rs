@@ -23,6 +23,6 @@ pub(super) fn later(inputs: &Inputs, steps: u32) -> Inputs {
     let mut moved = inputs.clone();
     let turn = Rotation3::from_axis_angle(&Vector3::x_axis(), f64::from(steps) * TURN_DEG.to_radians());
     moved.uniform_field = turn * moved.uniform_field;
-    moved.magnet.position.z += f64::from(steps) * PASSAGE;
+    moved.sources[0].pose.position.z += f64::from(steps) * PASSAGE;
     moved
 }

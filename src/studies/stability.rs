@@ -10,6 +10,7 @@ use super::scenes::{LEVELS, SEGMENTS};
 use crate::design::{Design, Specification};
 use crate::equilibrium::{Interaction, Settings};
 use crate::error::Error;
+use crate::magnetics::Sources;
 use crate::manipulator::{Followed, Inputs, Scene, Status, Way};
 use crate::methods::{Device, Method};
 use verification::{FineModel, Known};
@@ -104,9 +105,7 @@ impl Ray {
                 vessel: None,
                 shaft: None,
                 guidewire: None,
-                magnets: None,
-                further_magnets: Vec::new(),
-                coils: Vec::new(),
+                sources: Sources::default(),
                 inputs: self.inputs(0.0),
                 settings: Settings { interaction: self.interaction, ..Settings::default() },
                 method: method.name().into(),

@@ -1,7 +1,5 @@
 //! What a page draws of a device and offers to set.
 
-use core::f64::consts::PI;
-
 use serde::Serialize;
 
 use crate::constants::VACUUM_PERMEABILITY;
@@ -10,7 +8,7 @@ use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
 use crate::fmi::variable::{Availability, Causality, Request, Variable};
-use crate::magnetics::{AxialMagnet, Coil};
+use crate::magnetics::{Drive, Part};
 use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
 
@@ -31,7 +29,9 @@ pub(super) struct Description {
     feed_mode: FeedMode,
     guidewire: Option<Wire>,
     magnet: Vec<Cylinder>,
-    further: Vec<Source>,
+    /// The magnets after the first one, then the coils.
+    #[serde(rename = "further")]
+    others: Vec<Source>,
     vessel: Option<Wall>,
 }
 
@@ -85,8 +85,8 @@ struct Wire {
     radius: f64,
 }
 
-/// A magnet after the first one, or a coil. The cylinder of a coil is its winding, with the remanence that has its dipole moment of
-/// one ampere.
+/// A magnet after the first one, or a coil. The cylinder of a coil is its winding, with core if there is one, and has the remanence of
+/// its dipole moment at one ampere.
 #[derive(Debug, Serialize)]
 struct Source {
     name: String,
@@ -94,7 +94,7 @@ struct Source {
     cylinders: Vec<Cylinder>,
 }
 
-/// A cylinder of a magnet.
+/// A part of a magnet or coil.
 #[derive(Debug, Serialize)]
 #[serde(rename_all = "camelCase")]
 struct Cylinder {
@@ -130,14 +130,10 @@ impl Description {
                 .collect()
         };
         let design = start.design()?;
-        let further = start.source_names().zip(&start.further);
-        let further = further.map(|((name, coil), source)| {
-            let assembly = &source.assembly;
-            let cylinders = match assembly.coil() {
-                Some(coil) => vec![Cylinder::winding(coil, assembly.moment())],
-                None => assembly.magnets().iter().map(Cylinder::of).collect(),
-            };
-            Source { name, coil, cylinders }
+        let sources = start.sources()?;
+        let mut sources = start.source_names().zip(sources.list()).map(|((name, drive), source)| {
+            let cylinders = source.parts().iter().map(Cylinder::of).collect();
+            Source { name, coil: drive == Drive::Current, cylinders }
         });
         let walls = start.vessel.as_ref().map(|vessel| Wall {
             branches: vessel.lumen.branches().iter().map(Course::of).collect(),
@@ -154,8 +150,8 @@ impl Description {
                 .map(|span| Tube { inner_radius: span.inner_radius, outer_radius: span.outer_radius }),
             feed_mode: start.feed_mode,
             guidewire: design.guidewire().map(|wire| Wire { radius: wire.radius }),
-            magnet: start.magnets.iter().map(Cylinder::of).collect(),
-            further: further.collect(),
+            magnet: sources.next().map_or_else(Vec::new, |magnet| magnet.cylinders),
+            others: sources.collect(),
             vessel: walls,
         })
     }
@@ -167,21 +163,15 @@ impl Description {
 }
 
 impl Cylinder {
-    fn of(magnet: &AxialMagnet) -> Self {
+    fn of(part: &Part) -> Self {
+        let Part { outline, centre, remanence } = part;
         Self {
-            inner_radius: magnet.inner_radius,
-            outer_radius: magnet.radius,
-            length: magnet.length,
-            offset: magnet.offset,
-            remanence: magnet.remanence,
+            inner_radius: outline.inner_radius(),
+            outer_radius: outline.outer_radius(),
+            length: outline.length(),
+            offset: centre.z,
+            remanence: remanence.z,
         }
-    }
-
-    fn winding(coil: &Coil, moment: f64) -> Self {
-        let Coil { inner_radius, outer_radius, length, .. } = *coil;
-        let volume = PI * (outer_radius * outer_radius - inner_radius * inner_radius) * length;
-        let remanence = VACUUM_PERMEABILITY * moment / volume;
-        Self { inner_radius, outer_radius, length, offset: 0.0, remanence }
     }
 }
 

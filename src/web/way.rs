@@ -17,7 +17,7 @@ impl Device {
     /// let (way, mut inputs) = (device.start(), device.start());
     /// inputs[1] += 0.01; // magnet.position[2], m
     /// let moved = Scene::parse(&device.scene_at(&inputs, &way)?, "moved")?;
-    /// assert_eq!(moved.inputs.magnet.position.y, inputs[1]);
+    /// assert_eq!(moved.inputs.sources[0].pose.position.y, inputs[1]);
     /// assert_eq!(moved.way.rows()[0]["magnet.position[2]"], way[1]);
     /// # Ok::<(), mcm::error::Error>(())
     /// ```

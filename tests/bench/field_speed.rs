@@ -17,7 +17,7 @@ mod reference;
 use core::hint::black_box;
 use std::time::Instant;
 
-use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Coil, Dipole};
+use mcm::magnetics::{AxialMagnet, AxialSource, Coil, Cylinders, Dipole, Solenoid, Source};
 use nalgebra::{Matrix3, Vector3};
 
 const ROUNDS: usize = 2000;
@@ -122,13 +122,12 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
 /// Nanoseconds per point for field and gradient of a coil, of the cylinder of its outline and of two such cylinders, in
 /// alternating rounds, and the ratios.
 fn coils() {
-    let dimensions =
-        Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
-    let coil = Assembly::of_coil(dimensions).expect("allowed");
+    let dimensions = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
+    let coil = Source::from(Solenoid::new(dimensions).expect("allowed"));
     let cylinder =
         |offset| AxialMagnet { radius: 40e-3, inner_radius: 0.0, length: 60e-3, offset, remanence: 1.35 };
-    let one = Assembly::new(vec![cylinder(0.0)]).expect("allowed");
-    let two = Assembly::new(vec![cylinder(0.0), cylinder(0.07)]).expect("apart");
+    let one = Source::from(Cylinders::new(vec![cylinder(0.0)]).expect("allowed"));
+    let two = Source::from(Cylinders::new(vec![cylinder(0.0), cylinder(0.07)]).expect("apart"));
     println!(
         "\n| distance from the centre | one cylinder, B and G | two cylinders | coil | coil / cylinder |"
     );

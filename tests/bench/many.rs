@@ -24,7 +24,7 @@ fn timed(scene: &Scene, start: &Manipulator, threads: usize) -> Result<(f64, Vec
     for x in axis() {
         for (y, z) in axis().flat_map(|y| axis().map(move |z| (y, z))) {
             let mut pose = scene.inputs.clone();
-            pose.magnet.position += Vector3::new(x, y, z);
+            pose.sources[0].pose.position += Vector3::new(x, y, z);
             inputs.push(pose);
         }
     }

@@ -42,7 +42,7 @@ const PAIR: &str = "[magnet]\norientation_wxyz = [0, 1, 0, 0]";
 fn passing(scene: &Scene) -> Vec<Inputs> {
     walk(|step| {
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position.z += 1e-4 * step;
+        inputs.sources[0].pose.position.z += 1e-4 * step;
         inputs
     })
 }

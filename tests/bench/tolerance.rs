@@ -115,7 +115,7 @@ fn main() {
 fn later(start: &Inputs, moved: [f64; 3], turned: f64, step: u32) -> Inputs {
     let part = f64::from(step) / f64::from(STEPS);
     let mut out = start.clone();
-    out.magnet.position += Vector3::from(moved) * part;
+    out.sources[0].pose.position += Vector3::from(moved) * part;
     out.uniform_field = RotationVector::new(Vector3::x() * (turned * part)).matrix() * out.uniform_field;
     out
 }

@@ -28,7 +28,7 @@ fn rows_are_the_solves_one_after_the_other() {
     let mut manipulator = scene.manipulator(2).unwrap();
     for ((row, height), number) in rows.iter().zip(heights).zip(0..) {
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position.y = height;
+        inputs.sources[0].pose.position.y = height;
         let outputs = manipulator.solve(&inputs).unwrap();
         let cell = |name: &str| row[name].parse::<f64>().unwrap();
         assert_eq!(cell("time"), 0.5 * f64::from(number));

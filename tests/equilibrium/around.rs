@@ -33,21 +33,23 @@ fn scene(level: &str, position: &str) -> Scene {
 }
 
 fn equilibrium(scene: &Scene) -> Equilibrium {
-    let (design, magnet) = (scene.design().expect("a design"), scene.assembly().expect("a magnet"));
-    Equilibrium::new(&design, magnet.as_ref(), scene.settings, 2).expect("allowed")
+    let design = scene.design().expect("a design");
+    Equilibrium::new(&design, &scene.sources, scene.settings, 2).expect("allowed")
 }
 
 /// With the magnet's orientation as it is, after so many steps around.
 fn around(scene: &Scene, steps: f64) -> Inputs {
     let mut inputs = scene.inputs.clone();
     let (sine, cosine) = (TAU * steps / f64::from(STEPS)).sin_cos();
-    inputs.magnet.position = Vector3::new(0.0, -AWAY * cosine, MIDDLE + AWAY * sine);
+    inputs.sources[0].pose.position = Vector3::new(0.0, -AWAY * cosine, MIDDLE + AWAY * sine);
     inputs
 }
 
 /// With a magnet of that part of its strength.
 fn of_strength(scene: &Scene, part: f64) -> Inputs {
-    Inputs { magnet_strength: part, ..scene.inputs.clone() }
+    let mut inputs = scene.inputs.clone();
+    inputs.sources[0].strength = part;
+    inputs
 }
 
 /// Where the branch of a solved model folds, between the values `ends` of a path, of which the first is that of its shape.

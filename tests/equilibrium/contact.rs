@@ -3,9 +3,11 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Body, Contact, Equilibrium, Inputs, Interaction, Outcome, Settings, Solution};
+use mcm::equilibrium::{
+    Body, Contact, Equilibrium, Inputs, Interaction, Outcome, PlacedSource, Settings, Solution,
+};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
+use mcm::magnetics::{AxialMagnet, Cylinders, Part, Source};
 use mcm::manipulator::{Followed, Manipulator, Scene, Status};
 use mcm::methods::{self, Compared, Device, Method};
 use nalgebra::{Rotation3, Vector3};
@@ -20,15 +22,17 @@ const RING: f64 = 1e-3;
 const AROUND: u32 = 2000;
 
 /// How deep the deepest point of a circle lies below the surface of one of the cylinders, negative outside.
-fn circle_in(magnets: &[AxialMagnet], at: &Pose, centre: &Pose) -> f64 {
+fn circle_in(parts: &[Part], at: &Pose, centre: &Pose) -> f64 {
     let depth = |point: Vector3<f64>| {
         let local = at.rotation.transpose() * (point - at.position);
         let rho = local.x.hypot(local.y);
-        let in_one = |m: &AxialMagnet| {
-            let bore = if m.inner_radius > 0.0 { rho - m.inner_radius } else { f64::INFINITY };
-            (m.radius - rho).min(0.5 * m.length - (local.z - m.offset).abs()).min(bore)
+        let in_one = |part: &Part| {
+            let (outline, inner) = (&part.outline, part.outline.inner_radius());
+            let bore = if inner > 0.0 { rho - inner } else { f64::INFINITY };
+            let along = 0.5 * outline.length() - (local.z - part.centre.z).abs();
+            (outline.outer_radius() - rho).min(along).min(bore)
         };
-        magnets.iter().map(in_one).fold(f64::NEG_INFINITY, f64::max)
+        parts.iter().map(in_one).fold(f64::NEG_INFINITY, f64::max)
     };
     let point = |k: u32| {
         let (sine, cosine) = (TAU * f64::from(k) / f64::from(AROUND)).sin_cos();
@@ -38,12 +42,10 @@ fn circle_in(magnets: &[AxialMagnet], at: &Pose, centre: &Pose) -> f64 {
 }
 
 /// The deepest ring and its depth.
-fn deepest_ring(magnets: &[AxialMagnet], at: &Pose, rings: impl Iterator<Item = Pose>) -> (usize, f64) {
+fn deepest_ring(parts: &[Part], at: &Pose, rings: impl Iterator<Item = Pose>) -> (usize, f64) {
     let height = |i: u32| RING * (f64::from(i) / 100.0 - 0.5);
     let depth = |centre: &Pose| {
-        (0..=100)
-            .map(|i| circle_in(magnets, at, &centre.advanced(height(i))))
-            .fold(f64::NEG_INFINITY, f64::max)
+        (0..=100).map(|i| circle_in(parts, at, &centre.advanced(height(i)))).fold(f64::NEG_INFINITY, f64::max)
     };
     let mut found: Vec<(usize, f64)> =
         rings.enumerate().map(|(number, centre)| (number, depth(&centre))).collect();
@@ -75,11 +77,11 @@ fn without_bodies(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &mut [f
 #[test]
 fn a_tip_that_is_pulled_into_the_magnet_is_told_with_its_depth() {
     let scene = beside(23.0, 1.0);
-    let magnets = scene.magnets.clone().unwrap();
+    let parts = scene.sources.list()[0].parts();
     let design = scene.design().unwrap();
-    let mut equilibrium =
-        Equilibrium::new(&design, scene.assembly().unwrap().as_ref(), scene.settings, 2).unwrap();
-    let at = |strength: f64| Inputs { magnet_strength: strength, ..scene.inputs.clone() };
+    let mut equilibrium = Equilibrium::new(&design, scene.sources.magnet(), scene.settings, 2).unwrap();
+    let pose = scene.inputs.sources[0].pose;
+    let at = |strength| Inputs { sources: vec![PlacedSource { pose, strength }], ..scene.inputs.clone() };
     let (mut shape, mut told, mut deep) = (vec![0.0; equilibrium.freedoms()], 0, Vec::new());
     for step in 1..=215 {
         let strength = 1e-3 * f64::from(step);
@@ -96,7 +98,7 @@ fn a_tip_that_is_pulled_into_the_magnet_is_told_with_its_depth() {
             continue;
         }
         equilibrium.gradient(&inputs, &shape).unwrap(); // places the rings
-        let (ring, depth) = deepest_ring(&magnets, &scene.inputs.magnet, equilibrium.rings());
+        let (ring, depth) = deepest_ring(parts, &pose, equilibrium.rings());
         println!("strength {strength}: {:?}, ring {ring} {depth:e} m", report.outcome);
         match report.outcome {
             Outcome::Contact(Contact { first, second: Body::Source(..), depth: found }) => {
@@ -115,11 +117,11 @@ fn a_tip_that_is_pulled_into_the_magnet_is_told_with_its_depth() {
 }
 
 /// A magnet too weak to be felt, wherever it is.
-fn unfelt(cylinder: AxialMagnet) -> Assembly {
-    Assembly::new(vec![cylinder]).unwrap()
+fn unfelt(cylinder: AxialMagnet) -> Source {
+    Cylinders::new(vec![cylinder]).unwrap().into()
 }
 
-fn manipulator(magnet: Option<&Assembly>, interaction: Interaction, points: usize) -> Manipulator {
+fn manipulator(magnet: Option<&Source>, interaction: Interaction, points: usize) -> Manipulator {
     let design = Design::new(Specification::paper(3)).unwrap();
     Manipulator::new(&design, magnet, Settings { interaction, ..Settings::default() }, points).unwrap()
 }
@@ -141,19 +143,21 @@ fn a_bent_segment_beside_a_magnet_is_as_deep_as_its_points_say() {
         let rotation = Rotation3::rotation_between(&Vector3::z(), &axis).unwrap().into_inner();
         let magnet = Pose { position: shape.shape[near] - side * clearance, rotation };
         let mut manipulator = manipulator(Some(&unfelt(rod)), Interaction::None, 2);
-        let inputs = Inputs { magnet, magnet_strength: 1e-12, ..bent.clone() };
+        let inputs = Inputs { sources: vec![PlacedSource { pose: magnet, strength: 1e-12 }], ..bent.clone() };
         let outputs = manipulator.solve(&inputs).unwrap();
         let sections = (1..points - 1).map(|i| {
             let tangent = (shape.shape[i + 1] - shape.shape[i - 1]).normalize();
             let rotation = Rotation3::rotation_between(&Vector3::z(), &tangent).unwrap().into_inner();
             Pose { position: shape.shape[i], rotation }
         });
-        let depth = sections.map(|pose| circle_in(&[rod], &magnet, &pose)).fold(f64::NEG_INFINITY, f64::max);
+        let depth = sections
+            .map(|pose| circle_in(unfelt(rod).parts(), &magnet, &pose))
+            .fold(f64::NEG_INFINITY, f64::max);
         println!("{middle}, {clearance}: {:?}, by points {depth:e} m", outputs.outcome);
         let Outcome::Contact(contact) = outputs.outcome else { panic!("{middle}: {:?}", outputs.outcome) };
         assert_eq!(outputs.status, Status::NotSolved);
         assert!((contact.depth - depth).abs() <= CONTACT_DEPTH, "{contact:?}, by points {depth:e} m");
-        let off = Inputs { magnet_strength: 0.0, ..inputs };
+        let off = Inputs { sources: vec![PlacedSource { pose: magnet, strength: 0.0 }], ..inputs };
         assert_eq!(
             manipulator.solve(&off).unwrap().status,
             Status::Solved,
@@ -180,7 +184,10 @@ fn a_bore_has_room_for_the_manipulator_and_its_wall_has_not() {
         };
         for (aside, expected) in [(0.0, 0.0), (0.9e-3, 0.0), (1.1e-3, 0.1e-3), (1.5e-3, 0.5e-3)] {
             let magnet = Pose { position: Vector3::new(aside, 0.0, 8e-3), ..Pose::identity() };
-            let inputs = Inputs { magnet, magnet_strength: 1e-12, ..Inputs::unloaded(4) };
+            let inputs = Inputs {
+                sources: vec![PlacedSource { pose: magnet, strength: 1e-12 }],
+                ..Inputs::unloaded(4)
+            };
             let outcome = manipulator.solve(&inputs).unwrap().outcome;
             if let Outcome::Contact(contact) = outcome {
                 assert!(

@@ -3,7 +3,6 @@
 
 use mcm::design::{Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
-use mcm::magnetics::Assembly;
 use mcm::manipulator::Scene;
 use nalgebra::Vector3;
 
@@ -150,11 +149,11 @@ fn the_accuracy_of_rings_and_spans_is_held() {
 fn sections_are_as_coarse_as_the_accuracy_allows() {
     let text = "[design]\nsegments = 3\n[magnet]\nposition_mm = [0.0, 120.0, 10.0]\norientation_wxyz = [0.8, 0.6, 0, 0]";
     let scene = Scene::parse(text, "test scene").unwrap();
-    let assembly = Assembly::new(scene.magnets.clone().unwrap()).unwrap();
+    let magnet = scene.sources.magnet().cloned();
     let energy = |pair_accuracy: f64| {
         let settings = Settings { pair_accuracy, interaction: Interaction::None, ..scene.settings };
         let mut equilibrium =
-            Equilibrium::new(&scene.design().unwrap(), Some(&assembly), settings, 2).unwrap();
+            Equilibrium::new(&scene.design().unwrap(), magnet.as_ref(), settings, 2).unwrap();
         let straight = vec![0.0; equilibrium.freedoms()];
         equilibrium.gradient(&scene.inputs, &straight).unwrap().0
     };

@@ -1,7 +1,7 @@
 //! Gradient and Hessian against finite differences.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings};
 use mcm::geometry::Pose;
 use nalgebra::Vector3;
 
@@ -25,8 +25,8 @@ fn everything(magnet: bool) -> Inputs {
     inputs.ring_forces[1] = Vector3::new(0.002, -0.001, 0.004);
     inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
     if magnet {
-        inputs.magnet = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
-        inputs.magnet_strength = 1.0;
+        let pose = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+        inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
         inputs.field_gradient = [0.1, 0.05, -0.2, 0.3, 0.15];
     }
     inputs

@@ -1,7 +1,7 @@
 //! Laws that need no reference: objectivity, balance of forces and moments, no net internal force.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector, hat};
 use nalgebra::{Matrix3, Vector3};
 
@@ -30,8 +30,8 @@ fn everything() -> Inputs {
     inputs.ring_forces[1] = Vector3::new(0.002, -0.001, 0.004);
     inputs.ring_forces[3] = Vector3::new(-0.001, 0.001, 0.002);
     inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
-    inputs.magnet = Pose::new([0.01, -0.09, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
-    inputs.magnet_strength = 0.7;
+    let pose = Pose::new([0.01, -0.09, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+    inputs.sources = vec![PlacedSource { pose, strength: 0.7 }];
     inputs
 }
 
@@ -47,8 +47,7 @@ fn moved(inputs: &Inputs, turn: &Matrix3<f64>, shift: &Vector3<f64>) -> Inputs {
     let [xx, xy, xz, yy, yz] = inputs.field_gradient;
     let g = turn * Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, -xx - yy) * turn.transpose();
     Inputs {
-        magnet: pose(&inputs.magnet),
-        magnet_strength: inputs.magnet_strength,
+        sources: inputs.sources.iter().map(|own| PlacedSource { pose: pose(&own.pose), ..*own }).collect(),
         uniform_field: turn * inputs.uniform_field - g * shift,
         field_gradient: [g.m11, g.m12, g.m13, g.m22, g.m23],
         base: pose(&inputs.base),

@@ -6,7 +6,7 @@
 use core::f64::consts::PI;
 
 use mcm::design::{Backbone, Design, Helix, Modulus, Segmented, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 
@@ -290,8 +290,8 @@ fn only_where_the_magnet_is_seen_from_the_base_counts() {
     for step in 0..=20 {
         let part = f64::from(step) / 20.0;
         let mut inputs = unloaded();
-        inputs.magnet = Pose::new([0.0, -0.08, 0.02], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
-        inputs.magnet_strength = 1.0;
+        let pose = Pose::new([0.0, -0.08, 0.02], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+        inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
         inputs.base = Pose {
             position: Vector3::new(0.0, 0.0, 0.04 * part - 0.02),
             rotation: RotationVector::new(Vector3::new(0.0, 0.0, 2.0 * part)).matrix(),
@@ -299,10 +299,17 @@ fn only_where_the_magnet_is_seen_from_the_base_counts() {
         solved(&mut inserted, &inputs);
         let back = inputs.base.rotation.transpose();
         let seen = Pose {
-            position: back * (inputs.magnet.position - inputs.base.position),
-            rotation: back * inputs.magnet.rotation,
+            position: back * (inputs.sources[0].pose.position - inputs.base.position),
+            rotation: back * inputs.sources[0].pose.rotation,
         };
-        solved(&mut still, &Inputs { magnet: seen, base: Pose::identity(), ..inputs.clone() });
+        solved(
+            &mut still,
+            &Inputs {
+                sources: vec![PlacedSource { pose: seen, strength: 1.0 }],
+                base: Pose::identity(),
+                ..inputs.clone()
+            },
+        );
         let (one, two) = (inserted.tip(), inputs.base.compose(&still.tip()));
         assert_close(step, one.position.as_slice(), two.position.as_slice(), LAW);
         assert_close(step, one.rotation.as_slice(), two.rotation.as_slice(), LAW);

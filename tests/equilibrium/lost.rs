@@ -81,9 +81,10 @@ fn the_growing_magnet_loses_the_branch_where_the_table_does() {
             strength += RAMP * fold[0];
         }
         // Where the table's last shape reaches into the magnet's material, its branch is one that a ramp cannot reach.
-        let last = vector(&row.outputs["state_at_last_stable"]["tip_p"]) - row.inputs.magnet.position;
+        let last =
+            vector(&row.outputs["state_at_last_stable"]["tip_p"]) - row.inputs.sources[0].pose.position;
         let magnet = row.magnet.as_ref().expect("a row with a magnet");
-        let inside = magnet.contains(&row.inputs.magnet.rotation.tr_mul(&last));
+        let inside = magnet.contains(&row.inputs.sources[0].pose.rotation.tr_mul(&last));
         unreachable += usize::from(inside);
         assert!(
             (inside || strength > fold[0] * (1.0 - FOLD_STRENGTH))

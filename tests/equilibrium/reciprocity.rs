@@ -1,7 +1,7 @@
 //! Rings in each other's and the magnet's field, against the wrench on charged faces, an independent formula.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Solution};
 use mcm::geometry::Pose;
 use mcm::magnetics::{AxialSource, Wrench};
 use nalgebra::Vector3;
@@ -38,8 +38,8 @@ fn solved(equilibrium: &mut Equilibrium, inputs: &Inputs) {
 fn the_magnet_feels_minus_what_the_rings_feel() {
     let (design, magnet) = (rings_alone(3), pair());
     let mut inputs = Inputs::unloaded(4);
-    inputs.magnet = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
-    inputs.magnet_strength = 1.0;
+    let pose = Pose::new([0.01, -0.06, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+    inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
     inputs.uniform_field = Vector3::new(0.0, 0.003, 0.001); // must not enter the magnet's reaction
     inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
     let settings = Settings { interaction: Interaction::Rings, pair_accuracy: PAIRS, ..Settings::default() };
@@ -48,9 +48,9 @@ fn the_magnet_feels_minus_what_the_rings_feel() {
     let body = source(&design);
     let (mut on_magnet, mut on_rings) = (zero(), zero());
     for ring in equilibrium.rings() {
-        let seen = seen_from(&inputs.magnet, &ring);
+        let seen = seen_from(&inputs.sources[0].pose, &ring);
         let wrench = magnet.wrench_on(&body, &seen, WRENCH_ACCURACY).expect("apart");
-        let turn = inputs.magnet.rotation;
+        let turn = inputs.sources[0].pose.rotation;
         let back = wrench.reaction(&seen.position);
         on_magnet.force += turn * back.force;
         on_magnet.torque += turn * back.torque;

@@ -119,10 +119,10 @@ fn inputs_that_are_no_numbers_are_refused_and_change_nothing() {
         broken[0].uniform_field.y = bad;
         broken[1].field_gradient[3] = bad;
         broken[2].base.position.x = bad;
-        broken[3].magnet.rotation.m12 = bad;
+        broken[3].insertion = bad;
         broken[4].tip_moment.z = bad;
         broken[5].ring_forces[2].z = bad;
-        broken[6].magnet_strength = bad;
+        broken[6].tip_force.x = bad;
         for (number, inputs) in broken.iter().enumerate() {
             assert!(equilibrium.solve(inputs).is_err(), "broken inputs {number} with {bad} were accepted");
             assert_eq!(equilibrium.unknowns(), before, "broken inputs {number} moved the shape");

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use mcm::design::{Design, Segmented, Specification, SpiralKind};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
+use mcm::magnetics::{AxialMagnet, Cylinders, Source};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -18,7 +18,7 @@ pub(crate) struct Row {
     pub(crate) level: String,
     pub(crate) segmented: Segmented,
     pub(crate) inputs: Inputs,
-    pub(crate) magnet: Option<Assembly>,
+    pub(crate) magnet: Option<Source>,
     /// Size of the field where it is turned from +z to its direction.
     pub(crate) turned: Option<f64>,
     /// Angle of the field from +z, deg.
@@ -41,11 +41,11 @@ pub(crate) fn row(id: &str) -> Row {
     rows().into_iter().find(|row| row.id == id).unwrap_or_else(|| panic!("{id} is not in the table"))
 }
 
-fn magnet_pair(diameter: f64, length: f64, gap: f64, remanence: f64) -> Assembly {
+fn magnet_pair(diameter: f64, length: f64, gap: f64, remanence: f64) -> Source {
     let offset = 0.5 * (length + gap);
     let magnet =
         |offset| AxialMagnet { radius: 0.5 * diameter, inner_radius: 0.0, length, offset, remanence };
-    Assembly::new(vec![magnet(-offset), magnet(offset)]).expect("the reference pair is allowed")
+    Cylinders::new(vec![magnet(-offset), magnet(offset)]).expect("the reference pair is allowed").into()
 }
 
 /// The number at `key`, which must be one.
@@ -97,8 +97,8 @@ impl Row {
             assert_eq!(list(&pair["axis"]), [0.0, 0.0, 1.0], "{id}");
             let up = number(pair, "polarity") > 0.0;
             let orientation = if up { [1.0, 0.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0, 0.0] };
-            inputs.magnet = Pose::new(vector(&pair["centre"]).into(), orientation).expect("a pose");
-            inputs.magnet_strength = 1.0;
+            let pose = Pose::new(vector(&pair["centre"]).into(), orientation).expect("a pose");
+            inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
             let size = |key| number(pair, key);
             magnet_pair(size("diameter"), size("length_each"), size("gap"), size("Br"))
         });
@@ -168,6 +168,8 @@ impl Row {
 
     /// The inputs with the magnet's strength scaled.
     pub(crate) fn ramped_to(&self, strength: f64) -> Inputs {
-        Inputs { magnet_strength: strength, ..self.inputs.clone() }
+        let mut inputs = self.inputs.clone();
+        inputs.sources[0].strength = strength;
+        inputs
     }
 }

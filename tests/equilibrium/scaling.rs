@@ -1,9 +1,9 @@
 //! Scaling laws: magnetostatics and linear elasticity have no length of their own.
 
 use mcm::design::{Backbone, Design, Modulus, Segmented, Specification, gent_modulus};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Report, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Report, Settings, Solution};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
+use mcm::magnetics::{AxialMagnet, Cylinders, Source};
 use nalgebra::Vector3;
 
 use crate::given::pair;
@@ -12,7 +12,7 @@ use crate::tolerance::{LAW, assert_close};
 /// A scene with everything in it.
 struct Scene {
     segmented: Segmented,
-    magnet: Assembly,
+    magnet: Source,
     inputs: Inputs,
 }
 
@@ -26,8 +26,8 @@ fn scene() -> Scene {
     inputs.tip_moment = Vector3::new(1e-5, -2e-5, 3e-5);
     inputs.ring_forces[1] = Vector3::new(0.002, -0.001, 0.004);
     inputs.base = Pose::new([0.001, 0.002, -0.003], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
-    inputs.magnet = Pose::new([0.01, -0.09, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
-    inputs.magnet_strength = 0.7;
+    let pose = Pose::new([0.01, -0.09, 0.01], [0.6, 0.8, 0.0, 0.0]).expect("a pose");
+    inputs.sources = vec![PlacedSource { pose, strength: 0.7 }];
     let backbone = Some(Backbone { modulus: Modulus::Elastic(2e6), ..Backbone::silicone() });
     Scene { segmented: Segmented { backbone, ..segmented }, magnet: pair(), inputs }
 }
@@ -41,6 +41,21 @@ impl Scene {
         assert!(report.solved() && report.snaps == 0, "{report:?}");
         (equilibrium, report)
     }
+}
+
+/// The magnet with its cylinders changed.
+fn changed(magnet: &Source, change: impl Fn(AxialMagnet) -> AxialMagnet) -> Source {
+    let cylinders = magnet.parts().iter().map(|part| {
+        let outline = &part.outline;
+        change(AxialMagnet {
+            radius: outline.outer_radius(),
+            inner_radius: outline.inner_radius(),
+            length: outline.length(),
+            offset: part.centre.z,
+            remanence: part.remanence.z,
+        })
+    });
+    Cylinders::new(cylinders.collect()).expect("allowed").into()
 }
 
 /// Compares two solves whose lengths, forces and torques are expected in these ratios.
@@ -79,16 +94,16 @@ fn a_larger_device_of_the_same_materials_in_the_same_field_bends_alike() {
     let tube = second.segmented.backbone.as_mut().expect("the scene has one");
     tube.outer_radius *= factor;
     tube.inner_radius *= factor;
-    let larger = |m: &AxialMagnet| AxialMagnet {
+    let larger = |m: AxialMagnet| AxialMagnet {
         radius: m.radius * factor,
         length: m.length * factor,
         offset: m.offset * factor,
-        ..*m
+        ..m
     };
-    second.magnet = Assembly::new(first.magnet.magnets().iter().map(larger).collect()).expect("allowed");
+    second.magnet = changed(&first.magnet, larger);
     let inputs = &mut second.inputs;
     inputs.base.position *= factor;
-    inputs.magnet.position *= factor;
+    inputs.sources[0].pose.position *= factor;
     inputs.field_gradient.iter_mut().for_each(|gradient| *gradient /= factor);
     inputs.gravity /= factor;
     inputs.tip_force *= factor.powi(2);
@@ -108,8 +123,8 @@ fn moduli_go_with_the_square_of_all_fields() {
     helix.particle_remanence *= factor;
     second.segmented.ring.remanence *= factor;
     second.segmented.backbone.as_mut().expect("the scene has one").modulus = Modulus::Elastic(2e6 * square);
-    let weaker = |m: &AxialMagnet| AxialMagnet { remanence: m.remanence * factor, ..*m };
-    second.magnet = Assembly::new(first.magnet.magnets().iter().map(weaker).collect()).expect("allowed");
+    let weaker = |m: AxialMagnet| AxialMagnet { remanence: m.remanence * factor, ..m };
+    second.magnet = changed(&first.magnet, weaker);
     let inputs = &mut second.inputs;
     inputs.uniform_field *= factor;
     inputs.field_gradient.iter_mut().for_each(|gradient| *gradient *= factor);

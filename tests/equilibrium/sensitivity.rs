@@ -1,7 +1,7 @@
 //! Derivatives: where there are none, what they do not disturb, and the symmetries of a potential.
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Input, Inputs, Interaction, Jacobian, Output, Settings};
+use mcm::equilibrium::{Equilibrium, Input, Inputs, Interaction, Jacobian, Output, PlacedSource, Settings};
 use mcm::geometry::Pose;
 use nalgebra::{DMatrix, Vector3};
 
@@ -19,8 +19,8 @@ fn equilibrium(segments: usize, interaction: Interaction) -> Equilibrium {
 fn loaded(segments: usize) -> Inputs {
     let mut inputs = Inputs::unloaded(segments + 1);
     inputs.base = Pose::new([0.003, -0.002, 0.005], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
-    inputs.magnet = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).expect("a pose");
-    inputs.magnet_strength = 1.0;
+    let pose = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).expect("a pose");
+    inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
     inputs.uniform_field = Vector3::new(0.002, 0.004, -0.001);
     inputs.field_gradient = [0.1, -0.05, 0.07, 0.03, -0.04];
     inputs.tip_force = Vector3::new(0.002, -0.001, 0.003);
@@ -44,8 +44,20 @@ fn what_a_force_does_there_another_does_here() {
             (Output::TipPosition, Input::TipForce, Output::TipPosition, Input::TipForce, 1.0),
             (Output::TipRotation, Input::TipForce, Output::TipPosition, Input::TipMoment, 1.0),
             (Output::RingPosition(1), Input::RingForce(2), Output::RingPosition(2), Input::RingForce(1), 1.0),
-            (Output::MagnetReactionForce, Input::TipForce, Output::TipPosition, Input::MagnetPosition, 1.0),
-            (Output::MagnetReactionTorque, Input::TipForce, Output::TipPosition, Input::MagnetRotation, 1.0),
+            (
+                Output::SourceReactionForce(0),
+                Input::TipForce,
+                Output::TipPosition,
+                Input::SourcePosition(0),
+                1.0,
+            ),
+            (
+                Output::SourceReactionTorque(0),
+                Input::TipForce,
+                Output::TipPosition,
+                Input::SourceRotation(0),
+                1.0,
+            ),
             (
                 Output::BaseReactionForce,
                 Input::RingForce(1),
@@ -61,10 +73,10 @@ fn what_a_force_does_there_another_does_here() {
                 -1.0,
             ),
             (
-                Output::MagnetReactionForce,
+                Output::SourceReactionForce(0),
                 Input::BasePosition,
                 Output::BaseReactionForce,
-                Input::MagnetPosition,
+                Input::SourcePosition(0),
                 -1.0,
             ),
         ];
@@ -127,11 +139,11 @@ fn the_whole_scene_may_move_as_one() {
     // Base, magnet and nothing else in the world: together they carry the shape along.
     let mut equilibrium = equilibrium(2, Interaction::Rings);
     let mut inputs = Inputs::unloaded(3);
-    inputs.magnet = loaded(2).magnet;
-    inputs.magnet_strength = 1.0;
+    let pose = loaded(2).sources[0].pose;
+    inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
     assert!(equilibrium.solve(&inputs).expect("finite inputs").solved());
     let jacobian = equilibrium.jacobian().expect("no fold");
     let both = block(&jacobian, Output::TipPosition, Input::BasePosition)
-        + block(&jacobian, Output::TipPosition, Input::MagnetPosition);
+        + block(&jacobian, Output::TipPosition, Input::SourcePosition(0));
     assert_close("displacement", both.as_slice(), DMatrix::identity(3, 3).as_slice(), NEUTRAL);
 }

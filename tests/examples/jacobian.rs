@@ -15,7 +15,7 @@ fn main() -> Result<(), Error> {
     let tip = manipulator.solve(&scene.inputs)?.tip;
 
     // Rows: displacement (m) and rotation (rad) of the tip. Columns: the same of the magnet about its centre.
-    let jacobian = manipulator.jacobian()?.tip_by_magnet();
+    let jacobian = manipulator.jacobian()?.tip_by_source(0).unwrap();
     println!("tip by magnet    along x    along y    along z    about x    about y    about z");
     println!("(columns: of the magnet, per mm and per deg; rows: of the tip, in um and mdeg)");
     let per = [1e-3, 1e-3, 1e-3, 1f64.to_radians(), 1f64.to_radians(), 1f64.to_radians()];
@@ -31,7 +31,7 @@ fn main() -> Result<(), Error> {
     // The magnet moves on by 0.1 mm.
     let step = 1e-4;
     let mut inputs = scene.inputs.clone();
-    inputs.magnet.position.z += step;
+    inputs.sources[0].pose.position.z += step;
     let moved = manipulator.solve(&inputs)?.tip.position - tip.position;
     let expected = jacobian.fixed_view::<3, 1>(0, 2) * step;
     for (axis, moved, expected) in [("y", moved.y, expected.y), ("z", moved.z, expected.z)] {

@@ -24,7 +24,7 @@ fn main() -> Result<(), Error> {
     println!("step   magnet z (mm)   tip angle (deg)   margin (1)   snaps");
     let forth = (-10..=0).map(|place| 4 * place);
     for (step, place) in forth.clone().chain(forth.rev().skip(1)).enumerate() {
-        inputs.magnet.position.z = 1e-3 * f64::from(place);
+        inputs.sources[0].pose.position.z = 1e-3 * f64::from(place);
         manipulator.solve(&inputs)?;
         // 1 without loads and interaction, 0 at a fold: the closer to 0, the sooner it snaps.
         let outputs = manipulator.measure_margin();

@@ -117,10 +117,11 @@ impl<T> Pair<T> {
     /// What the Rust API answers for a row.
     fn answer(&mut self, row: &[f64]) -> [f64; OUTPUTS.len()] {
         let mut inputs = self.scene.inputs.clone();
-        inputs.magnet = Pose::new([row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]).unwrap();
+        inputs.sources[0].pose =
+            Pose::new([row[1], row[2], row[3]], [row[4], row[5], row[6], row[7]]).unwrap();
         let solved = self.manipulator.solve(&inputs).unwrap();
-        let Outputs { tip_angle, tip, magnet_reaction_force: force, .. } = solved;
-        let p = tip.position;
+        let Outputs { tip_angle, tip, reactions, .. } = solved;
+        let (p, force) = (tip.position, reactions[0].force);
         [*tip_angle, p.x, p.y, p.z, force.x, force.y, force.z]
     }
 

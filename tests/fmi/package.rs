@@ -101,6 +101,6 @@ fn resources_that_do_not_fit_are_refused() {
 #[test]
 fn a_scene_without_magnet_has_it_switched_off() {
     let package = Package::new(BENT, "test scene", 5).unwrap();
-    assert_eq!(package.start().magnet_strength.to_bits(), 0);
+    assert_eq!(package.start().sources[0].strength.to_bits(), 0);
     assert_eq!(package.start().magnets.len(), 2);
 }

@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a program that tells what it finds")]
 
 use mcm::geometry::RotationVector;
-use mcm::magnetics::Assembly;
+use mcm::magnetics::Source;
 use mcm::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
 use mcm::steer::{Limits, Move, Steering, Target};
 use nalgebra::Vector3;
@@ -41,7 +41,7 @@ fn row(segments: u64, directed: bool, limited: &str, count: u64, random: &mut St
         3 * segments
     );
     let scene = Scene::parse(&text, "reachable").unwrap();
-    let place = scene.inputs.magnet.position;
+    let place = scene.inputs.sources[0].pose.position;
     let around = Vector3::repeat(AROUND[0]);
     let limits = match limited {
         "none" => Limits::default(),
@@ -61,10 +61,10 @@ fn row(segments: u64, directed: bool, limited: &str, count: u64, random: &mut St
         steps.push(answer.way.len());
         met += usize::from(answer.reached);
         if !answer.reached {
-            let quaternion = |inputs: &Inputs| inputs.magnet.quaternion();
+            let quaternion = |inputs: &Inputs| inputs.sources[0].pose.quaternion();
             println!("missed: {:?}, {:?}", answer.limit, answer.residual);
-            println!("    from {:?} {:?}", start.magnet.position.as_slice(), quaternion(&start));
-            println!("    to {:?} {:?}", goal.magnet.position.as_slice(), quaternion(&goal));
+            println!("    from {:?} {:?}", start.sources[0].pose.position.as_slice(), quaternion(&start));
+            println!("    to {:?} {:?}", goal.sources[0].pose.position.as_slice(), quaternion(&goal));
         }
     }
     steps.sort_unstable();
@@ -77,14 +77,15 @@ fn row(segments: u64, directed: bool, limited: &str, count: u64, random: &mut St
 fn moved(inputs: &Inputs, random: &mut StdRng) -> Inputs {
     let mut vector = |half: f64| Vector3::from_fn(|_, _| half * (2.0 * random.random::<f64>() - 1.0));
     let mut out = inputs.clone();
-    out.magnet.position += vector(AROUND[0]);
-    out.magnet.rotation = RotationVector::new(vector(AROUND[1])).matrix() * out.magnet.rotation;
+    out.sources[0].pose.position += vector(AROUND[0]);
+    out.sources[0].pose.rotation =
+        RotationVector::new(vector(AROUND[1])).matrix() * out.sources[0].pose.rotation;
     out
 }
 
 /// The device at `goal` where the straight path leads there from `start` without a snap and at the distance that is asked for.
 fn led(scene: &Scene, limits: &Limits, start: &Inputs, goal: &Inputs) -> Option<Outputs> {
-    let magnet = scene.assembly().unwrap().unwrap();
+    let magnet = scene.sources.magnet().cloned().unwrap();
     let radius = scene.design().unwrap().largest_radius();
     let mut device: Manipulator =
         scene.manipulator(2 * scene.design().unwrap().segments().len() + 2).unwrap();
@@ -101,8 +102,8 @@ fn led(scene: &Scene, limits: &Limits, start: &Inputs, goal: &Inputs) -> Option<
 }
 
 /// Distance of the device's centreline from the magnet, m.
-fn gap(magnet: &Assembly, inputs: &Inputs, outputs: &Outputs) -> f64 {
-    let pose = &inputs.magnet;
+fn gap(magnet: &Source, inputs: &Inputs, outputs: &Outputs) -> f64 {
+    let pose = &inputs.sources[0].pose;
     let local = |point: &Vector3<f64>| pose.rotation.tr_mul(&(point - pose.position));
     outputs.shape.iter().map(|point| magnet.distance(&local(point))).fold(f64::INFINITY, f64::min)
 }

@@ -86,8 +86,9 @@ fn beside(
 ) -> Option<Target> {
     let mut vector = |half: f64| Vector3::from_fn(|_, _| half * (2.0 * random.random::<f64>() - 1.0));
     let mut there = inputs.clone();
-    there.magnet.position += vector(far);
-    there.magnet.rotation = RotationVector::new(vector(turned)).matrix() * there.magnet.rotation;
+    there.sources[0].pose.position += vector(far);
+    there.sources[0].pose.rotation =
+        RotationVector::new(vector(turned)).matrix() * there.sources[0].pose.rotation;
     let mut device = device.clone();
     let outputs = device.solve(&there).unwrap();
     let (position, direction) = (Some(outputs.tip.position), Some(outputs.tip.axis()));

@@ -1,6 +1,6 @@
 //! Field, gradient and second derivative on every row of the reference tables.
 
-use mcm::magnetics::{Assembly, AxialMagnet, AxialSource, Jet};
+use mcm::magnetics::{AxialMagnet, AxialSource, Cylinders, Jet, Source};
 use nalgebra::Vector3;
 
 use super::reference::{Row, ring, table};
@@ -44,7 +44,7 @@ fn the_shorter_answers_are_the_same() {
 #[test]
 fn an_assembly_of_one_is_its_cylinder_moved_along_the_axis() {
     let magnet = AxialMagnet { offset: 7.0e-3, ..cylinder() };
-    let assembly = Assembly::new(vec![magnet]).expect("allowed");
+    let assembly = Source::from(Cylinders::new(vec![magnet]).expect("allowed"));
     let source = AxialSource::new(magnet.inner_radius, magnet.radius, magnet.length, magnet.remanence)
         .expect("allowed");
     let point = Vector3::new(20e-3, -5e-3, 40e-3);

@@ -3,33 +3,35 @@
 use core::f64::consts::PI;
 
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet, Coil, IronCore, Sources, Wrench};
+use mcm::magnetics::{
+    AxialMagnet, Coil, Cylinders, MultipoleCoil, MultipoleTable, Solenoid, Source, Sources, Wrench,
+};
 use nalgebra::Vector3;
 
 use crate::given::pair;
 
 const ACCURACY: f64 = 1e-7;
 
-const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
+const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
 
-fn coil() -> Assembly {
-    Assembly::of_coil(COIL).unwrap()
+fn coil() -> Source {
+    Solenoid::new(COIL).unwrap().into()
 }
 
 /// A ring, with its centre at `offset` (m) on the axis.
-fn ring(offset: f64) -> Assembly {
+fn ring(offset: f64) -> Source {
     let cylinder = AxialMagnet { radius: 8e-3, inner_radius: 2e-3, length: 12e-3, offset, remanence: 1.3 };
-    Assembly::new(vec![cylinder]).unwrap()
+    Cylinders::new(vec![cylinder]).unwrap().into()
 }
 
-fn magnet() -> Assembly {
+fn magnet() -> Source {
     ring(3e-3)
 }
 
 /// A coil with a core that makes the field of a dipole of `moment` (A m2) for each ampere.
-fn iron(moment: f64) -> Assembly {
-    let core = IronCore::new(60e-3, &[2e-7 * moment]).unwrap();
-    Assembly::of_coil(Coil { core: Some(core), ..COIL }).unwrap()
+fn iron(moment: f64) -> Source {
+    let table = MultipoleTable::new(60e-3, &[2e-7 * moment]).unwrap();
+    MultipoleCoil::new(COIL, table).unwrap().into()
 }
 
 fn pose(position: [f64; 3]) -> Pose {
@@ -37,7 +39,7 @@ fn pose(position: [f64; 3]) -> Pose {
 }
 
 /// The wrench on `second`, and that on `first` with the places exchanged, in the frame of `first`.
-fn both(first: &Assembly, second: &Assembly, at: &Pose) -> [Wrench; 2] {
+fn both(first: &Source, second: &Source, at: &Pose) -> [Wrench; 2] {
     let back = Pose::identity().seen_from(at);
     let there = second.wrench_on_source(first, &back, ACCURACY).unwrap();
     let turned = Wrench { force: at.rotation * there.force, torque: at.rotation * there.torque };
@@ -87,7 +89,7 @@ fn far_away_all_are_dipoles() {
     let at = pose([1.4, -0.8, 1.9]);
     let magnet = || ring(0.0);
     for (first, second) in [(coil(), magnet()), (magnet(), coil()), (coil(), coil()), (magnet(), magnet())] {
-        let (a, b) = (Vector3::z() * first.moment(), at.axis() * second.moment());
+        let (a, b) = (first.moment(), at.rotation * second.moment());
         let expected = dipoles(&a, &b, &at.position);
         let found = first.wrench_on_source(&second, &at, ACCURACY).unwrap();
         assert!((found.force - expected.force).norm() < 1e-2 * expected.force.norm(), "{found:?}");
@@ -113,14 +115,9 @@ fn cores_of_dipoles_are_dipoles_at_any_distance() {
 #[test]
 fn coaxial_loops_attract_as_maxwell_has_it() {
     let (radius, thin) = (30e-3, 1e-4);
-    let ring = Coil {
-        inner_radius: radius - thin,
-        outer_radius: radius + thin,
-        length: 2.0 * thin,
-        turns: 1.0,
-        core: None,
-    };
-    let ring = Assembly::of_coil(ring).unwrap();
+    let ring =
+        Coil { inner_radius: radius - thin, outer_radius: radius + thin, length: 2.0 * thin, turns: 1.0 };
+    let ring = Source::from(Solenoid::new(ring).unwrap());
     // Of two equal loops at the distance z: mu_0 z k / (2 r sqrt(1 - ...)) by elliptic integrals, here by the sum over angles.
     let height = 20e-3;
     let count = 4000;
@@ -138,7 +135,7 @@ fn coaxial_loops_attract_as_maxwell_has_it() {
 
 #[test]
 fn all_sources_together_feel_nothing() {
-    let sources = Sources::new(Some(pair()), vec![magnet(), coil(), iron(2.0)]).unwrap();
+    let sources = Sources::new(vec![pair(), magnet(), coil(), iron(2.0)]).unwrap();
     let placed = [
         (pose([0.0, -0.12, 0.0]), 1.0),
         (pose([0.1, 0.0, 0.02]), -0.5),
@@ -165,7 +162,7 @@ fn all_sources_together_feel_nothing() {
 
 #[test]
 fn what_has_no_answer_is_named() {
-    let sources = Sources::new(Some(magnet()), vec![coil(), iron(1.0)]).unwrap();
+    let sources = Sources::new(vec![magnet(), coil(), iron(1.0)]).unwrap();
     let at = |places: [[f64; 3]; 3]| {
         let placed = places.map(|place| (pose(place), 1.0));
         sources.mutual_wrenches(|number| placed.get(number).copied()).unwrap_err().to_string()

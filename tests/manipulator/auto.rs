@@ -36,14 +36,14 @@ impl Scene {
         let mut inputs = Inputs::unloaded(design.rings().count());
         // The magnet's surface stays 40 mm or more away.
         let direction = vector(1.0).normalize();
-        inputs.magnet.rotation = RotationVector::new(vector(PI / 3.0_f64.sqrt())).matrix();
+        inputs.sources[0].pose.rotation = RotationVector::new(vector(PI / 3.0_f64.sqrt())).matrix();
         inputs.uniform_field = vector(0.005);
         inputs.base.rotation = RotationVector::new(vector(1.0)).matrix();
         inputs.tip_force = vector(1e-3);
         inputs.gravity = vector(9.81);
         let middle = inputs.base.advanced(0.5 * design.length()).position;
-        inputs.magnet.position = middle + direction * random.random_range(0.13..0.3);
-        inputs.magnet_strength = if random.random_bool(0.8) { 1.0 } else { 0.0 };
+        inputs.sources[0].pose.position = middle + direction * random.random_range(0.13..0.3);
+        inputs.sources[0].strength = if random.random_bool(0.8) { 1.0 } else { 0.0 };
         let tolerance_position = 10_f64.powf(random.random_range(-5.0..-3.0));
         let auto = Settings {
             interaction: Interaction::Auto,
@@ -207,8 +207,8 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
         let design = Design::new(Specification::Segmented(device.clone())).unwrap();
         let length = design.length();
         let mut inputs = Inputs::unloaded(design.rings().count());
-        inputs.magnet.rotation = RotationVector::new(Vector3::x() * PI).matrix();
-        inputs.magnet_strength = 1.0;
+        inputs.sources[0].pose.rotation = RotationVector::new(Vector3::x() * PI).matrix();
+        inputs.sources[0].strength = 1.0;
         let auto = Settings {
             interaction: Interaction::Auto,
             tolerance_position: tolerance * length,
@@ -226,7 +226,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
             let [position, angle] = [auto.tolerance_position, auto.tolerance_angle].map(|most| asked * most);
             own.set_tolerance(TipTolerance { position, angle, relative: 0.0 }).unwrap();
             let [y, z]: [f64; 2] = core::array::from_fn(|i| start[i] + pace[i] * f64::from(step));
-            inputs.magnet.position = Vector3::new(0.0, y, z);
+            inputs.sources[0].pose.position = Vector3::new(0.0, y, z);
             let a = own.solve(&inputs).unwrap().clone();
             let b = reference.solve(&inputs).unwrap().clone();
             assert!([a.status, b.status].iter().all(|status| *status != Status::NotSolved), "step {step}");

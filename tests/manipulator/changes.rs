@@ -5,11 +5,8 @@ use mcm::manipulator::{Input, Inputs};
 use nalgebra::Vector3;
 
 /// Every input with its usual size in its unit.
-pub(super) fn inputs_and_sizes(rings: usize, further: usize) -> Vec<(Input, f64)> {
+pub(super) fn inputs_and_sizes(rings: usize, sources: usize) -> Vec<(Input, f64)> {
     let mut all = vec![
-        (Input::MagnetPosition, 0.05),
-        (Input::MagnetRotation, 1.0),
-        (Input::MagnetStrength, 1.0),
         (Input::UniformField, 0.01),
         (Input::FieldGradient, 0.3),
         (Input::TipForce, 0.005),
@@ -20,7 +17,7 @@ pub(super) fn inputs_and_sizes(rings: usize, further: usize) -> Vec<(Input, f64)
         (Input::Roll, 1.0),
     ];
     all.extend((0..rings).map(|ring| (Input::RingForce(ring), 0.005)));
-    for source in 0..further {
+    for source in 0..sources {
         all.extend([
             (Input::SourcePosition(source), 0.05),
             (Input::SourceRotation(source), 1.0),
@@ -35,15 +32,12 @@ pub(super) fn changed(inputs: &Inputs, input: Input, axis: usize, by: f64) -> In
     let mut out = inputs.clone();
     let turn = || RotationVector::new(Vector3::ith(axis, by)).matrix();
     match input {
-        Input::MagnetPosition => out.magnet.position[axis] += by,
-        Input::MagnetRotation => out.magnet.rotation = turn() * out.magnet.rotation,
-        Input::MagnetStrength => out.magnet_strength += by,
-        Input::SourcePosition(source) => out.further[source].pose.position[axis] += by,
+        Input::SourcePosition(source) => out.sources[source].pose.position[axis] += by,
         Input::SourceRotation(source) => {
-            let pose = &mut out.further[source].pose;
+            let pose = &mut out.sources[source].pose;
             pose.rotation = turn() * pose.rotation;
         }
-        Input::SourceStrength(source) => out.further[source].strength += by,
+        Input::SourceStrength(source) => out.sources[source].strength += by,
         Input::UniformField => out.uniform_field[axis] += by,
         Input::FieldGradient => out.field_gradient[axis] += by,
         Input::TipForce => out.tip_force[axis] += by,

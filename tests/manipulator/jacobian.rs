@@ -5,7 +5,7 @@ use core::cell::Cell;
 use mcm::design::{Backbone, Cylinder, CylinderMaterial, Design, Specification};
 use mcm::equilibrium::{Interaction, Settings};
 use mcm::geometry::{Pose, RotationVector, rotation_log};
-use mcm::magnetics::{Assembly, Coil, Sources};
+use mcm::magnetics::{Coil, Solenoid, Sources};
 use mcm::manipulator::{Input, Inputs, Jacobian, Manipulator, Output, Outputs, PlacedSource, Status};
 use nalgebra::{DVector, Vector3};
 use proptest::prelude::*;
@@ -31,8 +31,8 @@ const CASES: u32 = 30;
 fn everything(rings: usize) -> Inputs {
     let mut inputs = Inputs::unloaded(rings);
     inputs.base = Pose::new([0.003, -0.002, 0.005], [0.8, 0.36, -0.48, 0.0]).unwrap();
-    inputs.magnet = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).unwrap();
-    inputs.magnet_strength = 0.8;
+    let pose = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).unwrap();
+    inputs.sources = vec![PlacedSource { pose, strength: 0.8 }];
     inputs.uniform_field = Vector3::new(0.002, 0.004, -0.001);
     inputs.field_gradient = [0.1, -0.05, 0.07, 0.03, -0.04];
     inputs.tip_force = Vector3::new(0.002, -0.001, 0.003);
@@ -56,8 +56,6 @@ pub(super) fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f
         (Output::MagneticTorque, vector(&plus.magnetic_torque, &minus.magnetic_torque)),
         (Output::BaseReactionForce, vector(&plus.base_reaction_force, &minus.base_reaction_force)),
         (Output::BaseReactionMoment, vector(&plus.base_reaction_moment, &minus.base_reaction_moment)),
-        (Output::MagnetReactionForce, vector(&plus.magnet_reaction_force, &minus.magnet_reaction_force)),
-        (Output::MagnetReactionTorque, vector(&plus.magnet_reaction_torque, &minus.magnet_reaction_torque)),
         (Output::TipField, vector(&plus.tip_field, &minus.tip_field)),
     ];
     let number = |(a, b): (f64, f64)| vec![a - b];
@@ -76,7 +74,7 @@ pub(super) fn differences(plus: &Outputs, minus: &Outputs) -> Vec<(Output, Vec<f
     for (index, (a, b)) in plus.core_angles.iter().zip(&minus.core_angles).enumerate() {
         out.push((Output::CoreAngle(index), vec![a - b]));
     }
-    for (index, (a, b)) in plus.further_reactions.iter().zip(&minus.further_reactions).enumerate() {
+    for (index, (a, b)) in plus.reactions.iter().zip(&minus.reactions).enumerate() {
         out.push((Output::SourceReactionForce(index), vector(&a.force, &b.force)));
         out.push((Output::SourceReactionTorque(index), vector(&a.torque, &b.torque)));
     }
@@ -120,7 +118,7 @@ fn by_differences(
 /// that output and to what is allowed, and where it is.
 fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
     let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
-    let mut all = inputs_and_sizes(inputs.ring_forces.len(), inputs.further.len());
+    let mut all = inputs_and_sizes(inputs.ring_forces.len(), inputs.sources.len());
     if manipulator.outputs().feed_length.is_some() {
         all.push(if inputs.feed_force.is_some() {
             (Input::FeedForce, 0.005)
@@ -221,7 +219,8 @@ fn every_output_by_every_input_of_a_plain_rod() {
 
 /// Everything acts on a device at the end of 20 mm of shaft, gently.
 fn gently() -> Inputs {
-    let mut inputs = Inputs { insertion: 0.02, magnet_strength: 0.1, ..everything(3) };
+    let mut inputs = Inputs { insertion: 0.02, ..everything(3) };
+    inputs.sources[0].strength = 0.1;
     inputs.tip_force *= 0.3;
     inputs.gravity *= 0.3;
     inputs.ring_forces.iter_mut().for_each(|force| *force *= 0.3);
@@ -260,27 +259,35 @@ fn every_output_by_every_input_of_a_device_that_is_pushed() {
 fn a_magnet_that_is_switched_off_or_absent() {
     let design = Design::new(Specification::paper(1)).unwrap();
     let mut inputs = everything(2);
-    inputs.magnet_strength = 0.0;
+    inputs.sources[0].strength = 0.0;
     let off = ready(&design, Interaction::Rings, &inputs);
     check("switched off", &off, &inputs);
     let mut absent = Manipulator::new(&design, None, settings(Interaction::Rings), POINTS).unwrap();
-    absent.solve(&inputs).unwrap();
-    check("absent", &absent, &inputs);
-    inputs.magnet = inputs.base; // where any strength would be refused
-    let inside = ready(&design, Interaction::Rings, &inputs).jacobian().unwrap();
-    assert_eq!(inside, absent.jacobian().unwrap());
+    let without = Inputs { sources: Vec::new(), ..inputs.clone() };
+    absent.solve(&without).unwrap();
+    check("absent", &absent, &without);
+    inputs.sources[0].pose = inputs.base; // where any strength would be refused
+    let (inside, absent) =
+        (ready(&design, Interaction::Rings, &inputs).jacobian().unwrap(), absent.jacobian().unwrap());
+    for output in [Output::TipPosition, Output::MagneticForce, Output::TipField, Output::RingRotation(1)] {
+        for (input, _) in inputs_and_sizes(2, 0) {
+            assert_eq!(inside.block(output, input), absent.block(output, input), "{output:?} {input:?}");
+        }
+        assert_eq!(inside.block(output, Input::SourceStrength(0)).unwrap().norm().to_bits(), 0);
+        assert_eq!(absent.block(output, Input::SourceStrength(0)), None);
+    }
 }
 
 #[test]
 fn every_output_by_a_second_magnet_and_a_coil() {
-    let coil = Coil { inner_radius: 0.02, outer_radius: 0.04, length: 0.06, turns: 600.0, core: None };
-    let sources = Sources::new(Some(pair()), vec![pair(), Assembly::of_coil(coil).unwrap()]).unwrap();
+    let coil = Coil { inner_radius: 0.02, outer_radius: 0.04, length: 0.06, turns: 600.0 };
+    let sources = Sources::new(vec![pair(), pair(), Solenoid::new(coil).unwrap().into()]).unwrap();
     let placed = |position, strength| PlacedSource {
         pose: Pose::new(position, [0.36, 0.8, 0.0, 0.48]).unwrap(),
         strength,
     };
-    let further = vec![placed([-0.09, 0.07, 0.03], 0.5), placed([0.1, 0.02, -0.05], 6.0)];
-    let inputs = Inputs { further, ..everything(2) };
+    let mut inputs = everything(2);
+    inputs.sources.extend([placed([-0.09, 0.07, 0.03], 0.5), placed([0.1, 0.02, -0.05], 6.0)]);
     let design = Design::new(Specification::paper(1)).unwrap();
     let mut manipulator = Manipulator::new(&design, sources, settings(Interaction::Rings), POINTS).unwrap();
     manipulator.solve(&inputs).expect("finite inputs");
@@ -329,8 +336,8 @@ fn a_direction_of_all_inputs_at_once_in_random_scenes() {
         .run(&scenes(), |(segments, x, level)| {
             let design = Design::new(Specification::paper(segments)).unwrap();
             let mut inputs = everything(segments + 1);
-            inputs.magnet.position += Vector3::new(x[0], 0.3 * x[1], x[2]) * 0.03;
-            inputs.magnet.rotation = RotationVector::new(Vector3::new(x[3], x[4], x[5])).matrix();
+            inputs.sources[0].pose.position += Vector3::new(x[0], 0.3 * x[1], x[2]) * 0.03;
+            inputs.sources[0].pose.rotation = RotationVector::new(Vector3::new(x[3], x[4], x[5])).matrix();
             inputs.base.rotation = RotationVector::new(Vector3::new(x[6], x[7], x[8]) * 2.0).matrix();
             inputs.uniform_field = Vector3::new(x[9], x[10], x[11]) * 0.01;
             inputs.tip_force *= x[12];

@@ -38,7 +38,7 @@ fn the_estimated_error_covers_the_error_up_to_the_fold() {
     let start = at(0.0);
     let judge = Settings { degree: 5, pair_accuracy: 1e-9, fine_stations: true, ..start.settings };
     let design = start.design().unwrap();
-    let mut converged = Equilibrium::new(&design, start.sources().unwrap(), judge, 2).unwrap();
+    let mut converged = Equilibrium::new(&design, &start.sources, judge, 2).unwrap();
     let mut manipulator = start.manipulator(2).unwrap();
 
     for angle in ANGLES {

@@ -55,12 +55,12 @@ fn example_of_the_documentation_is_read_in_si() {
     assert_eq!(design.backbone.unwrap().modulus, Modulus::ShoreA(50.0));
     assert_eq!(scene.inputs.uniform_field.as_slice(), [0.001, 0.02, 0.0]);
     assert_eq!(scene.inputs.field_gradient, [1.0, 2.0, 3.0, 4.0, 5.0]);
-    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.1, 0.025]);
-    assert_eq!(scene.inputs.magnet_strength, 1.0);
+    assert_eq!(scene.inputs.sources[0].pose.position.as_slice(), [0.0, -0.1, 0.025]);
+    assert_eq!(scene.inputs.sources[0].strength, 1.0);
     assert_eq!(scene.inputs.ring_forces[1].z, 0.5);
     assert_eq!(scene.inputs.gravity.z, -9.81);
-    let magnets = scene.magnets.unwrap();
-    assert_eq!((magnets.len(), magnets[0].radius, magnets[0].offset), (1, 0.01, 0.0));
+    let [part] = scene.sources.magnet().unwrap().parts() else { panic!("one cylinder") };
+    assert_eq!((part.outline.outer_radius(), part.centre.z), (0.01, 0.0));
     assert_eq!(scene.settings.interaction, Interaction::None);
 }
 
@@ -69,7 +69,7 @@ fn empty_scene_is_table_1_with_nine_segments_unloaded() {
     let scene = Scene::parse("", "test").unwrap();
     assert_eq!(scene.specification, Specification::paper(9));
     assert_eq!(scene.inputs, mcm::manipulator::Inputs::unloaded(10));
-    assert_eq!(scene.magnets, None);
+    assert!(scene.sources.list().is_empty());
     assert_eq!(scene.settings.interaction, Interaction::Auto);
 }
 
@@ -77,9 +77,9 @@ fn empty_scene_is_table_1_with_nine_segments_unloaded() {
 fn magnet_without_position_stands_below_the_middle() {
     let scene = Scene::parse("[magnet]", "test").unwrap();
     let length = scene.design().unwrap().length();
-    assert_eq!(scene.inputs.magnet.position.as_slice(), [0.0, -0.12, length / 2.0]);
-    assert_eq!(scene.inputs.magnet.axis().as_slice(), [0.0, 0.0, -1.0]);
-    assert_eq!(scene.magnets.unwrap().len(), 2);
+    assert_eq!(scene.inputs.sources[0].pose.position.as_slice(), [0.0, -0.12, length / 2.0]);
+    assert_eq!(scene.inputs.sources[0].pose.axis().as_slice(), [0.0, 0.0, -1.0]);
+    assert_eq!(scene.sources.magnet().unwrap().parts().len(), 2);
 }
 
 #[test]
@@ -107,7 +107,7 @@ fn plain_cylinder_of_composite_or_bulk() {
 fn one_number_is_replaced_by_its_path() {
     let file = SceneFile::parse("[magnet]\nposition_mm = [1, 2, 3]", "test").unwrap();
     let moved = file.with("magnet.position_mm[2]", -90.0).unwrap().scene().unwrap();
-    assert_eq!(moved.inputs.magnet.position.as_slice(), [0.001, -0.09, 0.003]);
+    assert_eq!(moved.inputs.sources[0].pose.position.as_slice(), [0.001, -0.09, 0.003]);
     let shorter = file.with("design.segments", 4.0).unwrap();
     assert_eq!(shorter.scene().unwrap().inputs.ring_forces.len(), 5);
     let force = file.with("load.ring_force_n[10][3]", 0.5).unwrap().scene().unwrap();
@@ -178,8 +178,8 @@ fn field_magnet_and_base_are_turned() {
     // From +z towards +y unless another axis is given.
     close(&scene.inputs.uniform_field, [0.0, 0.01, 0.02 * 0.75_f64.sqrt()]);
     // The quaternion takes z to x, the turn about z takes x to -y; the position stays.
-    close(&scene.inputs.magnet.axis(), [0.0, -1.0, 0.0]);
-    close(&scene.inputs.magnet.position, [0.001, 0.002, 0.003]);
+    close(&scene.inputs.sources[0].pose.axis(), [0.0, -1.0, 0.0]);
+    close(&scene.inputs.sources[0].pose.position, [0.001, 0.002, 0.003]);
     close(&scene.inputs.base.axis(), [1.0, 0.0, 0.0]);
     assert_eq!(
         refusal("[field]\nturn_axis = [0, 0, 0]"),

@@ -79,7 +79,7 @@ fn file(text: &str) -> SceneFile {
 fn solved(file: &SceneFile, interaction: Interaction) -> Manipulator {
     let scene = file.scene().unwrap();
     let settings = Settings { interaction, pair_accuracy: PAIRS, tolerance: 1e-13, ..scene.settings };
-    let (design, magnet) = (scene.design().unwrap(), scene.assembly().unwrap());
+    let (design, magnet) = (scene.design().unwrap(), scene.sources.magnet().cloned());
     let mut out = Manipulator::new(&design, magnet.as_ref(), settings, POINTS).unwrap();
     if let Some(vessel) = &scene.vessel {
         out = out.in_vessel(vessel);
@@ -168,8 +168,8 @@ fn numbers_that_are_inputs_have_the_columns_of_the_jacobian() {
     // Each with its column, and the SI units of one of its units.
     let inputs = [
         ("field.uniform_mt[1]", Input::UniformField, 0, 1e-3),
-        ("magnet.position_mm[3]", Input::MagnetPosition, 2, 1e-3),
-        ("magnet.strength", Input::MagnetStrength, 0, 1.0),
+        ("magnet.position_mm[3]", Input::SourcePosition(0), 2, 1e-3),
+        ("magnet.strength", Input::SourceStrength(0), 0, 1.0),
         ("base.position_mm[2]", Input::BasePosition, 1, 1e-3),
         ("gravity.acceleration_m_s2[2]", Input::Gravity, 1, 1.0),
         ("load.tip_moment_nm[1]", Input::TipMoment, 0, 1.0),

@@ -1,7 +1,9 @@
 //! Another manipulator that takes up a snapshot answers bit for bit as the first one goes on to.
 
+use mcm::magnetics::{AxialMagnet, Cylinders, Sources};
 use mcm::manipulator::{Inputs, Manipulator, Outputs, Scene, Status};
 
+use crate::given::cylinder;
 use crate::tolerance::EFFECT;
 
 /// Designs and levels, with loads that need every part of a snapshot: ring rules, the unsymmetric matrix of a dead
@@ -28,8 +30,8 @@ fn started(text: &str) -> (Scene, Manipulator) {
 /// The magnet passes.
 fn at(scene: &Scene, step: usize) -> Inputs {
     let mut inputs = scene.inputs.clone();
-    inputs.magnet.position.x += 1e-3 * step as f64;
-    inputs.magnet.position.z += 7e-4 * (step as f64).sin();
+    inputs.sources[0].pose.position.x += 1e-3 * step as f64;
+    inputs.sources[0].pose.position.z += 7e-4 * (step as f64).sin();
     inputs
 }
 
@@ -91,7 +93,10 @@ fn a_snapshot_of_another_material_magnet_or_discretisation_is_refused() {
         assert!(other.manipulator(3).unwrap().restore(&first.snapshot()).is_err(), "{change}");
     }
     let mut stronger = scene.clone();
-    stronger.magnets.as_mut().unwrap()[0].remanence = 1.36;
+    let cylinder = |offset| AxialMagnet { offset, remanence: 1.36, ..cylinder() };
+    let magnet = Cylinders::new(vec![cylinder(-20e-3), cylinder(20e-3)]).unwrap();
+    stronger.sources = Sources::new(vec![magnet.into()]).unwrap();
+    assert_ne!(stronger.sources, scene.sources);
     assert!(stronger.manipulator(3).unwrap().restore(&first.snapshot()).is_err(), "another magnet");
     let mut finer = scene.clone();
     finer.settings.degree += 1;
@@ -135,7 +140,7 @@ fn a_path_ends_where_its_points_lead() {
     // A path into the magnet is refused as a whole.
     let before = by_path.clone();
     let mut into = path[0].clone();
-    into.magnet.position = nalgebra::Vector3::new(0.0, 0.0, 0.012);
+    into.sources[0].pose.position = nalgebra::Vector3::new(0.0, 0.0, 0.012);
     let failed = by_path.follow(&[path[2].clone(), into, path[3].clone()], 0).unwrap();
     assert_eq!(failed.status, Status::NotSolved);
     assert_eq!(failed.tip, before.outputs().tip);

@@ -3,18 +3,22 @@
 use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Interaction, Settings};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet, Coil, Sources};
+use mcm::magnetics::{AxialMagnet, Coil, Cylinders, Solenoid, Source, Sources};
 use mcm::manipulator::{Inputs, Manipulator, Outcome, PlacedSource, SceneFile, Status};
 use nalgebra::Vector3;
 
 use crate::given::{cylinder, pair};
 use crate::tolerance::PAIRS;
 
-const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0, core: None };
+const COIL: Coil = Coil { inner_radius: 20e-3, outer_radius: 40e-3, length: 60e-3, turns: 600.0 };
+
+fn coil(dimensions: Coil) -> Source {
+    Solenoid::new(dimensions).unwrap().into()
+}
 
 fn beside() -> Inputs {
     let magnet = Pose::new([0.01, -0.09, 0.02], [0.36, 0.8, 0.0, 0.48]).unwrap();
-    Inputs { magnet, magnet_strength: 0.8, ..Inputs::unloaded(4) }
+    Inputs { sources: vec![PlacedSource { pose: magnet, strength: 0.8 }], ..Inputs::unloaded(4) }
 }
 
 fn device(sources: impl Into<Sources>) -> Manipulator {
@@ -37,43 +41,46 @@ fn two_magnets_act_as_the_pair_that_they_make() {
     let inputs = beside();
     let mut whole = device(Some(&pair()));
     let whole = whole.solve(&inputs).unwrap();
-    let lone = |offset: f64| Assembly::new(vec![AxialMagnet { offset, ..cylinder() }]).unwrap();
-    let sources = Sources::new(Some(lone(-20e-3)), vec![lone(0.0)]).unwrap();
-    let pose = inputs.magnet.advanced(20e-3);
-    let apart = Inputs { further: vec![PlacedSource { pose, strength: 0.8 }], ..inputs.clone() };
+    let lone =
+        |offset: f64| Source::from(Cylinders::new(vec![AxialMagnet { offset, ..cylinder() }]).unwrap());
+    let sources = Sources::new(vec![lone(-20e-3), lone(0.0)]).unwrap();
+    let pose = inputs.sources[0].pose.advanced(20e-3);
+    let second = PlacedSource { pose, strength: 0.8 };
+    let apart = Inputs { sources: vec![inputs.sources[0], second], ..inputs.clone() };
     let mut parts = device(&sources);
     let parts = parts.solve(&apart).unwrap();
     close(&parts.tip.position, &whole.tip.position, 1e-9);
     close(&parts.magnetic_force, &whole.magnetic_force, 1e-9);
     close(&parts.tip_field, &whole.tip_field, 1e-12);
-    let second = &parts.further_reactions[0];
-    close(&(parts.magnet_reaction_force + second.force), &whole.magnet_reaction_force, 1e-9);
-    let arm = pose.position - inputs.magnet.position;
-    let torque = parts.magnet_reaction_torque + second.torque + arm.cross(&second.force);
-    close(&torque, &whole.magnet_reaction_torque, 1e-9);
+    let second = &parts.reactions[1];
+    close(&(parts.reactions[0].force + second.force), &whole.reactions[0].force, 1e-9);
+    let arm = pose.position - inputs.sources[0].pose.position;
+    let torque = parts.reactions[0].torque + second.torque + arm.cross(&second.force);
+    close(&torque, &whole.reactions[0].torque, 1e-9);
     assert!(parts.tip_angle.to_degrees() > 5.0);
 }
 
 #[test]
 fn action_is_reaction_for_every_source() {
-    let sources = Sources::new(Some(pair()), vec![pair(), Assembly::of_coil(COIL).unwrap()]).unwrap();
+    let sources = Sources::new(vec![pair(), pair(), coil(COIL)]).unwrap();
     let placed = |position, orientation, strength| PlacedSource {
         pose: Pose::new(position, orientation).unwrap(),
         strength,
     };
-    let further = vec![
+    let places = vec![
+        beside().sources[0],
         placed([-0.1, 0.08, 0.02], [0.36, 0.8, 0.0, 0.48], -0.5),
         placed([0.02, 0.1, -0.04], [0.6, 0.8, 0.0, 0.0], 8.0),
     ];
-    let inputs = Inputs { further, ..beside() };
+    let inputs = Inputs { sources: places, ..beside() };
     let mut device = device(&sources);
     let out = device.solve(&inputs).unwrap();
     let base = inputs.base.position;
     let (mut force, mut torque) = (out.magnetic_force, out.magnetic_torque);
-    let first = (inputs.magnet.position, out.magnet_reaction_force, out.magnet_reaction_torque);
-    let others = inputs.further.iter().zip(&out.further_reactions);
-    let all = others.map(|(source, wrench)| (source.pose.position, wrench.force, wrench.torque));
-    for (place, own_force, own_torque) in all.chain([first]) {
+    let all = inputs.sources.iter().zip(&out.reactions);
+    for (place, own_force, own_torque) in
+        all.map(|(source, reaction)| (source.pose.position, reaction.force, reaction.torque))
+    {
         assert!(own_force.norm() > 1e-5, "{own_force}");
         force += own_force;
         torque += own_torque + (place - base).cross(&own_force);
@@ -84,45 +91,45 @@ fn action_is_reaction_for_every_source() {
 
 #[test]
 fn the_state_of_several_sources_can_be_saved() {
-    let sources = Sources::new(None, vec![Assembly::of_coil(COIL).unwrap()]).unwrap();
+    let sources = Sources::new(vec![coil(COIL)]).unwrap();
     let pose = Pose::new([0.0, 0.07, 0.01], [0.6, 0.8, 0.0, 0.0]).unwrap();
-    let inputs = |strength| Inputs { further: vec![PlacedSource { pose, strength }], ..Inputs::unloaded(4) };
+    let inputs = |strength| Inputs { sources: vec![PlacedSource { pose, strength }], ..Inputs::unloaded(4) };
     let mut first = device(&sources);
     first.solve(&inputs(3.0)).unwrap();
     let mut second = device(&sources);
     second.restore(&first.snapshot()).unwrap();
     assert_eq!(first.solve(&inputs(4.0)).unwrap(), second.solve(&inputs(4.0)).unwrap());
-    let other = Sources::new(None, vec![Assembly::of_coil(Coil { turns: 601.0, ..COIL }).unwrap()]).unwrap();
+    let other = Sources::new(vec![coil(Coil { turns: 601.0, ..COIL })]).unwrap();
     assert!(device(&other).restore(&first.snapshot()).is_err());
 }
 
 #[test]
 fn sources_that_overlap_are_refused_wherever_they_move() {
-    let sources = Sources::new(Some(pair()), vec![pair()]).unwrap();
+    let sources = Sources::new(vec![pair(), pair()]).unwrap();
     let mut device = device(&sources);
     let at = |x: f64| {
-        let pose = Pose { position: Vector3::new(x, -0.09, 0.02), ..beside().magnet };
-        Inputs { further: vec![PlacedSource { pose, strength: 1.0 }], ..beside() }
+        let pose = Pose { position: Vector3::new(x, -0.09, 0.02), ..beside().sources[0].pose };
+        Inputs { sources: vec![beside().sources[0], PlacedSource { pose, strength: 1.0 }], ..beside() }
     };
     assert_eq!(device.solve(&at(0.2)).unwrap().status, Status::Solved);
     let message = device.solve(&at(0.02)).unwrap_err().to_string();
     assert!(message.starts_with("the external magnet and magnet 2 overlap by "), "{message}");
     let mut off = at(0.02);
-    off.further[0].strength = 0.0;
+    off.sources[1].strength = 0.0;
     assert_eq!(device.solve(&off).unwrap().status, Status::Solved, "as if it were not there");
     assert!(device.solve(&at(0.02)).is_err(), "switched on");
     assert_eq!(device.solve(&at(0.2)).unwrap().status, Status::Solved);
     let message = device.solve(&beside()).unwrap_err().to_string();
-    assert!(message.contains("one for each further magnet and coil"), "{message}");
+    assert!(message.contains("one for each magnet and coil"), "{message}");
 }
 
 #[test]
 fn a_device_passes_through_the_bore_of_a_coil_and_touches_its_winding() {
-    let sources = Sources::new(None, vec![Assembly::of_coil(COIL).unwrap()]).unwrap();
+    let sources = Sources::new(vec![coil(COIL)]).unwrap();
     let mut device = device(&sources);
     let around = |x: f64, strength| {
         let pose = Pose { position: Vector3::new(x, 0.0, 0.01), ..Pose::identity() };
-        Inputs { further: vec![PlacedSource { pose, strength }], ..Inputs::unloaded(4) }
+        Inputs { sources: vec![PlacedSource { pose, strength }], ..Inputs::unloaded(4) }
     };
     assert_eq!(device.solve(&around(0.0, 2.0)).unwrap().status, Status::Solved);
     device.reset();
@@ -156,15 +163,15 @@ fn same(got: f64, expected: f64) {
 fn a_scene_names_them() {
     let file = SceneFile::parse(SCENE, "scene").unwrap();
     let scene = file.scene().unwrap();
-    assert_eq!(scene.sources().unwrap().numbered().count(), 3);
-    same(scene.inputs.further[1].strength, 1.5);
+    assert_eq!(scene.sources.list().len(), 3);
+    same(scene.inputs.sources[2].strength, 1.5);
     let again = SceneFile::parse(&file.to_toml().unwrap(), "again").unwrap();
     assert_eq!(again, file);
     let at = |key: &str, value: f64| file.with(key, value).unwrap().scene().unwrap().inputs;
-    same(at("coil[1].current_a", 2.0).further[1].strength, 2.0);
-    same(at("magnet[2].position_mm[2]", 30.0).further[0].pose.position.y, 0.03);
-    same(at("magnet.strength", 0.5).magnet_strength, 0.5);
-    same(at("magnet[1].position_mm[1]", 7.0).magnet.position.x, 0.007);
+    same(at("coil[1].current_a", 2.0).sources[2].strength, 2.0);
+    same(at("magnet[2].position_mm[2]", 30.0).sources[1].pose.position.y, 0.03);
+    same(at("magnet.strength", 0.5).sources[0].strength, 0.5);
+    same(at("magnet[1].position_mm[1]", 7.0).sources[0].pose.position.x, 0.007);
 }
 
 #[test]

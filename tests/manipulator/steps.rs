@@ -14,7 +14,7 @@ type Motion = fn(&mut Inputs, f64);
 
 /// The exact pair passes at 0.1 m/s.
 fn passing(inputs: &mut Inputs, step: f64) {
-    inputs.magnet.position.z += 1e-4 * step;
+    inputs.sources[0].pose.position.z += 1e-4 * step;
 }
 
 /// A field of 20 mT turns at 100 deg/s.

@@ -115,9 +115,9 @@ fn by_default_the_tip_is_within_a_thousandth_of_its_way() {
         // From motions of a micrometre to some of several millimetres.
         let mut inputs: Inputs = scene.inputs.clone();
         let far = 10_f64.powf(random.random_range(-0.9..0.5));
-        inputs.magnet.position = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0_f64)).normalize() * far;
+        inputs.sources[0].pose.position = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0_f64)).normalize() * far;
         inputs.tip_force = Vector3::from_fn(|_, _| random.random_range(-1.0..1.0)) * 10_f64.powf(random.random_range(-7.0..-3.3));
-        let (design, sources) = (scene.design().unwrap(), scene.sources().unwrap());
+        let (design, sources) = (scene.design().unwrap(), scene.sources);
         let device = |settings| Manipulator::new(&design, &sources, settings, 2).unwrap();
         let mut own = device(settings);
         let own = own.solve(&inputs).ok().filter(|outputs| outputs.status == Status::Solved)?.clone();

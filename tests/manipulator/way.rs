@@ -3,7 +3,7 @@
 use mcm::fmi::value::Value;
 use mcm::fmi::variable::Causality;
 use mcm::fmi::{Instance, Package};
-use mcm::manipulator::{Manipulator, Outputs, Scene, SceneFile, Status};
+use mcm::manipulator::{Manipulator, Outputs, PlacedSource, Scene, SceneFile, Status};
 use mcm::methods::Device;
 
 use crate::tolerance::{SAME_SHAPE, assert_close};
@@ -118,7 +118,7 @@ fn names_and_numbers_are_those_of_the_fmu() {
             let points = scene.way.points(&own).unwrap();
             assert_eq!(points, std::slice::from_ref(&expected), "{}", variable.name);
             let idle = variable.name == "feed.force" && own.feed_force.is_none();
-            let without = variable.name.starts_with("magnet.") && scene.magnets.is_none();
+            let without = variable.name.starts_with("magnet.") && scene.sources.magnet().is_none();
             assert!(expected != own || idle || without, "{} has an effect", variable.name);
         }
     }
@@ -165,10 +165,10 @@ fn a_scene_is_written_at_other_inputs_with_its_way() {
     let own = file.scene().unwrap().inputs;
     assert_eq!(file.at(&own, &[]).unwrap(), file, "what does not move stays as it is written");
     let mut moved = own.clone();
-    moved.magnet = moved.magnet.advanced(0.01);
-    moved.magnet_strength = 0.75;
-    moved.further[0].pose = moved.further[0].pose.advanced(0.02);
-    moved.further[1].strength = 2.0;
+    moved.sources[0].pose = moved.sources[0].pose.advanced(0.01);
+    moved.sources[0].strength = 0.75;
+    moved.sources[1].pose = moved.sources[1].pose.advanced(0.02);
+    moved.sources[2].strength = 2.0;
     moved.uniform_field.x = 1e-3;
     moved.field_gradient[2] = 0.1;
     moved.base = moved.base.advanced(0.003);
@@ -183,9 +183,8 @@ fn a_scene_is_written_at_other_inputs_with_its_way() {
     let numbers = |inputs: &mcm::manipulator::Inputs| format!("{inputs:?}");
     assert_eq!(read.way.rows().len(), 1);
     let (read, moved) = (read.inputs, moved);
-    assert!((read.magnet.position - moved.magnet.position).norm() < 1e-15, "{}", numbers(&read));
-    assert!((read.magnet.rotation - moved.magnet.rotation).norm() < 1e-14);
-    for (a, b) in read.further.iter().zip(&moved.further) {
+    assert_eq!(read.sources.len(), 3, "{}", numbers(&read));
+    for (a, b) in read.sources.iter().zip(&moved.sources) {
         assert!(
             (a.pose.position - b.pose.position).norm() < 1e-15
                 && (a.pose.rotation - b.pose.rotation).norm() < 1e-14
@@ -208,7 +207,7 @@ fn a_scene_is_written_at_other_inputs_with_its_way() {
     // A magnet that is switched on where the scene has none becomes the usual one.
     let bare = SceneFile::parse("[design]\nsegments = 1", "test").unwrap();
     let mut inputs = bare.scene().unwrap().inputs;
-    inputs.magnet_strength = 0.5;
+    inputs.sources.push(PlacedSource { pose: own.sources[0].pose, strength: 0.5 });
     let scene = bare.at(&inputs, &[]).unwrap().scene().unwrap();
-    assert_eq!(scene.magnets.map(|cylinders| cylinders.len()), Some(2));
+    assert_eq!(scene.sources.magnet().map(|magnet| magnet.parts().len()), Some(2));
 }

@@ -20,7 +20,7 @@ fn the_gradient_of_the_margin_is_that_of_differences_of_another_order() {
     assert_eq!(gradient.len(), 5);
     let margin = |by: [f64; 3]| {
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position += Vector3::from(by);
+        inputs.sources[0].pose.position += Vector3::from(by);
         let mut device = solved(&scene);
         device.solve(&inputs).unwrap();
         device.measure_margin().stability_margin
@@ -42,7 +42,7 @@ fn the_gradient_of_the_margin_is_that_of_differences_of_another_order() {
 #[test]
 fn the_workspace_is_kept_and_told() {
     let scene = scene(3);
-    let place = scene.inputs.magnet.position;
+    let place = scene.inputs.sources[0].pose.position;
     let around = Vector3::repeat(0.004);
     let limits = Limits { workspace: Some([place - around, place + around]), ..Limits::default() };
     let mut steering = Steering::new(&scene, &[Move::MagnetPosition], limits).unwrap();
@@ -50,7 +50,7 @@ fn the_workspace_is_kept_and_told() {
     let answer = steering.to(&angle(before + 20.0)).unwrap();
     assert_eq!((answer.reached, answer.limit), (false, Some(Limit::Workspace)));
     for step in &answer.way {
-        let off = step.inputs.magnet.position - place;
+        let off = step.inputs.sources[0].pose.position - place;
         assert!(off.amax() <= 0.004, "{off}");
     }
     // The nearest is at a corner or on a face: no corner bends more.
@@ -58,7 +58,7 @@ fn the_workspace_is_kept_and_told() {
     for corner in 0..8 {
         let mut inputs = scene.inputs.clone();
         for axis in 0..3 {
-            inputs.magnet.position[axis] += if corner >> axis & 1 == 0 { 0.004 } else { -0.004 };
+            inputs.sources[0].pose.position[axis] += if corner >> axis & 1 == 0 { 0.004 } else { -0.004 };
         }
         let there = solved(&scene).solve(&inputs).unwrap().tip_angle;
         assert!(there <= bent + 1e-6, "corner {corner}: {there}, {bent}");
@@ -73,10 +73,10 @@ fn the_distance_of_the_magnet_is_kept_and_told() {
     let before = steering.outputs().magnetic_force;
     let answer = steering.to(&Target { force: Some(before * 20.0), ..Target::default() }).unwrap();
     assert_eq!((answer.reached, answer.limit), (false, Some(Limit::Distance)));
-    let magnet = scene.assembly().unwrap().unwrap();
+    let magnet = scene.sources.magnet().cloned().unwrap();
     let radius = scene.design().unwrap().largest_radius();
     for step in &answer.way {
-        let pose = step.inputs.magnet;
+        let pose = step.inputs.sources[0].pose;
         let local = |point: &Vector3<f64>| pose.rotation.tr_mul(&(point - pose.position));
         let nearest = step
             .outputs
@@ -107,13 +107,13 @@ fn the_margin_is_kept_and_told() {
     assert!(answer.way.iter().all(|step| margin(step) >= 0.3 - 1e-6));
     assert!(margin(answer.way.last().unwrap()) < 0.301);
     // Without that limit the fold itself stops it, before the snap.
-    let strong = steering.inputs().magnet_strength;
+    let strong = steering.inputs().sources[0].strength;
     let mut steering = Steering::new(&scene, &[Move::MagnetStrength], Limits::default()).unwrap();
     let answer = steering.to(&angle(100.0)).unwrap();
     assert!(matches!(answer.limit, Some(Limit::Snap | Limit::NoShape(_))), "{:?}", answer.limit);
     assert_walked(&solved(&scene), &answer.way);
     let last = answer.way.last().unwrap();
-    assert!(margin(last) < 0.05 && last.inputs.magnet_strength > strong, "{}", margin(last));
+    assert!(margin(last) < 0.05 && last.inputs.sources[0].strength > strong, "{}", margin(last));
 }
 
 #[test]

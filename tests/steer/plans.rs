@@ -22,7 +22,7 @@ fn a_way_round_the_fold_of_the_hysteresis_pass_is_found() {
     let mut snapped = false;
     for step in 0..=40 {
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position.z += 1e-3 * f64::from(step);
+        inputs.sources[0].pose.position.z += 1e-3 * f64::from(step);
         snapped |= device.solve(&inputs).unwrap().status == Status::Snapped;
     }
     assert!(snapped, "the straight way snaps");
@@ -34,8 +34,8 @@ fn a_way_round_the_fold_of_the_hysteresis_pass_is_found() {
     assert_eq!(plan.limit, None);
     assert_walked(&solved(&scene), &plan.way);
     let last = &plan.way.last().unwrap().inputs;
-    assert!((last.magnet.position - goal.magnet.position).norm() < 1e-9);
-    assert!(last.magnet.axis().angle(&goal.magnet.axis()) < 1e-6);
+    assert!((last.sources[0].pose.position - goal.sources[0].pose.position).norm() < 1e-9);
+    assert!(last.sources[0].pose.axis().angle(&goal.sources[0].pose.axis()) < 1e-6);
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn a_straight_way_needs_no_tries_and_a_closed_one_says_how_many() {
     let plan = steering.plan(&pass(-30.0).inputs, None, 1).unwrap();
     assert_eq!((plan.straight, plan.tries, plan.limit), (None, 0, None));
     // Along a line there is no way round.
-    let place = scene.inputs.magnet.position;
+    let place = scene.inputs.sources[0].pose.position;
     let tight = nalgebra::Vector3::new(1e-6, 1e-6, 0.1);
     let limits = Limits { workspace: Some([place - tight, place + tight]), ..Limits::default() };
     let mut steering = Steering::new(&scene, &[Move::MagnetPosition], limits).unwrap();

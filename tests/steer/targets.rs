@@ -1,7 +1,7 @@
 //! Targets that can be reached are reached, without a snap.
 
 use mcm::geometry::{Pose, RotationVector};
-use mcm::manipulator::{Inputs, Scene, Status};
+use mcm::manipulator::{Inputs, PlacedSource, Scene, Status};
 use mcm::steer::{Limits, Move, Steering, Target};
 use nalgebra::Vector3;
 
@@ -13,9 +13,9 @@ const POSE: [Move; 2] = [Move::MagnetPosition, Move::MagnetOrientation];
 fn elsewhere(scene: &Scene, number: &mut impl FnMut() -> f64) -> (Inputs, Target) {
     loop {
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position += vector(number, 0.02);
+        inputs.sources[0].pose.position += vector(number, 0.02);
         let turn = RotationVector::new(vector(number, 0.5)).matrix();
-        inputs.magnet.rotation = turn * inputs.magnet.rotation;
+        inputs.sources[0].pose.rotation = turn * inputs.sources[0].pose.rotation;
         let mut device = solved(scene);
         let outputs = device.solve(&inputs).unwrap();
         if outputs.status == Status::Solved {
@@ -67,7 +67,7 @@ fn currents_through_eight_coils_lead_the_tip() {
     let scene = Scene::parse(&format!("{text}\n[model]\ninteraction = \"rings\""), "coils").unwrap();
     // The tip that known currents give.
     let mut known = scene.inputs.clone();
-    for (number, coil) in known.further.iter_mut().enumerate() {
+    for (number, coil) in known.sources.iter_mut().enumerate() {
         coil.strength = [3.0, -2.0, 1.0, 4.0, -1.0, 2.0, 0.5, -3.0][number];
     }
     let goal = scene.manipulator(2).unwrap().solve(&known).unwrap().tip;
@@ -201,13 +201,17 @@ fn tips_beside_a_flat_optimum_are_met() {
             let norm = orientation.iter().map(|part| part * part).sum::<f64>().sqrt();
             Pose::new(position.map(|x| x / 1e3), orientation.map(|part| part / norm)).unwrap()
         };
-        let there = Inputs { magnet: pose(to), ..scene.inputs.clone() };
+        let at = |place| {
+            let magnet = PlacedSource { pose: pose(place), ..scene.inputs.sources[0] };
+            Inputs { sources: vec![magnet], ..scene.inputs.clone() }
+        };
+        let there = at(to);
         let tip = scene.manipulator(2).unwrap().solve(&there).unwrap().tip;
         let direction = directed.then(|| tip.axis());
         let target = Target { position: Some(tip.position), direction, ..Target::default() };
 
         let limits = Limits { distance: gap / 1e3, ..Limits::default() };
-        let start = Scene { inputs: Inputs { magnet: pose(from), ..scene.inputs.clone() }, ..scene };
+        let start = Scene { inputs: at(from), ..scene.clone() };
         let answer = Steering::new(&start, &POSE, limits).unwrap().to(&target).unwrap();
         println!("S = {segments}: {} steps, {:?}", answer.way.len(), answer.residual);
         reached(&answer);

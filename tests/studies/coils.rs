@@ -18,11 +18,11 @@ fn what_is_reached_is_what_the_fields_of_the_coils_add_up_to() {
     }
     // Across the four horizontal coils, in the direction x: the currents by the normal equations, and a field that they make.
     let scene = Scene::parse(include_str!("../../fmu/examples/eight_coils.toml"), "coils").unwrap();
-    let sources = scene.sources().unwrap();
+    let sources = scene.sources;
     let of_one_ampere: Vec<Vector3<f64>> = sources
-        .further()
+        .list()
         .iter()
-        .zip(&scene.inputs.further)
+        .zip(&scene.inputs.sources)
         .map(|(coil, placed)| {
             let local = placed.pose.rotation.tr_mul(&-placed.pose.position);
             placed.pose.rotation * coil.field(&local).unwrap()

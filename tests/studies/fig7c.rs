@@ -3,8 +3,8 @@
 use mcm::design::{Design, Helix, Segmented, Specification};
 use mcm::equilibrium::{Interaction, Settings};
 use mcm::geometry::Pose;
-use mcm::magnetics::{Assembly, AxialMagnet};
-use mcm::manipulator::{Inputs, Manipulator};
+use mcm::magnetics::{AxialMagnet, Cylinders, Source};
+use mcm::manipulator::{Inputs, Manipulator, PlacedSource};
 use mcm::studies::fig7c;
 
 use super::{column, number, row, row_with};
@@ -17,14 +17,14 @@ fn forces_are_those_on_a_manipulator_too_stiff_to_bend() {
     let design = Design::new(Specification::Segmented(Segmented { helix, ..Segmented::paper(9) })).unwrap();
     let magnet =
         |offset| AxialMagnet { radius: 22.5e-3, inner_radius: 0.0, length: 30e-3, offset, remanence: 1.35 };
-    let pair = Assembly::new(vec![magnet(-20e-3), magnet(20e-3)]).unwrap();
+    let pair = Source::from(Cylinders::new(vec![magnet(-20e-3), magnet(20e-3)]).unwrap());
     let settings = Settings { interaction: Interaction::None, pair_accuracy: 1e-10, ..Settings::default() };
     let study = fig7c().unwrap();
     for offset in [-70, -40, 0, 10, 40] {
         let mut inputs = Inputs::unloaded(10);
         let along = 23e-3 + f64::from(offset) * 1e-3;
-        inputs.magnet = Pose::new([0.0, -62.5e-3, along], [0.0, 1.0, 0.0, 0.0]).unwrap();
-        inputs.magnet_strength = 1.0;
+        let pose = Pose::new([0.0, -62.5e-3, along], [0.0, 1.0, 0.0, 0.0]).unwrap();
+        inputs.sources = vec![PlacedSource { pose, strength: 1.0 }];
         let mut stiff = Manipulator::new(&design, Some(&pair), settings, 2).unwrap();
         let force = stiff.solve(&inputs).unwrap().magnetic_force;
         let index = row_with(&study, "offset_mm", f64::from(offset));

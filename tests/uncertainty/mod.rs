@@ -36,7 +36,7 @@ fn far_from_folds_samples_have_the_deviations_of_first_order() {
         |outputs| outputs.tip_angle,
         |outputs| outputs.tip.position.y,
         |outputs| outputs.magnetic_force.z,
-        |outputs| outputs.magnet_reaction_torque.x,
+        |outputs| outputs.reactions[0].torque.x,
         |outputs| outputs.core_angles[0],
     ];
     for (index, read) in reads.into_iter().enumerate() {

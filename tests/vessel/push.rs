@@ -36,7 +36,7 @@ fn a_device_follows_its_magnet() {
     for step in 1..=8 {
         let along = 5e-3 * f64::from(step);
         let mut inputs = scene.inputs.clone();
-        inputs.magnet.position.z += along;
+        inputs.sources[0].pose.position.z += along;
         let next = solve(&mut manipulator, &inputs);
         assert!(next.stable == Some(true) && next.snaps == 0, "{next:?}");
         let moved = next.tip.position - first.tip.position - Vector3::z() * along;

@@ -29,7 +29,7 @@ fn answers_are_those_of_the_manipulator_bit_by_bit() {
     let height = place(&device, "inputs", "magnet.position[2]");
     for step in 1..10 {
         inputs[height] = -0.12 + 1e-3 * f64::from(step);
-        own.magnet.position.y = inputs[height];
+        own.sources[0].pose.position.y = inputs[height];
         assert!(device.step(&inputs), "{}", device.said());
         let outputs = manipulator.solve(&own).unwrap();
         for (name, expected) in [

@@ -146,8 +146,7 @@ impl Source {
     }
 
     fn external(scene: Scene) -> Result<Self, Failure> {
-        let sources = scene.sources()?;
-        Ok(Self::External { inputs: Box::new(scene.inputs), sources })
+        Ok(Self::External { inputs: Box::new(scene.inputs), sources: scene.sources })
     }
 
     /// Field (T) and gradient (T/m) at a point (m) in the world frame.
@@ -158,11 +157,10 @@ impl Source {
         };
         let background = LinearField::new(inputs.uniform_field, inputs.field_gradient);
         let (mut field, mut gradient) = (background.at(point), background.gradient());
-        for (number, source) in sources.numbered() {
-            let Some(PlacedSource { pose, strength }) = inputs.source(number) else { continue };
-            let (own_field, own_gradient) = source.field_gradient_from(&pose, point)?;
-            field += own_field * strength;
-            gradient += own_gradient * strength;
+        for (source, PlacedSource { pose, strength }) in sources.list().iter().zip(&inputs.sources) {
+            let (own_field, own_gradient) = source.field_gradient_from(pose, point)?;
+            field += own_field * *strength;
+            gradient += own_gradient * *strength;
         }
         Ok((field, gradient))
     }

@@ -2,7 +2,7 @@
 
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::ring_body::RingBody;
-use crate::equilibrium::source::{Near, StationFields};
+use crate::equilibrium::source_field::{Near, StationFields};
 use crate::rod::{SectionMaterial, Station};
 
 /// Fields of the sources at the points of a station, as far as they were evaluated already.

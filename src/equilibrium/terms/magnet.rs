@@ -8,21 +8,21 @@ use crate::equilibrium::chain::Chain;
 use crate::equilibrium::inputs::{Inputs, PlacedSource};
 use crate::equilibrium::layout::OF_SOURCE;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
-use crate::equilibrium::source::{Source, StationFields};
+use crate::equilibrium::source_field::{SourceField, StationFields};
 use crate::geometry::{Pose, hat};
-use crate::magnetics::Assembly;
+use crate::magnetics::Source;
 use crate::rod::{Load, Order, Station};
 
 /// A magnet or coil at its pose.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Magnet<'a> {
-    /// Its number: 0 is the external magnet, from 1 on the further sources.
+    /// Its number in the list of sources.
     number: usize,
-    /// The assembly, also where it is switched off.
-    assembly: &'a Assembly,
+    /// What makes the field, also where it is switched off.
+    kind: &'a Source,
     placed: PlacedSource,
     /// Its field source, where it is switched on.
-    source: Option<Source<'a>>,
+    source: Option<SourceField<'a>>,
     base: &'a Pose,
     rules: &'a PairQuadrature,
 }
@@ -30,20 +30,19 @@ pub(crate) struct Magnet<'a> {
 impl<'a> Magnet<'a> {
     /// The source of this number; `None` where the inputs do not say where it is.
     pub(super) fn new(
-        (number, assembly): (usize, &'a Assembly),
+        (number, kind): (usize, &'a Source),
         inputs: &'a Inputs,
         rules: &'a PairQuadrature,
     ) -> Option<Self> {
-        let placed = inputs.source(number)?;
-        let source =
-            (placed.strength != 0.0).then(|| Source::assembly(assembly, placed.pose, placed.strength));
-        Some(Self { number, assembly, placed, source, base: &inputs.base, rules })
+        let placed = *inputs.sources.get(number)?;
+        let source = (placed.strength != 0.0).then(|| SourceField::new(kind, placed.pose, placed.strength));
+        Some(Self { number, kind, placed, source, base: &inputs.base, rules })
     }
 
     /// The same magnet for a chain whose sections are sampled as coarsely as this relative accuracy of the energies
     /// allows.
     pub(super) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
-        let seen = |source: Source<'a>| source.seen_by(chain, self.base, accuracy);
+        let seen = |source: SourceField<'a>| source.seen_by(chain, self.base, accuracy);
         Self { source: self.source.map(seen), ..self }
     }
 
@@ -81,10 +80,10 @@ impl<'a> Magnet<'a> {
         let turn = &self.placed.pose.rotation;
         let arm = point - self.placed.pose.position;
         let local = turn.tr_mul(&arm);
-        if self.assembly.contains(&local) {
+        if self.kind.contains(&local) {
             return None;
         }
-        let own = self.assembly.jet(&local).ok()?.rotated(turn);
+        let own = self.kind.jet(&local).ok()?.rotated(turn);
         let jet = own * self.placed.strength;
         Some(core::array::from_fn(|column| {
             let unit = Vector3::ith(column % 3, 1.0);
@@ -100,10 +99,10 @@ impl<'a> Magnet<'a> {
         }))
     }
 
-    /// Distance (m) of a point in the world frame from the assembly, switched on or off.
+    /// Distance (m) of a point in the world frame from the source, switched on or off.
     fn distance(&self, point: &Vector3<f64>) -> f64 {
         let Pose { position, rotation } = &self.placed.pose;
-        self.assembly.distance(&rotation.tr_mul(&(point - position)))
+        self.kind.distance(&rotation.tr_mul(&(point - position)))
     }
 }
 
@@ -113,9 +112,9 @@ impl Term for Magnet<'_> {
     }
 
     fn is_symmetric_about(&self, axis: &Pose) -> bool {
-        // Every assembly is a body of revolution about its own axis.
         let PlacedSource { pose, strength } = self.placed;
-        strength == 0.0 || (axis.is_along_axis(&pose.axis()) && axis.is_on_axis(&pose.position))
+        let coaxial = axis.is_along_axis(&pose.axis()) && axis.is_on_axis(&pose.position);
+        strength == 0.0 || (self.kind.is_axisymmetric() && coaxial)
     }
 
     fn load(&self, frame: &Frame<'_>, pose: &Pose, axes: &Matrix3<f64>, order: Order) -> Option<Load> {

@@ -6,7 +6,7 @@ use super::magnet::Magnet;
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::inputs::Inputs;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
-use crate::equilibrium::source::StationFields;
+use crate::equilibrium::source_field::StationFields;
 use crate::geometry::Pose;
 use crate::magnetics::Sources;
 use crate::rod::{Order, Station};
@@ -18,8 +18,8 @@ pub(crate) struct Magnets<'a>([Option<Magnet<'a>>; Sources::MOST]);
 impl<'a> Magnets<'a> {
     pub(super) fn new(sources: &'a Sources, inputs: &'a Inputs, rules: &'a PairQuadrature) -> Self {
         let mut all = [None; Sources::MOST];
-        for (number, assembly) in sources.numbered() {
-            all[number] = Magnet::new((number, assembly), inputs, rules);
+        for (number, (kind, slot)) in sources.list().iter().zip(&mut all).enumerate() {
+            *slot = Magnet::new((number, kind), inputs, rules);
         }
         Self(all)
     }

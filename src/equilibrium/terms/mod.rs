@@ -217,7 +217,7 @@ impl TermWrenches {
 
     /// Wrench on the source of this number about its centre.
     pub(crate) fn on_source(&self, number: usize, inputs: &Inputs) -> Wrench {
-        let placed = inputs.source(number).filter(|_| self.0[number] != Wrench::NONE);
+        let placed = inputs.sources.get(number).filter(|_| self.0[number] != Wrench::NONE);
         let Some(placed) = placed else { return Wrench::NONE }; // avoids negative zeros
         let magnet = &self.0[number];
         let arm = placed.pose.position - inputs.base.position;

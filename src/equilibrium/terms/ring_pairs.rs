@@ -4,8 +4,8 @@ use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
 use crate::equilibrium::ring_body::RingBody;
+use crate::equilibrium::ring_field::RingField;
 use crate::equilibrium::settings::Interaction;
-use crate::equilibrium::source::Source;
 use crate::equilibrium::span_quadrature::MULTIPOLE_SHARE;
 use crate::geometry::Pose;
 use crate::magnetics::{FieldAccuracy, PairRule, depth};
@@ -48,7 +48,7 @@ impl<'a> RingPairs<'a> {
         if overlap(first, nodes[0], second, nodes[1]) > 0.0 {
             return None;
         }
-        let source = Source::ring(first, nodes[0]);
+        let source = RingField::new(first, nodes[0]);
         let load = match self.rules.between(pair[0], pair[1]) {
             PairRule::Axis(rule, distance) => {
                 let ratio = first.extent() / (distance + first.half_length());

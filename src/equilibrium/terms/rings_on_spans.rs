@@ -5,8 +5,8 @@ use nalgebra::Matrix6;
 use super::pair::PairLoad;
 use crate::equilibrium::chain::Chain;
 use crate::equilibrium::pair_quadrature::PairQuadrature;
+use crate::equilibrium::ring_field::{RingField, SectionBatch};
 use crate::equilibrium::settings::Interaction;
-use crate::equilibrium::source::{SectionBatch, Source};
 use crate::equilibrium::span_quadrature::SectionSample;
 use crate::geometry::Pose;
 
@@ -43,8 +43,8 @@ impl<'a> RingsOnSpans<'a> {
     }
 
     /// Ring number `ring` with its node at `node`, as a field source for spans.
-    pub(crate) fn source(&self, ring: usize, node: &Pose) -> Source<'a> {
-        Source::ring(&self.chain.rings[ring], node)
+    pub(crate) fn source(&self, ring: usize, node: &Pose) -> RingField<'a> {
+        RingField::new(&self.chain.rings[ring], node)
     }
 
     /// The quadrature samples of an element for a ring, and whether multipoles are too inaccurate for all of them.
@@ -54,7 +54,7 @@ impl<'a> RingsOnSpans<'a> {
 
     /// The energy of a ring with its node at `node` and of a section of `batch` as loads on both, after
     /// [`Source::on_samples`].
-    pub(crate) fn load(source: &Source<'_>, node: &Pose, batch: &SectionBatch, number: usize) -> PairLoad {
+    pub(crate) fn load(source: &RingField<'_>, node: &Pose, batch: &SectionBatch, number: usize) -> PairLoad {
         let (axes, centre) = (source.axes(), source.centre() - node.position);
         let (load, section) = (&batch.loads[number], &batch.sections[number]);
         PairLoad::reciprocal(&load.in_axes(&axes.transpose()), centre + axes * section.position)

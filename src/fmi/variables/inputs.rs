@@ -9,23 +9,23 @@ use crate::manipulator::Input;
 
 impl Rows {
     pub(super) fn inputs(&mut self, counts: &Counts) {
-        let position = access!(|values, index| values.magnet.position[index.component]);
+        let position = access!(|values, index| values.sources[0].pose.position[index.component]);
         let draft =
             Draft::input("magnet.position", POSITION, "Centre of the external magnet assembly", position);
-        let draft = draft.derivative_role(DerivativeRole::Input(Input::MagnetPosition));
+        let draft = draft.derivative_role(DerivativeRole::Input(Input::SourcePosition(0)));
         self.array(3, &draft.known(Known::Source));
 
-        let orientation = access!(|values, index| values.magnet.orientation[index.component]);
+        let orientation = access!(|values, index| values.sources[0].pose.orientation[index.component]);
         let description =
             "Orientation of the external magnet assembly, whose dipole axis is its z, as a unit quaternion";
         let draft = Draft::orientation("magnet.orientation", description, orientation);
-        let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::MagnetRotation));
+        let draft = draft.derivative_role(DerivativeRole::InputQuaternion(Input::SourceRotation(0)));
         self.array(4, &draft.known(Known::Source));
 
-        let strength = access!(|values| values.magnet_strength);
+        let strength = access!(|values| values.sources[0].strength);
         let description = "Factor on the external magnet's field; 0 switches it off";
         let draft = Draft::input("magnet.strength", RATIO, description, strength);
-        let draft = draft.derivative_role(DerivativeRole::Input(Input::MagnetStrength));
+        let draft = draft.derivative_role(DerivativeRole::Input(Input::SourceStrength(0)));
         self.scalar(draft.known(Known::Source));
 
         let uniform = access!(|values, index| values.uniform_field[index.component]);

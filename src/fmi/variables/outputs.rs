@@ -26,10 +26,9 @@ struct Bodies {
 
 impl Bodies {
     fn of(start: &HostValues, counts: &Counts) -> Self {
-        let further = start.source_names().map(|(name, _)| name);
         Self {
             counts: *counts,
-            sources: std::iter::once("magnet".to_owned()).chain(further).collect(),
+            sources: start.source_names().map(|(name, _)| name).collect(),
             mutual_wrenches: start.settings.mutual_wrenches,
             vessel: start.vessel.is_some(),
         }
@@ -51,7 +50,7 @@ impl Bodies {
             Owner::Point => self.counts.shape_points,
             Owner::Ring => self.counts.rings,
             Owner::Core => self.counts.cores,
-            Owner::Further => self.sources.len() - 1,
+            Owner::OtherSource => self.sources.len() - 1,
             Owner::Source => self.sources.len(),
             Owner::Contact => 0, // they come and go
         }
@@ -60,7 +59,7 @@ impl Bodies {
     /// Name and description of an output of the body with this number.
     fn named(&self, row: &OutputRow, item: usize) -> (String, String) {
         let source = match row.owner {
-            Owner::Further => self.sources[item + 1].as_str(),
+            Owner::OtherSource => self.sources[item + 1].as_str(),
             Owner::Source => self.sources[item].as_str(),
             _ => "",
         };

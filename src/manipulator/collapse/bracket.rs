@@ -76,7 +76,7 @@ impl Bracket<'_> {
     /// The device at rest with a value, from the shape of `last` or the straight one; `None` where it is not found to stand.
     fn solve(&self, value: f64, scene: &Scene, last: Option<&Standing>) -> Result<Option<Standing>, Error> {
         let settings = coarse(&scene.settings);
-        let mut model = Equilibrium::new(&scene.design()?, scene.sources()?, settings, 2)?;
+        let mut model = Equilibrium::new(&scene.design()?, &scene.sources, settings, 2)?;
         if let Some(Standing { model: last, .. }) = last {
             model.adopt(last, last.unknowns(), &scene.inputs);
         }

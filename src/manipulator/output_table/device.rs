@@ -1,14 +1,21 @@
 //! Outputs that every device has: pose of the tip, loads, shape, bodies.
 
+use nalgebra::Vector3;
+
 use super::quantity::{ANGLE, DIRECTION, ENERGY, FIELD, FORCE, LENGTH, MOMENT, POSITION, QUATERNION, RATIO};
-use super::row::{Derivative, OutputRow, Owner, Request};
+use super::row::{Derivative, Index, OutputRow, Owner, Request};
 use super::spelling::{DEG, J, M, MM, MN, MT, N, NM, NUMBER, UNM};
 use crate::equilibrium::Output;
-use crate::manipulator::Outputs;
+use crate::manipulator::{Outputs, Reaction};
 
 /// Largest bending angle of a core, rad.
 fn largest_core_angle(outputs: &Outputs) -> f64 {
     outputs.core_angles.iter().copied().fold(0.0, f64::max)
+}
+
+/// A component of the reaction on the external magnet; 0 without one.
+fn on_magnet(outputs: &Outputs, at: Index, part: fn(&Reaction) -> &Vector3<f64>) -> f64 {
+    outputs.on_magnet().map_or(0.0, |reaction| part(reaction)[at.component])
 }
 
 /// Outputs that every device has.
@@ -87,10 +94,10 @@ pub const DEVICE: &[OutputRow] = &[
     .column("base_reaction_moment", NM)
     .printed("base reaction moment", UNM, ""),
     OutputRow::new("magnet.reaction_force", FORCE, "Force on the external magnet", |out, at| {
-        out.magnet_reaction_force[at.component]
+        on_magnet(out, at, |reaction| &reaction.force)
     })
     .vector()
-    .derivative(Derivative::Rows(|_| Output::MagnetReactionForce))
+    .derivative(Derivative::Rows(|_| Output::SourceReactionForce(0)))
     .json("magnet_reaction_force")
     .column("magnet_reaction_force", N)
     .printed("magnet reaction force", MN, ""),
@@ -98,10 +105,10 @@ pub const DEVICE: &[OutputRow] = &[
         "magnet.reaction_torque",
         MOMENT,
         "Torque on the external magnet about its centre",
-        |out, at| out.magnet_reaction_torque[at.component],
+        |out, at| on_magnet(out, at, |reaction| &reaction.torque),
     )
     .vector()
-    .derivative(Derivative::Rows(|_| Output::MagnetReactionTorque))
+    .derivative(Derivative::Rows(|_| Output::SourceReactionTorque(0)))
     .json("magnet_reaction_torque")
     .column("magnet_reaction_torque", NM)
     .printed("magnet reaction torque", UNM, "about its centre"),

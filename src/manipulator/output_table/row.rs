@@ -29,7 +29,7 @@ pub enum Owner {
     /// A core; `[k]` in the name is its number.
     Core,
     /// A magnet after the first one, or a coil; `{source}` in name and description stands for it.
-    Further,
+    OtherSource,
     /// Any magnet or coil; `{source}` in name and description stands for it.
     Source,
     /// A contact with the wall, of which there are now more and now fewer.
@@ -243,7 +243,7 @@ impl OutputRow {
             Owner::Point => outputs.shape.len(),
             Owner::Ring => outputs.rings.len(),
             Owner::Core => outputs.core_angles.len(),
-            Owner::Further => outputs.further_reactions.len(),
+            Owner::OtherSource => outputs.on_others().len(),
             Owner::Source => outputs.mutual_wrenches.len(),
             Owner::Contact => outputs.wall.as_ref().map_or(0, |wall| wall.places.len()),
         }

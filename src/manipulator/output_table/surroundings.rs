@@ -1,11 +1,13 @@
-//! Outputs of what is around the device: further magnets and coils, shaft, vessel.
+//! Outputs of what is around the device: magnets and coils beside the external magnet, shaft, vessel.
+
+use nalgebra::Vector3;
 
 use super::quantity::{FORCE, LENGTH, MOMENT, POSITION, RATIO};
 use super::row::{Derivative, Index, OutputRow, Owner, Request, Scope, WrenchPart};
 use super::spelling::{M, MM, MN, N, NMM, NUMBER, UM, UNM};
 use crate::equilibrium::{Output, WallForces};
 use crate::magnetics::Wrench;
-use crate::manipulator::Outputs;
+use crate::manipulator::{Outputs, Reaction};
 
 /// A component of a part of one wrench of a list; NaN where there is none.
 fn of_wrench(wrenches: &[Wrench], at: Index, part: WrenchPart) -> f64 {
@@ -17,25 +19,30 @@ fn of_wall(outputs: &Outputs, read: impl Fn(&WallForces) -> f64) -> f64 {
     outputs.wall.as_ref().map_or(f64::NAN, read)
 }
 
-/// Wrenches on further magnets and coils, and of all sources on one another.
+/// A component of the reaction on a magnet or coil beside the external magnet; NaN where there is none.
+fn of_reaction(outputs: &Outputs, at: Index, part: fn(&Reaction) -> &Vector3<f64>) -> f64 {
+    outputs.on_others().get(at.item).map_or(f64::NAN, |reaction| part(reaction)[at.component])
+}
+
+/// Reactions on magnets and coils beside the external magnet, and wrenches of all on one another.
 pub const SOURCES: &[OutputRow] = &[
     OutputRow::new("{source}.reaction_force", FORCE, "Force on the {source}", |out, at| {
-        of_wrench(&out.further_reactions, at, WrenchPart::Force)
+        of_reaction(out, at, |reaction| &reaction.force)
     })
-    .of(Owner::Further)
+    .of(Owner::OtherSource)
     .vector()
-    .derivative(Derivative::Rows(Output::SourceReactionForce))
+    .derivative(Derivative::Rows(|other| Output::SourceReactionForce(other + 1)))
     .json("further_reaction_forces")
     .printed("force on source {}", MN, "magnets first, then coils"),
     OutputRow::new(
         "{source}.reaction_torque",
         MOMENT,
         "Torque on the {source} about its centre",
-        |out, at| of_wrench(&out.further_reactions, at, WrenchPart::Torque),
+        |out, at| of_reaction(out, at, |reaction| &reaction.torque),
     )
-    .of(Owner::Further)
+    .of(Owner::OtherSource)
     .vector()
-    .derivative(Derivative::Rows(Output::SourceReactionTorque))
+    .derivative(Derivative::Rows(|other| Output::SourceReactionTorque(other + 1)))
     .json("further_reaction_torques")
     .printed("torque on source {}", UNM, "about its centre"),
     OutputRow::new(

@@ -35,7 +35,7 @@ pub struct SceneFile {
     pub(super) magnet: Magnets,
     /// A coil: a winding about the `z` of its frame, with an iron core or without. One table for each.
     ///
-    /// The limit is that of coils and further magnets together.
+    /// The limit is that of coils and magnets after the first together.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) coil: Vec<CoilEntries>,
     /// Where the device is clamped; unloaded it points along the `z` of the base.

@@ -34,7 +34,7 @@ use super::{Inputs, Manipulator, Way};
 use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::Settings;
 use crate::error::Error;
-use crate::magnetics::{Assembly, AxialMagnet, Coil, Sources};
+use crate::magnetics::Sources;
 use crate::vessel::Vessel;
 
 /// Everything that one solve needs, in SI units.
@@ -56,12 +56,8 @@ use crate::vessel::Vessel;
 pub struct Scene {
     /// Specification of the manipulator.
     pub specification: Specification,
-    /// The cylinders of the external magnet; `None` for no magnet.
-    pub magnets: Option<Vec<AxialMagnet>>,
-    /// The cylinders of each further magnet.
-    pub further_magnets: Vec<Vec<AxialMagnet>>,
-    /// The coils.
-    pub coils: Vec<Coil>,
+    /// The magnets, then the coils.
+    pub sources: Sources,
     /// The vessel that the manipulator is in; `None` for none.
     pub vessel: Option<Vessel>,
     /// The shaft behind the base; `None` for a manipulator that is clamped there.
@@ -98,28 +94,6 @@ impl Scene {
         design.with(self.shaft.as_ref(), self.guidewire.as_ref())
     }
 
-    /// The checked external magnet, if there is one.
-    ///
-    /// # Errors
-    /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for an empty list.
-    pub fn assembly(&self) -> Result<Option<Assembly>, Error> {
-        self.magnets.clone().map(Assembly::new).transpose().map_err(|error| error.of_item(1))
-    }
-
-    /// The checked field sources: the external magnet, further magnets and coils.
-    ///
-    /// # Errors
-    /// [`Error::Range`] naming the first quantity out of range, [`Error::Count`] for too many sources or a magnet without cylinders.
-    pub fn sources(&self) -> Result<Sources, Error> {
-        let magnets = (2..)
-            .zip(&self.further_magnets)
-            .map(|(number, magnets)| Assembly::new(magnets.clone()).map_err(|error| error.of_item(number)));
-        let coils = (1..)
-            .zip(&self.coils)
-            .map(|(number, coil)| Assembly::of_coil(*coil).map_err(|error| error.of_item(number)));
-        Sources::new(self.assembly()?, magnets.chain(coils).collect::<Result<_, _>>()?)
-    }
-
     /// Reads a scene file, and the mesh of a vessel and the tables of multipoles that it names, whose paths are relative to the scene's
     /// folder.
     ///
@@ -133,7 +107,7 @@ impl Scene {
     /// A manipulator of this scene, unsolved; `shape_points` is the number of centreline points in its outputs.
     ///
     /// # Errors
-    /// As [`Scene::design`], [`Scene::sources`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
+    /// As [`Scene::design`] and [`Manipulator::new`]; [`Error::Unsupported`] where the scene names a
     /// method other than the potential method.
     pub fn manipulator(&self, shape_points: usize) -> Result<Manipulator, Error> {
         if self.method != POTENTIAL {
@@ -143,7 +117,7 @@ impl Scene {
             )));
         }
 
-        let made = Manipulator::new(&self.design()?, &self.sources()?, self.settings, shape_points)?;
+        let made = Manipulator::new(&self.design()?, &self.sources, self.settings, shape_points)?;
         let made = made.on_way(self.way.clone());
         Ok(match &self.vessel {
             Some(vessel) => made.in_vessel(vessel),

@@ -2,7 +2,7 @@
 
 use super::SceneFile;
 use super::pose::TURN_AXIS;
-use super::sources::{CoilEntries, MagnetEntries, Magnets};
+use super::sources::{CoilEntries, MagnetEntries};
 use super::units::{MM_PER_M, MT_PER_T};
 use crate::equilibrium::PlacedSource;
 use crate::error::Error;
@@ -31,10 +31,11 @@ impl SceneFile {
     /// use mcm::manipulator::SceneFile;
     /// let file = SceneFile::parse("[design]\nsegments = 1\n[magnet]\nturn_deg = 20", "example")?;
     /// let mut inputs = file.scene()?.inputs;
-    /// inputs.magnet.position.z += 0.01;
+    /// inputs.sources[0].pose.position.z += 0.01;
     /// let moved = SceneFile::parse(&file.at(&inputs, &[])?.to_toml()?, "moved")?.scene()?.inputs;
-    /// assert!((moved.magnet.position - inputs.magnet.position).norm() < 1e-15);
-    /// assert!((moved.magnet.rotation - inputs.magnet.rotation).norm() < 1e-15);
+    /// let [pose, expected] = [&moved, &inputs].map(|inputs| inputs.sources[0].pose);
+    /// assert!((pose.position - expected.position).norm() < 1e-15);
+    /// assert!((pose.rotation - expected.rotation).norm() < 1e-15);
     /// # Ok::<(), mcm::error::Error>(())
     /// ```
     ///
@@ -43,8 +44,7 @@ impl SceneFile {
     pub fn at(&self, inputs: &Inputs, rows: &[WayRow]) -> Result<Self, Error> {
         let own = self.scene()?.inputs;
         let mut file = self.clone();
-        file.place_first_magnet(&own, inputs);
-        file.place_further(&own, inputs);
+        file.place_sources(&own, inputs);
         file.write_field(&own, inputs);
         if inputs.base != own.base {
             let base = &mut file.base;
@@ -58,35 +58,23 @@ impl SceneFile {
         Ok(file)
     }
 
-    fn place_first_magnet(&mut self, own: &Inputs, inputs: &Inputs) {
-        if self.magnet.are_none() {
-            if inputs.magnet_strength == 0.0 {
-                return; // where it stands has no effect
-            }
-            self.magnet = Magnets(vec![MagnetEntries::default()]);
-        } else if (inputs.magnet, inputs.magnet_strength) == (own.magnet, own.magnet_strength) {
-            return;
-        }
-        if let Some(magnet) = self.magnet.0.first_mut() {
-            magnet.put(&PlacedSource { pose: inputs.magnet, strength: inputs.magnet_strength });
-        }
-    }
+    /// Writes the magnets and coils that are not where the scene has them.
+    fn place_sources(&mut self, own: &Inputs, inputs: &Inputs) {
+        let magnets = self.magnet.0.len();
 
-    fn place_further(&mut self, own: &Inputs, inputs: &Inputs) {
-        let magnets = self.magnet.0.len().saturating_sub(1);
-        let further = inputs.further.iter().zip(&own.further).enumerate();
-        for (number, (placed, _)) in further.filter(|(_, (placed, own))| placed != own) {
+        // An FMU has an external magnet also where the scene has none; while it is off, it has no effect.
+        let added = inputs.sources.len().saturating_sub(own.sources.len());
+        for placed in inputs.sources.iter().take(added).filter(|placed| placed.strength != 0.0) {
+            let mut magnet = MagnetEntries::default();
+            magnet.put(placed);
+            self.magnet.0.push(magnet);
+        }
+
+        let placed = inputs.sources.iter().skip(added).zip(&own.sources).enumerate();
+        for (number, (placed, _)) in placed.filter(|(_, (placed, own))| placed != own) {
             match number.checked_sub(magnets) {
-                None => {
-                    if let Some(magnet) = self.magnet.0.get_mut(number + 1) {
-                        magnet.put(placed);
-                    }
-                }
-                Some(number) => {
-                    if let Some(coil) = self.coil.get_mut(number) {
-                        coil.put(placed);
-                    }
-                }
+                None => self.magnet.0[number].put(placed),
+                Some(coil) => self.coil[coil].put(placed),
             }
         }
     }

@@ -1,5 +1,5 @@
 //! Tables of multipoles of coils with iron cores: CSV with the columns `degree` and `t_m_per_a`, the coefficients of
-//! [`crate::magnetics::IronCore`] in T m^(degree + 2) / A.
+//! [`crate::magnetics::MultipoleTable`] in T m^(degree + 2) / A.
 
 use super::SceneFile;
 use crate::error::Error;
@@ -27,7 +27,7 @@ impl SceneFile {
 /// The coefficients by degree, 0 where a degree is missing.
 #[cfg(feature = "csv")]
 fn read(text: &str) -> Result<Vec<f64>, String> {
-    use crate::magnetics::IronCore;
+    use crate::magnetics::MultipoleTable;
 
     /// A row of a table.
     #[derive(Debug, serde::Deserialize)]
@@ -40,7 +40,7 @@ fn read(text: &str) -> Result<Vec<f64>, String> {
     let mut coefficients: Vec<Option<f64>> = Vec::new();
     for row in csv::Reader::from_reader(text.as_bytes()).into_deserialize() {
         let Row { degree, t_m_per_a } = row.map_err(|error| error.to_string())?;
-        let most = IronCore::MOST_DEGREES;
+        let most = MultipoleTable::MOST_DEGREES;
         if degree == 0 || degree > most {
             return Err(format!("degree {degree}: from 1 (the dipole) to {most}"));
         }

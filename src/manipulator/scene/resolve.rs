@@ -14,7 +14,7 @@ use super::{Scene, names};
 use crate::design::{Backbone, Design, Segmented, Specification};
 use crate::equilibrium::Settings;
 use crate::error::{Error, check};
-use crate::magnetics::Assembly;
+use crate::magnetics::Sources;
 use crate::manipulator::Inputs;
 use crate::manipulator::way::{Counts, Way};
 use crate::vessel::Vessel;
@@ -59,23 +59,7 @@ impl SceneFile {
         let specification = self.design.specification()?;
         let design = Design::new(specification.clone())?;
         let inputs = self.inputs(&design)?;
-        let mut all = Vec::new();
-        for (number, magnet) in self.magnet.0.iter().enumerate() {
-            let cylinders = magnet.cylinders();
-            Assembly::new(cylinders.clone()).map_err(|error| match error {
-                Error::Range { .. } => error.of_item(number + 1),
-                of_the_list => {
-                    Error::Unsupported(format!("{}.cylinders: {of_the_list}", self.magnet.key(number)))
-                }
-            })?;
-            all.push(cylinders);
-        }
-        let mut all = all.into_iter();
-        let (magnets, further_magnets) = (all.next(), all.collect());
-        let coils = (1..)
-            .zip(&self.coil)
-            .map(|(number, coil)| coil.si(&format!("coil[{number}]")).map_err(|error| error.of_item(number)));
-        let coils = coils.collect::<Result<_, _>>()?;
+        let sources = self.sources()?;
         let vessel = self.vessel.as_ref().map(vessel_of).transpose()?.flatten();
         let shaft = self.shaft(&specification)?;
         let guidewire = self.guidewire.map(GuidewireEntries::si);
@@ -89,7 +73,7 @@ impl SceneFile {
             &self.start.way,
             Counts {
                 rings: design.rings().count(),
-                further_magnets: self.magnet.0.len().saturating_sub(1),
+                magnets: self.magnet.0.len(),
                 coils: self.coil.len(),
                 shaft: shaft.is_some(),
                 guidewire: guidewire.is_some(),
@@ -98,9 +82,7 @@ impl SceneFile {
         )?;
         let scene = Scene {
             specification,
-            magnets,
-            further_magnets,
-            coils,
+            sources: Sources::new(sources)?,
             vessel,
             shaft,
             guidewire,
@@ -109,12 +91,9 @@ impl SceneFile {
             settings,
             method: self.model.method.clone(),
         };
-        let sources = scene.sources()?;
-        sources.check_apart(|number| {
-            let placed = scene.inputs.source(number);
-            placed
-                .filter(|placed| sources.is_there(number, placed.strength))
-                .map(|placed| (placed.pose, true))
+        scene.sources.check_apart(|number| {
+            let placed = scene.inputs.sources.get(number)?;
+            scene.sources.is_there(number, placed.strength).then_some((placed.pose, true))
         })?;
         Ok(scene)
     }
@@ -140,11 +119,7 @@ impl SceneFile {
     fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
         let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
-        if let Some(magnet) = self.magnet.0.first() {
-            let placed = magnet.placed(&self.magnet.key(0), Some(beside(design)))?;
-            (inputs.magnet, inputs.magnet_strength) = (placed.pose, placed.strength);
-        }
-        inputs.further = self.further()?;
+        inputs.sources = self.placed_sources(beside(design))?;
         let FieldEntries { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
         inputs.uniform_field =
             turn("field", turn_axis, turn_deg)? * Vector3::from(uniform_mt.map(|b| b / MT_PER_T));

@@ -15,7 +15,7 @@ use super::sources::{MagnetEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
 use super::{SceneFile, names, ranges};
 use crate::error::Interval;
-use crate::magnetics::{Assembly, IronCore, Sources};
+use crate::magnetics::{Cylinders, MultipoleTable, Sources};
 
 impl JsonSchema for Magnets {
     fn schema_name() -> Cow<'static, str> {
@@ -41,9 +41,9 @@ impl JsonSchema for SpiralStartEntry {
 /// Keys whose list has a smallest and a largest number of entries.
 const COUNTS: [(&str, usize, Option<usize>); 5] = [
     ("magnet", 0, Some(Sources::MOST)),
-    ("magnet.cylinders", 1, Some(Assembly::MOST_MAGNETS)),
+    ("magnet.cylinders", 1, Some(Cylinders::MOST)),
     ("coil", 0, Some(Sources::MOST - 1)),
-    ("coil.multipoles", 1, Some(IronCore::MOST_DEGREES)),
+    ("coil.multipoles", 1, Some(MultipoleTable::MOST_DEGREES)),
     ("vessel.branch.points_mm", 2, None),
 ];
 

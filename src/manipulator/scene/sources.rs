@@ -12,7 +12,7 @@ use super::pose::{TURN_AXIS, in_metres, pose, turn, turned};
 use super::units::MM_PER_M;
 use crate::equilibrium::PlacedSource;
 use crate::error::Error;
-use crate::magnetics::{AxialMagnet, Coil, IronCore};
+use crate::magnetics::{AxialMagnet, Coil, Cylinders, MultipoleCoil, MultipoleTable, Solenoid, Source};
 
 /// The magnets of a scene: none, one table `[magnet]`, or several `[[magnet]]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -183,11 +183,11 @@ fn upright() -> [f64; 4] {
 }
 
 impl CoilEntries {
-    /// The coil in SI units; `table` is the key of its table.
-    pub(super) fn si(&self, table: &str) -> Result<Coil, Error> {
+    /// The checked coil; `table` is the key of its table.
+    pub(super) fn source(&self, table: &str) -> Result<Source, Error> {
         let (outer_radius, length) = (self.outer_radius_mm / MM_PER_M, self.length_mm / MM_PER_M);
         let around = outer_radius.hypot(0.5 * length);
-        let core = match (&self.multipoles_csv, &self.multipoles) {
+        let multipoles = match (&self.multipoles_csv, &self.multipoles) {
             (Some(_), Some(_)) => {
                 return Err(Error::Unsupported(format!(
                     "{table}.multipoles_csv has no meaning beside {table}.multipoles: give one or the other"
@@ -196,7 +196,7 @@ impl CoilEntries {
             (Some(name), None) => return Err(unplaced(name)),
             (None, Some(multipoles)) => {
                 let reach = self.reach_mm.map_or(around, |reach| reach / MM_PER_M);
-                Some(IronCore::new(reach, multipoles)?)
+                Some(MultipoleTable::new(reach, multipoles)?)
             }
             (None, None) if self.reach_mm.is_some() => {
                 return Err(Error::Unsupported(format!("{table}.reach_mm needs {table}.multipoles")));
@@ -204,13 +204,17 @@ impl CoilEntries {
             (None, None) => None,
         };
         let inner_radius = self.inner_radius_mm / MM_PER_M;
-        Ok(Coil { inner_radius, outer_radius, length, turns: self.turns, core })
+        let coil = Coil { inner_radius, outer_radius, length, turns: self.turns };
+        Ok(match multipoles {
+            Some(table) => MultipoleCoil::new(coil, table)?.into(),
+            None => Solenoid::new(coil)?.into(),
+        })
     }
 }
 
 impl MagnetEntries {
     /// The cylinders in SI units.
-    pub(super) fn cylinders(&self) -> Vec<AxialMagnet> {
+    fn cylinders(&self) -> Vec<AxialMagnet> {
         self.cylinders.iter().map(MagnetCylinder::si).collect()
     }
 
@@ -229,10 +233,34 @@ impl MagnetEntries {
 }
 
 impl SceneFile {
-    /// Poses and strengths of the magnets after the first one, then of the coils.
-    pub(super) fn further(&self) -> Result<Vec<PlacedSource>, Error> {
-        let magnets = self.magnet.0.iter().enumerate().skip(1);
-        let magnets = magnets.map(|(number, magnet)| magnet.placed(&self.magnet.key(number), None));
+    /// The checked magnets, then the coils.
+    pub(super) fn sources(&self) -> Result<Vec<Source>, Error> {
+        let mut out = Vec::new();
+        for (number, magnet) in self.magnet.0.iter().enumerate() {
+            let made = Cylinders::new(magnet.cylinders()).map_err(|error| match error {
+                Error::Range { .. } => error.of_item(number + 1),
+                of_the_list => {
+                    Error::Unsupported(format!("{}.cylinders: {of_the_list}", self.magnet.key(number)))
+                }
+            });
+            out.push(made?.into());
+        }
+        for (number, coil) in (1..).zip(&self.coil) {
+            out.push(coil.source(&format!("coil[{number}]")).map_err(|error| error.of_item(number))?);
+        }
+        Ok(out)
+    }
+
+    /// The cylinders of the external magnet; none without one.
+    pub(crate) fn magnet_cylinders(&self) -> Vec<AxialMagnet> {
+        self.magnet.0.first().map_or_else(Vec::new, MagnetEntries::cylinders)
+    }
+
+    /// Poses and strengths of the magnets, of which the first may leave out its place, then of the coils.
+    pub(super) fn placed_sources(&self, place: [f64; 3]) -> Result<Vec<PlacedSource>, Error> {
+        let magnets = self.magnet.0.iter().enumerate();
+        let magnets = magnets
+            .map(|(number, magnet)| magnet.placed(&self.magnet.key(number), (number == 0).then_some(place)));
         let coils = (1..).zip(&self.coil).map(|(number, coil)| {
             let table = format!("coil[{number}]");
             let pose = pose(&table, in_metres(coil.position_mm), coil.orientation_wxyz)?;

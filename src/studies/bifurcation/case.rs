@@ -5,7 +5,7 @@ use crate::design::Design;
 use crate::equilibrium::{Diagram, Equilibrium, Inputs, Settings};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::Assembly;
+use crate::magnetics::Source;
 use crate::manipulator::{Branch, Manipulator, Status};
 use crate::numerics::continuation::Walk;
 
@@ -21,7 +21,7 @@ pub(super) type Way = Box<dyn Fn(f64) -> Inputs + Send + Sync>;
 /// A device and its path of inputs.
 pub(super) struct Case {
     pub(super) design: Design,
-    pub(super) magnet: Option<Assembly>,
+    pub(super) magnet: Option<Source>,
     pub(super) settings: Settings,
     pub(super) way: Way,
     /// First and last value of the path parameter.

@@ -105,7 +105,8 @@ pub(super) fn walk(case: &Case, places: &[Place], progress: &dyn Progress) -> Re
     let mut here: Option<Inputs> = None;
     let mut out = Walk { rows: Vec::new(), branches: Vec::new(), snaps: 0, lost: None };
     for (number, place) in places.iter().enumerate() {
-        let mut next = Inputs { magnet: magnet(place), feed_force: Some(0.0), ..scene.inputs.clone() };
+        let mut next = Inputs { feed_force: Some(0.0), ..scene.inputs.clone() };
+        next.sources[0].pose = magnet(place);
         if let Some(last) = out.rows.last().filter(|_| case.wired) {
             next.guidewire_insertion = last.inside;
         }

@@ -119,8 +119,7 @@ fn length_of_a_pushed_shaft_is_condensed() {
     let fixed = clamped.measure_margin().stability_margin;
 
     let design = scene.design().expect("a design");
-    let model =
-        Equilibrium::new(&design, scene.sources().expect("sources"), scene.settings, 2).expect("allowed");
+    let model = Equilibrium::new(&design, &scene.sources, scene.settings, 2).expect("allowed");
     let field = |point: &Vector3<f64>| model.field_at(&scene.inputs, point).expect("outside the magnet");
     let found = IN_ROD.map(|count| {
         let rod = StrainRod::new(&design, length, count, &field);

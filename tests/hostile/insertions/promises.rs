@@ -208,7 +208,7 @@ fn are_finite(out: &Outputs) -> bool {
         out.magnetic_torque,
         out.base_reaction_force,
         out.base_reaction_moment,
-        out.magnet_reaction_force,
+        out.reactions[0].force,
         out.tip_field,
     ];
     let numbers = [

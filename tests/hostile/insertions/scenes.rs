@@ -185,10 +185,10 @@ fn advanced(random: &mut StdRng, scene: &Scene, last: &Inputs, length: f64) -> I
     if random.random_bool(0.2) {
         next.roll += PI * size(random, [-3.0, 0.0]) * if random.random_bool(0.5) { 1.0 } else { -1.0 };
     }
-    if scene.magnets.is_some() && random.random_bool(0.5) {
-        next.magnet.position += direction(random) * (1e-3 * size(random, [-1.0, 1.48]));
+    if scene.sources.magnet().is_some() && random.random_bool(0.5) {
+        next.sources[0].pose.position += direction(random) * (1e-3 * size(random, [-1.0, 1.48]));
         let turn = direction(random) * size(random, [-3.0, -0.5]);
-        next.magnet.rotation = RotationVector::new(turn).matrix() * next.magnet.rotation;
+        next.sources[0].pose.rotation = RotationVector::new(turn).matrix() * next.sources[0].pose.rotation;
     }
     if random.random_bool(0.1) {
         // From where the first ring is free to where it is pressed into the wall.

@@ -134,7 +134,7 @@ impl Twin {
         if scene.settings.interaction == Interaction::Auto {
             return None;
         }
-        let (design, magnet) = (scene.design().unwrap(), scene.assembly().unwrap());
+        let (design, magnet) = (scene.design().unwrap(), scene.sources.magnet().cloned());
         let fine = Settings { degree: DEGREE, pair_accuracy: PAIR_ACCURACY, ..scene.settings };
         let model = |settings| Equilibrium::new(&design, magnet.as_ref(), settings, 2).unwrap();
         Some(Self { same: model(scene.settings), fine: model(fine), length: design.length() })
@@ -232,7 +232,7 @@ fn verdict_of_auto(scene: &Scene, manipulator: &Manipulator, out: &Outputs) -> V
         pair_accuracy: PAIR_ACCURACY,
         ..scene.settings
     };
-    let magnet = scene.assembly().unwrap();
+    let magnet = scene.sources.magnet().cloned();
     let mut fine = Equilibrium::new(&design, magnet.as_ref(), settings, 2).unwrap();
     let Some(start) = fine.amplitudes_through(&manipulator.outputs().rings) else { return verdict };
     let (neutral, tip) = (out.outcome == Outcome::Neutral, out.tip.position);
@@ -252,8 +252,8 @@ fn not_finite(out: &Outputs) -> Option<&'static str> {
         ("magnetic torque", out.magnetic_torque),
         ("base reaction force", out.base_reaction_force),
         ("base reaction moment", out.base_reaction_moment),
-        ("magnet reaction force", out.magnet_reaction_force),
-        ("magnet reaction torque", out.magnet_reaction_torque),
+        ("magnet reaction force", out.reactions[0].force),
+        ("magnet reaction torque", out.reactions[0].torque),
         ("field at the tip", out.tip_field),
     ];
     let numbers = [

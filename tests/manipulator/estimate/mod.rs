@@ -30,7 +30,7 @@ fn error(scene: &Read, answer: &Outputs, exact: &mut Equilibrium) -> f64 {
 
 fn converged(scene: &Read) -> Equilibrium {
     let settings = Settings { degree: 8, pair_accuracy: 1e-9, ..scene.settings };
-    let magnet = scene.assembly().unwrap();
+    let magnet = scene.sources.magnet().cloned();
     Equilibrium::new(&scene.design().unwrap(), magnet.as_ref(), settings, 2).unwrap()
 }
 
@@ -77,7 +77,7 @@ fn the_degree_rises_with_the_bend_and_falls_again() {
     let mut least = f64::INFINITY;
     // The magnet comes from 200 mm, 1 mm in a step, and goes again.
     for step in (0..=137).chain((0..137).rev()) {
-        scene.inputs.magnet.position.y = -0.2 + 1e-3 * f64::from(step).min(137.5);
+        scene.inputs.sources[0].pose.position.y = -0.2 + 1e-3 * f64::from(step).min(137.5);
         let answer = own.solve(&scene.inputs).unwrap().clone();
         assert_ne!(answer.status, Status::NotSolved, "step {step}");
         degrees.push(answer.degree);

@@ -152,10 +152,10 @@ fn inputs(random: &mut StdRng, design: &Design) -> Inputs {
     if random.random_bool(0.5) {
         // Beside the manipulator, its field along the magnetisation, and slanted.
         let turn = RotationVector::new(vector(random, 0.5)).matrix();
-        inputs.magnet.rotation = turn * RotationVector::new(across * core::f64::consts::PI).matrix();
+        inputs.sources[0].pose.rotation = turn * RotationVector::new(across * core::f64::consts::PI).matrix();
         let middle = Vector3::z() * (0.5 * design.length());
-        inputs.magnet.position = middle + across * random.random_range(0.0625..0.2);
-        inputs.magnet_strength = 1.0;
+        inputs.sources[0].pose.position = middle + across * random.random_range(0.0625..0.2);
+        inputs.sources[0].strength = 1.0;
     } else {
         let (sine, cosine) = random.random_range(0.0..2.6_f64).sin_cos();
         inputs.uniform_field = (across * sine + Vector3::z() * cosine) * random.random_range(1e-3..0.05);

@@ -58,7 +58,9 @@ fn above() -> Scene {
 }
 
 fn of_strength(scene: &Scene, strength: f64) -> Inputs {
-    Inputs { magnet_strength: strength, ..scene.inputs.clone() }
+    let mut inputs = scene.inputs.clone();
+    inputs.sources[0].strength = strength;
+    inputs
 }
 
 /// Solves at each; the values in whose steps a snap was told.

@@ -96,9 +96,9 @@ impl Ramp {
         let mut out = scene.inputs.clone();
         let turned = |by: Vector3<f64>| RotationVector::new(by * part).matrix();
         match self.change {
-            Change::Strength => out.magnet_strength *= part,
-            Change::Turn(by) => out.magnet.rotation = turned(by) * out.magnet.rotation,
-            Change::Shift(by) => out.magnet.position += by * part,
+            Change::Strength => out.sources[0].strength *= part,
+            Change::Turn(by) => out.sources[0].pose.rotation = turned(by) * out.sources[0].pose.rotation,
+            Change::Shift(by) => out.sources[0].pose.position += by * part,
             Change::Field(by) => out.uniform_field = turned(by) * out.uniform_field,
             Change::Force(force) => out.tip_force = force * part,
         }

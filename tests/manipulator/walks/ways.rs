@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use mcm::design::{Design, Specification};
-use mcm::equilibrium::{Equilibrium, Inputs, Interaction, Settings, Solution};
+use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 use rand::rngs::StdRng;
@@ -100,11 +100,12 @@ impl Way {
         let mut out = Inputs::unloaded(self.segments + 1);
         out.uniform_field = self.field[0] + self.field[1] * half + self.field[2] * whole;
         if self.has_magnet {
-            out.magnet = Pose {
+            let pose = Pose {
                 position: self.magnet[0] + self.magnet[1] * half + self.magnet[2] * whole,
                 rotation: RotationVector::new(self.turn[0] + self.turn[1] * half).matrix(),
             };
-            out.magnet_strength = self.strength[0] + self.strength[1] * half;
+            let strength = self.strength[0] + self.strength[1] * half;
+            out.sources = vec![PlacedSource { pose, strength }];
         }
         out
     }

@@ -30,7 +30,7 @@ impl Report<'_> {
         let (outputs, converged) = (self.outputs, verdict::converged(self.outputs));
         let derivatives = self.jacobian.as_ref().ok().map(|jacobian| {
             json!({
-                "tip_by_magnet": self.magnet.then(|| rows(&jacobian.tip_by_magnet())),
+                "tip_by_magnet": jacobian.tip_by_source(0).filter(|_| self.magnet).map(|block| rows(&block)),
                 "tip_by_uniform_field": rows(&jacobian.tip_by_uniform_field()),
             })
         });

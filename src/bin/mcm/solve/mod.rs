@@ -91,7 +91,7 @@ impl Solve {
         }
         if scene.settings.mutual_wrenches {
             doing.then("the wrench of magnets and coils on one another");
-            outputs.mutual_wrenches = scene.inputs.mutual_wrenches(&scene.sources()?)?;
+            outputs.mutual_wrenches = scene.inputs.mutual_wrenches(&scene.sources)?;
         }
 
         let bands = self.bands(&file, manipulator.manipulator(), &doing)?;
@@ -102,7 +102,7 @@ impl Solve {
         let collapse = collapse.as_ref();
         print(if self.json {
             let uncertainty = self.uncertainty.then(|| bands.as_ref().map_or(Value::Null, Told::as_json));
-            let (magnet, warnings) = (scene.magnets.is_some(), file.warnings()?);
+            let (magnet, warnings) = (scene.sources.magnet().is_some(), file.warnings()?);
             let method = manipulator.method();
             let (outputs, jacobian) = (&outputs, &jacobian);
             let report = Report { method, outputs, collapse, jacobian, magnet, uncertainty, warnings };

@@ -28,7 +28,7 @@ pub(super) fn quantities(outputs: &Outputs) -> Vec<Quantity> {
 fn line(row: &OutputRow, outputs: &Outputs, item: usize) -> Option<Quantity> {
     let printed = row.printed?;
     // Of magnets and coils the external magnet is the first.
-    let number = if row.owner == Owner::Further { item + 2 } else { item + 1 };
+    let number = if row.owner == Owner::OtherSource { item + 2 } else { item + 1 };
     let unit = [printed.unit.label, printed.note];
     Some(Quantity {
         name: printed.label.replace("{}", &number.to_string()),

@@ -20,12 +20,12 @@ pub(super) fn keys(moves: &[Move]) -> Vec<String> {
 /// Their values, in the units of the keys.
 pub(super) fn values(moves: &[Move], inputs: &Inputs) -> Vec<f64> {
     let each = |each: &Move| match each {
-        Move::MagnetPosition => (inputs.magnet.position * 1e3).as_slice().to_vec(),
-        Move::MagnetOrientation => inputs.magnet.quaternion().to_vec(),
-        Move::MagnetStrength => vec![inputs.magnet_strength],
+        Move::MagnetPosition => (inputs.sources[0].pose.position * 1e3).as_slice().to_vec(),
+        Move::MagnetOrientation => inputs.sources[0].pose.quaternion().to_vec(),
+        Move::MagnetStrength => vec![inputs.sources[0].strength],
         Move::UniformField => (inputs.uniform_field * 1e3).as_slice().to_vec(),
         Move::Insertion => vec![inputs.insertion * 1e3],
-        Move::CoilCurrent { source, .. } => vec![inputs.further[*source].strength],
+        Move::CoilCurrent { source, .. } => vec![inputs.sources[*source].strength],
     };
     moves.iter().flat_map(each).collect()
 }

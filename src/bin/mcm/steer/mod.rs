@@ -227,16 +227,15 @@ fn along(steering: &mut Steering, targets: &[Target]) -> Result<Found, Failure> 
 /// The present inputs with the moved ones of another scene.
 fn goal_of(steering: &Steering, goal: &Scene, moves: &[Move]) -> Inputs {
     let mut inputs = steering.inputs().clone();
+    let (sources, goals) = (&mut inputs.sources, &goal.inputs.sources);
     for each in moves {
         match each {
-            Move::MagnetPosition => inputs.magnet.position = goal.inputs.magnet.position,
-            Move::MagnetOrientation => inputs.magnet.rotation = goal.inputs.magnet.rotation,
-            Move::MagnetStrength => inputs.magnet_strength = goal.inputs.magnet_strength,
+            Move::MagnetPosition => sources[0].pose.position = goals[0].pose.position,
+            Move::MagnetOrientation => sources[0].pose.rotation = goals[0].pose.rotation,
+            Move::MagnetStrength => sources[0].strength = goals[0].strength,
             Move::UniformField => inputs.uniform_field = goal.inputs.uniform_field,
             Move::Insertion => inputs.insertion = goal.inputs.insertion,
-            Move::CoilCurrent { source, .. } => {
-                inputs.further[*source].strength = goal.inputs.further[*source].strength;
-            }
+            Move::CoilCurrent { source, .. } => sources[*source].strength = goals[*source].strength,
         }
     }
     inputs

@@ -274,6 +274,6 @@ fn in_order(rows: Vec<(usize, Row)>, count: usize) -> Vec<Option<Row>> {
 
 /// Whether two scenes differ in their inputs alone.
 fn is_same_device(a: &Scene, b: &Scene) -> bool {
-    (&a.specification, &a.magnets, &a.settings, &a.method, &a.vessel, &a.shaft, &a.guidewire)
-        == (&b.specification, &b.magnets, &b.settings, &b.method, &b.vessel, &b.shaft, &b.guidewire)
+    (&a.specification, &a.sources, &a.settings, &a.method, &a.vessel, &a.shaft, &a.guidewire)
+        == (&b.specification, &b.sources, &b.settings, &b.method, &b.vessel, &b.shaft, &b.guidewire)
 }

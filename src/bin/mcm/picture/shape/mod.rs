@@ -8,7 +8,7 @@ mod view;
 use mcm::design::Specification;
 use mcm::error::Error;
 use mcm::geometry::Pose;
-use mcm::magnetics::Assembly;
+use mcm::magnetics::{Drive, Part, Source};
 use mcm::manipulator::{Outputs, PlacedSource, Scene};
 use mcm::nalgebra::Vector3;
 use svg::Document;
@@ -94,10 +94,8 @@ impl Picture {
     fn new(name: &str, scene: &Scene, outputs: &Outputs, plane: Option<Plane>) -> Result<Self, Error> {
         let design = scene.design()?;
         let inputs = &scene.inputs;
-        let sources = scene.sources()?;
-        let placed = |(number, source)| Some((source, inputs.source(number)?));
-        let on: Vec<(&Assembly, PlacedSource)> =
-            sources.numbered().filter_map(placed).filter(|(_, placed)| placed.strength != 0.0).collect();
+        let placed = scene.sources.list().iter().zip(inputs.sources.iter().copied());
+        let on: Vec<(&Source, PlacedSource)> = placed.filter(|(_, placed)| placed.strength != 0.0).collect();
         let lumen = scene.vessel.as_ref().map(|vessel| &vessel.lumen);
         let field = inputs.uniform_field;
         let beside =
@@ -115,18 +113,20 @@ impl Picture {
             Specification::Segmented(own) => (own.helix.radius, own.helix.core_outer_radius, own.ring.length),
             Specification::Cylinder(own) => (own.radius, 0.0, 0.0),
         };
-        let cylinders =
-            on.iter().flat_map(|(source, placed)| source.magnets().iter().map(move |own| (own, placed)));
-        let magnet = cylinders.map(|(cylinder, PlacedSource { pose, strength })| {
-            let ends = [-0.5, 0.5].map(|share| cylinder.offset + share * cylinder.length);
-            let north = if cylinder.remanence * strength > 0.0 { ends[1] } else { ends[0] };
+        let driven = |drive| {
+            let own = on.iter().filter(move |(source, _)| source.drive() == drive);
+            own.flat_map(|(source, placed)| source.parts().iter().map(move |part| (part, placed)))
+        };
+        let magnet = driven(Drive::Factor).map(|(part, PlacedSource { pose, strength })| {
+            let ends = ends(part);
+            let north = if part.remanence.z * strength > 0.0 { ends[1] } else { ends[0] };
             let south = ends[0] + ends[1] - north;
-            let outline = |ends| outline::of_cylinder(&view, pose, ends, cylinder.radius);
-            let letters = [north, south].map(|end| pose.advanced(0.5 * (end + cylinder.offset)).position);
+            let outline = |ends| outline::of_cylinder(&view, pose, ends, part.outline.outer_radius());
+            let letters = [north, south].map(|end| pose.advanced(0.5 * (end + part.centre.z)).position);
             let [ahead, behind] = letters.each_ref().map(|letter| view.towards.dot(letter));
             Magnet {
                 whole: outline(ends),
-                northern: outline([cylinder.offset, north]),
+                northern: outline([part.centre.z, north]),
                 poles: letters.map(|letter| view.at(&letter)),
                 front: usize::from(behind > ahead),
             }
@@ -134,10 +134,8 @@ impl Picture {
         let middle = outputs.shape.iter().sum::<Vector3<f64>>() / outputs.shape.len() as f64;
         let remarks =
             on.iter().filter_map(|(source, placed)| Remark::of(&view, &middle, source, &placed.pose));
-        let coils = on.iter().filter_map(|(source, placed)| {
-            let coil = source.coil()?;
-            let ends = [-0.5, 0.5].map(|share| share * coil.length);
-            Some(outline::of_cylinder(&view, &placed.pose, ends, coil.outer_radius))
+        let coils = driven(Drive::Current).map(|(part, placed)| {
+            outline::of_cylinder(&view, &placed.pose, ends(part), part.outline.outer_radius())
         });
         let body = |pose: &Pose| outline::of_cylinder(&view, pose, [-0.5 * ring, 0.5 * ring], radius);
         let walls = outputs.wall.iter().flat_map(|wall| &wall.places);
@@ -200,19 +198,19 @@ impl Picture {
     }
 }
 
+/// Heights of the ends of a part above its source's centre, m.
+fn ends(part: &Part) -> [f64; 2] {
+    [-0.5, 0.5].map(|share| part.centre.z + share * part.outline.length())
+}
+
 impl Remark {
     /// That of a source at this pose, at its lower edge; `None` where it stands in the plane through a place of the device.
-    fn of(view: &View, device: &Vector3<f64>, source: &Assembly, pose: &Pose) -> Option<Self> {
+    fn of(view: &View, device: &Vector3<f64>, source: &Source, pose: &Pose) -> Option<Self> {
         let depth = view.towards.dot(&(pose.position - device));
-        let cylinders: Vec<([f64; 2], f64)> = match source.coil() {
-            Some(coil) => vec![([-0.5, 0.5].map(|share| share * coil.length), coil.outer_radius)],
-            None => (source.magnets().iter())
-                .map(|own| ([-0.5, 0.5].map(|share| own.offset + share * own.length), own.radius))
-                .collect(),
-        };
-        let size = cylinders.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
-        let outlines =
-            cylinders.into_iter().flat_map(|(ends, radius)| outline::of_cylinder(view, pose, ends, radius));
+        let radius = |part: &Part| part.outline.outer_radius();
+        let size = source.parts().iter().map(radius).fold(0.0, f64::max);
+        let each = source.parts().iter();
+        let outlines = each.flat_map(|part| outline::of_cylinder(view, pose, ends(part), radius(part)));
         let lowest = outlines.map(|(_, y)| y).fold(f64::INFINITY, f64::min);
         let (side, away) = (if depth > 0.0 { "in front" } else { "behind" }, depth.abs());
         let words = format!("{:.0} mm {side}", 1e3 * away);

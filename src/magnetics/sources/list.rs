@@ -4,18 +4,15 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::assembly::Assembly;
+use super::source::{Drive, Source};
 use crate::error::Error;
 use crate::geometry::Pose;
 
-/// The field sources near a device: the external magnet, and further magnets and coils, each a rigid body.
+/// The field sources near a device: magnets and coils, each a rigid body, in one list.
 ///
-/// An `Option<&Assembly>` stands for the external magnet alone.
+/// The external magnet is the first of them, if it is a magnet. An `Option<&Source>` stands for a list of one or none.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Sources {
-    magnet: Option<Assembly>,
-    further: Vec<Assembly>,
-}
+pub struct Sources(Vec<Source>);
 
 /// Which source one is among those of its kind, counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,53 +49,49 @@ impl Sources {
     /// Largest number of sources.
     pub const MOST: usize = 16;
 
-    /// The external magnet (`None` for none), and further magnets and coils.
+    /// These magnets and coils.
     ///
     /// # Errors
-    /// [`Error::Count`] for more than [`Self::MOST`] sources.
-    pub fn new(magnet: Option<Assembly>, further: Vec<Assembly>) -> Result<Self, Error> {
-        if further.len() < Self::MOST {
-            return Ok(Self { magnet, further });
+    /// [`Error::Count`] for more than [`Self::MOST`]; a list that does not begin with a magnet keeps a place for one, because an FMU
+    /// always has it.
+    pub fn new(list: Vec<Source>) -> Result<Self, Error> {
+        let keeps_a_place = list.first().is_some_and(|first| first.drive() != Drive::Factor);
+        let given = list.len() + usize::from(keeps_a_place);
+        if given <= Self::MOST {
+            return Ok(Self(list));
         }
-        Err(Error::Count {
-            quantity: "list of magnets and coils".into(),
-            given: further.len() + 1,
-            expected: format!("at most {}", Self::MOST),
-        })
+        let expected = format!("at most {}", Self::MOST);
+        Err(Error::Count { quantity: "list of magnets and coils".into(), given, expected })
+    }
+
+    /// All of them in their order.
+    #[must_use]
+    pub fn list(&self) -> &[Source] {
+        &self.0
     }
 
     /// The external magnet.
     #[must_use]
-    pub fn magnet(&self) -> Option<&Assembly> {
-        self.magnet.as_ref()
+    pub fn magnet(&self) -> Option<&Source> {
+        self.0.first().filter(|first| first.drive() == Drive::Factor)
     }
 
-    /// The further magnets and coils.
-    #[must_use]
-    pub fn further(&self) -> &[Assembly] {
-        &self.further
-    }
-
-    /// All sources with their numbers: 0 is the external magnet, from 1 on the further ones.
-    pub fn numbered(&self) -> impl Iterator<Item = (usize, &Assembly)> {
-        self.magnet.iter().map(|magnet| (0, magnet)).chain((1..).zip(&self.further))
-    }
-
-    /// The name of the source of this number.
+    /// The name of the source of this number; a number beyond the list is that of a magnet.
     #[must_use]
     pub fn name(&self, number: usize) -> SourceName {
-        let before = &self.further[..number.saturating_sub(1).min(self.further.len())];
-        let coils = before.iter().filter(|source| source.coil().is_some()).count();
-        match number.checked_sub(1).and_then(|further| self.further.get(further)) {
-            Some(source) if source.coil().is_some() => SourceName::Coil(coils),
-            _ => SourceName::Magnet(number - coils),
+        let drive = self.0.get(number).map_or(Drive::Factor, |source| source.drive());
+        let before = self.0.iter().take(number).filter(|source| source.drive() == drive).count();
+        match drive {
+            Drive::Factor => SourceName::Magnet(before),
+            Drive::Current => SourceName::Coil(before),
         }
     }
 
     /// Whether the source of this number is in the way of others: a coil always, a magnet unless its strength is 0.
     #[must_use]
     pub fn is_there(&self, number: usize, strength: f64) -> bool {
-        strength != 0.0 || matches!(self.name(number), SourceName::Coil(_))
+        let driven = self.0.get(number).map(|source| source.drive());
+        strength != 0.0 || driven == Some(Drive::Current)
     }
 
     /// Checks that no two sources overlap; `at` gives the pose of each that is there, and whether it may have
@@ -107,8 +100,8 @@ impl Sources {
     /// # Errors
     /// [`Error::Unsupported`] naming two that overlap.
     pub fn check_apart(&self, at: impl Fn(usize) -> Option<(Pose, bool)>) -> Result<(), Error> {
-        for (number, second) in self.numbered() {
-            for (before, first) in self.numbered().take_while(|(before, _)| *before < number) {
+        for (number, second) in self.0.iter().enumerate() {
+            for (before, first) in self.0.iter().enumerate().take(number) {
                 let (Some((here, moved)), Some((there, also))) = (at(before), at(number)) else { continue };
                 if !moved && !also {
                     continue;
@@ -126,9 +119,9 @@ impl Sources {
     }
 }
 
-impl From<Option<&Assembly>> for Sources {
-    fn from(magnet: Option<&Assembly>) -> Self {
-        Self { magnet: magnet.cloned(), further: Vec::new() }
+impl From<Option<&Source>> for Sources {
+    fn from(magnet: Option<&Source>) -> Self {
+        Self(magnet.cloned().into_iter().collect())
     }
 }
 
