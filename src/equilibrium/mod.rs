@@ -81,7 +81,7 @@ pub use model_transfer::TipDeviation;
 pub(crate) use neighbours::{Linearised, Neighbourhood};
 pub use outcome::{Body, Budget, Contact, Outcome};
 pub use output_derivatives::Output;
-pub use refinement::Refinement;
+pub use refinement::{DiscretisationError, Refinement};
 pub use report::Report;
 pub use settings::{Interaction, Settings};
 pub use snapshot::BranchSnapshot;

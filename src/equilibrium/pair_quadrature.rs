@@ -64,6 +64,14 @@ impl PairQuadrature {
         changed
     }
 
+    /// Number that tells the chosen rules and levels from others (FNV-1a, RFC 9923): unlike [`Self::number`], equal choices of
+    /// two equal devices have equal ones.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
+        const PRIME: u64 = 0x0100_0000_01B3;
+        self.chosen().fold(BASIS, |hash, number| (hash ^ number as u64).wrapping_mul(PRIME))
+    }
+
     /// The numbers of the chosen rules, then the levels.
     pub(crate) fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
         self.chosen.iter().chain(&self.spans).copied()

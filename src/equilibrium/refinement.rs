@@ -36,6 +36,15 @@ const LEAST: f64 = 1e-8;
 const ROUNDS: usize = 6;
 const SETTLED: f64 = 0.05;
 
+/// Error estimate of a discretisation: how far the tip of the next finer one is away, and how far that one may be off.
+#[derive(Debug, Clone, Copy)]
+pub struct DiscretisationError {
+    /// Deviation of the tip from that of the finer model, to first order.
+    pub seen: TipDeviation,
+    /// Largest deviation that the quadrature errors of the finer model, residuals and kinks leave: a bound.
+    pub unseen: TipDeviation,
+}
+
 /// A finer discretisation of a model, and the map from the coarser modes to its own.
 #[derive(Debug, Clone)]
 pub struct Refinement {
@@ -118,18 +127,18 @@ impl Refinement {
     }
 
     /// Error estimate of the tip of `coarse` at its last solved shape: its first-order deviation from the finer model,
-    /// plus the possible quadrature error of that model.
+    /// and the possible quadrature error of that model.
     ///
     /// Neither branch is changed. `None` before the first solve, where `coarse` cannot be factorised, and where the step
     /// is too long for an estimate.
-    pub fn error_of(&mut self, coarse: &mut Equilibrium) -> Option<TipDeviation> {
+    pub fn error_of(&mut self, coarse: &mut Equilibrium) -> Option<DiscretisationError> {
         let inputs = coarse.branch.inputs.take()?;
         let error = self.error_at(coarse, &inputs);
         coarse.branch.inputs = Some(inputs);
         error
     }
 
-    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<TipDeviation> {
+    fn error_at(&mut self, coarse: &mut Equilibrium, inputs: &Inputs) -> Option<DiscretisationError> {
         let softness = coarse.branch.softness();
         if !self.take_up(coarse, inputs) {
             return None;
@@ -144,12 +153,13 @@ impl Refinement {
         let Self { model, shape, .. } = self;
         model.work.place(&model.chain, inputs, shape);
         let seen = TipDeviation::between(&model.tip(), &coarse.tip()).times(1.0 / (1.0 - ratio));
-        // Two accuracies may share the same quadratures, so that the possible error of the finer ones is added.
+        // Two accuracies may share the same quadratures, so that the possible error of the finer ones is told beside.
         let quadratures = model.has_quadratures(inputs);
         let unseen =
             LEAST + if quadratures { QUADRATURE * coarse.settings.pair_accuracy * softness } else { 0.0 };
         let unseen = TipDeviation { distance: unseen * model.chain.length(), angle: unseen };
-        Some(seen.plus(unseen)).filter(TipDeviation::is_finite)
+        Some(DiscretisationError { seen, unseen })
+            .filter(|error| error.seen.is_finite() && unseen.is_finite())
     }
 
     /// Takes up the shape of `coarse`, which is factorised afterwards: anew where it is soft, as an old factorisation is then too

@@ -160,6 +160,11 @@ impl Equilibrium {
         self.core_angles().zip(stops).map(|(angle, stop)| stop.map_or(0.0, |stop| stop.closed(angle)))
     }
 
+    /// Number that tells the quadrature rules of the last shape from others.
+    pub(crate) fn quadrature_fingerprint(&self) -> u64 {
+        self.rules.fingerprint()
+    }
+
     /// The settings of the model and its solver.
     #[must_use]
     pub fn settings(&self) -> &Settings {

@@ -3,7 +3,7 @@
 use nalgebra::{SVector, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::equilibrium::{Equilibrium, Inputs, Solution, TipDeviation};
+use crate::equilibrium::{DiscretisationError, Equilibrium, Inputs, Solution, TipDeviation};
 use crate::geometry::Pose;
 
 /// Fraction of the tolerance above which a cheaper interaction model is left.
@@ -18,9 +18,44 @@ const MOVED: f64 = 0.02;
 /// Largest factor by which the interval between error estimates is extended when the error is far below the tolerance.
 const STANDING: f64 = 10.0;
 
-/// Power of the loads with which the error is assumed to grow between two estimates: that of strain modes of degree 2 grows
-/// with the fourth power of a small bending angle, with the seventh from 65 to 87 deg per core.
-const GROWTH: i32 = 5;
+/// Power of the bend with which the error is assumed to grow between two estimates at the same loads: that of strain modes of degree
+/// 2 grows with the fourth power of a small bending angle, with the seventh from 65 to 87 deg per core.
+const GROWTH: i32 = 4;
+
+/// Age from which on an estimate is made anew because quadrature rules have changed: where two rules meet, they may alternate.
+const OF_OTHER_RULES: f64 = 1.0;
+
+/// Safety factor on the deviation from a finer discretisation, which is of first order and whose strain modes are themselves not
+/// converged. The example `estimate` records how often this covers the error.
+const SAFETY: f64 = 2.0;
+
+/// Estimated error of a model: the part that grows with loads and bend, and a bound that does not.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct ModelError {
+    growing: TipDeviation,
+    bound: TipDeviation,
+}
+
+impl ModelError {
+    /// That of a model whose deviation from a richer one is known.
+    pub(super) fn of_model(deviation: TipDeviation) -> Self {
+        Self { growing: deviation, bound: TipDeviation::NONE }
+    }
+
+    /// That of a discretisation.
+    pub(super) fn of_discretisation(error: &DiscretisationError) -> Self {
+        Self { growing: error.seen.times(SAFETY), bound: error.unseen }
+    }
+
+    /// With the deviation from a richer model, whose own error this is.
+    pub(super) fn beside(self, deviation: TipDeviation) -> Self {
+        Self { growing: self.growing.plus(deviation), ..self }
+    }
+
+    pub(super) fn total(&self) -> TipDeviation {
+        self.growing.plus(self.bound)
+    }
+}
 
 /// The last error estimate of a model, with the inputs, tip pose and field it was made at.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,8 +65,12 @@ pub(super) struct ErrorEstimate {
     field: Vector3<f64>,
     /// Fraction of closed windings of each core, whether or not the model has the bending stop; empty if none has.
     closed: Vec<f64>,
+    /// Bend of the cores, see [`bend`].
+    bend: f64,
+    /// Which quadrature rules the model had: those that follow one another may err in opposite directions.
+    rules: u64,
     /// Estimated error of the tip pose.
-    deviation: TipDeviation,
+    error: ModelError,
     /// Whether the shape was soft, so that its error changes faster.
     soft: bool,
 }
@@ -40,17 +79,25 @@ impl ErrorEstimate {
     /// Records the estimated error of the last solution of `model`, at `inputs`.
     ///
     /// `stops` tells whether a model of the hierarchy has the bending stop.
-    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation, stops: bool) -> Self {
+    pub(super) fn new(model: &Equilibrium, inputs: &Inputs, error: ModelError, stops: bool) -> Self {
         let tip = model.tip();
-        let field = model.field_at(inputs, &tip.position).unwrap_or_default();
-        let closed = model.closed_windings().filter(|_| stops).collect();
-        Self { inputs: inputs.clone(), tip, field, closed, deviation, soft: model.is_soft() }
+        Self {
+            inputs: inputs.clone(),
+            tip,
+            field: model.field_at(inputs, &tip.position).unwrap_or_default(),
+            closed: model.closed_windings().filter(|_| stops).collect(),
+            bend: bend(model),
+            rules: model.quadrature_fingerprint(),
+            error,
+            soft: model.is_soft(),
+        }
     }
 
     /// Replaces the estimate by a new one without allocating.
-    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, deviation: TipDeviation) {
+    pub(super) fn renew(&mut self, model: &Equilibrium, inputs: &Inputs, error: ModelError) {
         self.inputs.copy_from(inputs);
-        (self.tip, self.deviation, self.soft) = (model.tip(), deviation, model.is_soft());
+        (self.tip, self.error, self.soft) = (model.tip(), error, model.is_soft());
+        (self.bend, self.rules) = (bend(model), model.quadrature_fingerprint());
         self.field = model.field_at(inputs, &self.tip.position).unwrap_or_default();
         self.closed.iter_mut().zip(model.closed_windings()).for_each(|(own, now)| *own = now);
     }
@@ -107,11 +154,27 @@ impl ErrorEstimate {
     /// shape is soft.
     pub(super) fn is_old(&self, age: f64, tolerance: &TipDeviation) -> bool {
         let standing = if self.soft { 1.0 } else { STANDING };
-        age > tolerance.room(&self.deviation, CLIMB).clamp(1.0, standing)
+        age > tolerance.room(&self.error.total(), CLIMB).clamp(1.0, standing)
     }
 
-    /// The error extrapolated to that age.
-    pub(super) fn error(&self, age: f64) -> TipDeviation {
-        self.deviation.times((1.0 + CHANGED * age).powi(GROWTH))
+    /// Whether it was made with other quadrature rules than those of `model` now, and is not recent.
+    pub(super) fn is_of_other_rules(&self, age: f64, model: &Equilibrium) -> bool {
+        age > OF_OTHER_RULES && self.rules != model.quadrature_fingerprint()
     }
+
+    /// The error extrapolated to that age and to the present bend of `model`.
+    ///
+    /// At the same bend the error follows the loads, whose change is the age. It grows where the bend grows, by no more than
+    /// a bend in proportion to that change would give, as a shape near the straight one bends by many times its little bend.
+    pub(super) fn error(&self, age: f64, model: &Equilibrium) -> TipDeviation {
+        let change = 1.0 + CHANGED * age;
+        let bend = bend(model);
+        let growth = if bend > self.bend { (bend / self.bend).min(change.powi(GROWTH)) } else { 1.0 };
+        self.error.growing.times(change * growth).plus(self.error.bound)
+    }
+}
+
+/// Sum of the powers of the cores' bends with which their errors grow.
+fn bend(model: &Equilibrium) -> f64 {
+    model.core_angles().map(|angle| angle.powi(GROWTH)).sum()
 }

@@ -14,7 +14,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::error_estimate::{CLIMB, ErrorEstimate};
+use super::error_estimate::{CLIMB, ErrorEstimate, ModelError};
 use super::models::Models;
 use super::tolerance::TipTolerance;
 use super::wait::Wait;
@@ -118,7 +118,8 @@ impl Hierarchy {
     /// Estimated distance of the tip (m) from the converged model; at most the length, which is returned where no estimate is
     /// available.
     pub(super) fn error_estimate(&self) -> f64 {
-        self.estimate.as_ref().map_or(0.0, |estimate| estimate.error(self.age).distance.min(self.length))
+        let error = |estimate: &ErrorEstimate| estimate.error(self.age, self.present()).distance;
+        self.estimate.as_ref().map_or(0.0, |estimate| error(estimate).min(self.length))
     }
 
     /// Sets the tolerances; the next solve estimates the error anew.
@@ -131,7 +132,7 @@ impl Hierarchy {
     /// Whether the estimated error is larger than what is allowed.
     pub(super) fn is_beyond_tolerance(&self) -> bool {
         let (Some(estimate), Some(inputs)) = (&self.estimate, self.present().inputs()) else { return false };
-        self.allowed(inputs).room(&estimate.error(self.age), 1.0) < 1.0
+        self.allowed(inputs).room(&estimate.error(self.age, self.present()), 1.0) < 1.0
     }
 
     /// The tolerance of the tip of the present model.
@@ -331,11 +332,11 @@ impl Hierarchy {
         let within = |error: &TipDeviation| tolerance.room(error, part) >= 1.0;
         let error = if late { None } else { self.models.error(self.present, within)? };
         let unknown = TipDeviation { distance: self.length, angle: core::f64::consts::PI };
-        self.record(inputs, error.unwrap_or(unknown));
-        Ok(error.as_ref().map_or(self.present >= self.models.richest(), within))
+        self.record(inputs, error.unwrap_or(ModelError::of_model(unknown)));
+        Ok(error.map_or(self.present >= self.models.richest(), |error| within(&error.total())))
     }
 
-    fn record(&mut self, inputs: &Inputs, error: TipDeviation) {
+    fn record(&mut self, inputs: &Inputs, error: ModelError) {
         let model = self.models.at(self.present);
         (self.age, self.wait.counted) = (0.0, 0.0);
         if let Some(estimate) = &mut self.estimate {
@@ -349,8 +350,12 @@ impl Hierarchy {
     /// Whether enough has changed since the last error estimate to make a new one.
     fn has_changed(&mut self, inputs: &Inputs) -> bool {
         let Some(estimate) = &self.estimate else { return true };
-        self.age = estimate.age(self.models.at(self.present), inputs, self.length);
+        let model = self.models.at(self.present);
+        self.age = estimate.age(model, inputs, self.length);
+        // Where the richest model tells the error, an estimate costs a Hessian, and the quadratures are a small part of it.
+        let by_itself = self.models.is_refinement(self.models.richest(), self.present);
         estimate.is_old(self.age, &self.allowed(inputs))
+            || (by_itself && estimate.is_of_other_rules(self.age, model))
     }
 
     /// The state.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::error_estimate::ModelError;
 use crate::design::Design;
 use crate::equilibrium::{Equilibrium, Inputs, Interaction, Refinement, Settings, TipDeviation};
 use crate::error::Error;
@@ -19,10 +20,6 @@ const COARSE_FULL: (usize, f64) = (2, 3e-4);
 
 /// Number of finer discretisations that may give the answer; the next finer one only estimates the error.
 const FINER: usize = 2;
-
-/// Safety factor on the discretisation error estimate, which is of first order and whose reference is itself not converged. The
-/// example `estimate` records how often this covers the error.
-const SAFETY: f64 = 2.0;
 
 /// Models of one design, cheapest first.
 #[derive(Debug, Clone)]
@@ -175,7 +172,7 @@ impl Models {
         &mut self,
         number: usize,
         is_allowed: impl Fn(&TipDeviation) -> bool,
-    ) -> Result<Option<TipDeviation>, Error> {
+    ) -> Result<Option<ModelError>, Error> {
         let richest = self.richest();
         if number < richest && self.is_refinement(richest, number) {
             return self.error_of_coarse(number);
@@ -185,25 +182,25 @@ impl Models {
             let (cheaper, richest) = self.whole.split_at_mut(richest);
             let Some(deviation) = richest[0].deviation_of(&cheaper[number]) else { return Ok(None) };
             if !is_allowed(&deviation) {
-                return Ok(Some(deviation));
+                return Ok(Some(ModelError::of_model(deviation)));
             }
             apart = deviation;
         }
         self.make(number.max(richest) + 1)?;
         let number = number.max(richest);
         if self.at(number).is_soft() {
-            return Ok(self.error_of_soft(number)?.map(|error| error.times(SAFETY).plus(apart)));
+            return Ok(self.error_of_soft(number)?.map(|error| error.beside(apart)));
         }
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
-        Ok(above[0].error_of(model).map(|error| error.times(SAFETY).plus(apart)))
+        Ok(above[0].error_of(model).map(|error| ModelError::of_discretisation(&error).beside(apart)))
     }
 }
 
 impl Models {
     /// Estimated deviation of a solved model whose shape is soft: its forces err too little for one refinement to tell, but not the
     /// shape. The model two refinements finer tells.
-    fn error_of_soft(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
+    fn error_of_soft(&mut self, number: usize) -> Result<Option<ModelError>, Error> {
         let known = self.judge.take().filter(|(of, _)| *of == number);
         let mut judge = if let Some((_, judge)) = known {
             judge
@@ -212,19 +209,19 @@ impl Models {
         };
         let error = judge.error_of(self.at_mut(number));
         self.judge = Some((number, judge));
-        Ok(error)
+        Ok(error.as_ref().map(ModelError::of_discretisation))
     }
 
     /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
     /// which a finer one of its own tells.
-    fn error_of_coarse(&mut self, number: usize) -> Result<Option<TipDeviation>, Error> {
+    fn error_of_coarse(&mut self, number: usize) -> Result<Option<ModelError>, Error> {
         let mut judge = match self.finer_coarse.take() {
             Some(judge) => judge,
             None => self.refinement(number, self.at(number).settings().refined())?,
         };
         let error = judge.error_of(&mut self.whole[number]);
         self.finer_coarse = Some(judge);
-        Ok(error.map(|error| error.times(SAFETY)))
+        Ok(error.as_ref().map(ModelError::of_discretisation))
     }
 
     /// A refinement of a model to these settings.

@@ -59,8 +59,8 @@ impl Device {
             )));
         }
 
-        let (design, sources) = (scene.design()?, scene.sources()?);
-        let compared = Compared::new(&design, &sources, scene.settings, settings, shape_points)?;
+        let compared =
+            Compared::new(&scene.design()?, &scene.sources, scene.settings, settings, shape_points)?;
         Ok(Self::Compared(Box::new(compared)))
     }
 

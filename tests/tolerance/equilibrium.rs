@@ -241,6 +241,9 @@ pub(crate) const VANISHING_MOMENT_DEG: f64 = 1e-3;
 /// Part of random scenes whose error is below what is told: the estimate is one of first order, with a factor for doubt.
 pub(crate) const ESTIMATED_SHARE: f64 = 0.99;
 
+/// Part of warm steps of `auto` where more than five times the error is told: 18 % while estimates grew with any change.
+pub(crate) const PESSIMISTIC_SHARE: f64 = 0.05;
+
 /// Median of the error that is told over the error that is: that factor is 2, and what is added to it where errors are small.
 pub(crate) const ESTIMATED_MEDIAN: f64 = 3.0;
 

@@ -1,18 +1,24 @@
 //! The error that is told against the error that is; the recorded run on more scenes is `record.rs`.
 
 mod scenes;
+mod warm;
 
 use mcm::equilibrium::{Equilibrium, Interaction, Settings, Solution, TipDeviation};
 use mcm::manipulator::{Followed, Outputs, Scene as Read, Status};
 use mcm::methods::{Device, Method};
 use rayon::prelude::*;
 
-use crate::tolerance::{ESTIMATED_MEDIAN, ESTIMATED_SHARE, LEAST_TOLD};
+use crate::tolerance::{ESTIMATED_MEDIAN, ESTIMATED_SHARE, LEAST_TOLD, PESSIMISTIC_SHARE};
 use scenes::{ANOTHER_SHAPE, Scene, Told};
+use warm::{Warm, Way};
 
 /// Scenes, and their segments at most.
 const SCENES: u64 = 120;
 const SEGMENTS: usize = 4;
+
+/// Ways of warm steps, and their segments at most.
+const WAYS: u64 = 24;
+const SEGMENTS_OF_WAYS: usize = 2;
 
 /// Three long segments beside the magnet, closer and closer: bent by 87 deg a core at the end.
 const BENT: &str = "[design]\nsegments = 3\n[design.helix]\nlength_mm = 5.2\n[magnet]\norientation_wxyz = [0.70711, 0.70711, 0, 0]\n\
@@ -63,6 +69,28 @@ fn what_is_told_is_true_on_random_scenes_of_every_level() {
     assert!(median <= ESTIMATED_MEDIAN, "{median}");
     let lost: Vec<&Told> = told.iter().filter(|row| row.error > row.tolerance).collect();
     assert!(lost.is_empty(), "{lost:?}");
+}
+
+#[test]
+fn on_warm_steps_neither_too_little_nor_far_too_much_is_told() {
+    let told: Vec<Vec<Warm>> = (0..WAYS)
+        .into_par_iter()
+        .map(|number| Way::random(1000 + number, SEGMENTS_OF_WAYS).told(1000 + number))
+        .collect();
+    let told: Vec<Warm> = told.into_iter().flatten().collect();
+    assert!(told.len() as u64 > 20 * WAYS, "only {} steps", told.len());
+
+    println!("{}", Warm::HEADER);
+    for row in told.iter().filter(|row| row.error > row.estimate || row.is_pessimistic()) {
+        println!("{}", row.line());
+    }
+    let share = |holds: &dyn Fn(&&Warm) -> bool| told.iter().filter(holds).count() as f64 / told.len() as f64;
+    let covered = share(&|row| row.error <= row.estimate);
+    let pessimistic = share(&|row| row.is_pessimistic());
+    println!("{} steps, below the estimate {covered:.3}, too pessimistic {pessimistic:.3}", told.len());
+    assert!(covered >= ESTIMATED_SHARE, "{covered}");
+    assert!(pessimistic <= PESSIMISTIC_SHARE, "{pessimistic}");
+    assert!(told.iter().all(|row| row.error <= row.tolerance));
 }
 
 #[test]

@@ -27,9 +27,9 @@ pub(crate) const ANOTHER_SHAPE: f64 = 0.05;
 
 /// A design, what acts on it, and a level.
 pub(crate) struct Scene {
-    design: Design,
-    inputs: Inputs,
-    settings: Settings,
+    pub(crate) design: Design,
+    pub(crate) inputs: Inputs,
+    pub(crate) settings: Settings,
 }
 
 /// What is told of an answer, and what is true.
