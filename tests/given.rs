@@ -2,7 +2,9 @@
 
 use core::f64::consts::TAU;
 
+use mcm::geometry::Pose;
 use mcm::magnetics::{AxialMagnet, Cylinders, Source};
+use mcm::manipulator::{Inputs, PlacedSource};
 use nalgebra::Vector3;
 use rand::RngExt;
 use rand::rngs::StdRng;
@@ -25,4 +27,10 @@ pub(crate) fn pair() -> Source {
     let magnets =
         vec![AxialMagnet { offset: -20.0e-3, ..cylinder() }, AxialMagnet { offset: 20.0e-3, ..cylinder() }];
     Cylinders::new(magnets).expect("allowed").into()
+}
+
+/// Inputs without field or load beside that magnet, which is switched off.
+pub(crate) fn unloaded_beside_pair(rings: usize) -> Inputs {
+    let sources = vec![PlacedSource { pose: Pose::identity(), strength: 0.0 }];
+    Inputs { sources, ..Inputs::unloaded(rings) }
 }

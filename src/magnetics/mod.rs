@@ -30,9 +30,6 @@ pub use jet::{FieldHessian, Jet};
 pub use overlap::{Outline, depth};
 pub use pair_table::{PairRule, PairTable};
 pub use sheet::{DipoleSheet, FieldAccuracy, SecondSums, SheetSums};
-pub use sources::{
-    AxialMagnet, Coil, Cylinders, Drive, FieldSource, MultipoleCoil, MultipoleTable, Part, Solenoid, Source,
-    SourceName, Sources,
-};
+pub use sources::*;
 pub use uniform::LinearField;
 pub use wrench::Wrench;

@@ -5,7 +5,7 @@ use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings,
 use mcm::geometry::{Pose, RotationVector, hat};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{BALANCE, DIFFERENCE, LAW, assert_close};
 
 const SEGMENTS: usize = 3;
@@ -167,7 +167,7 @@ fn the_reaction_is_the_slope_of_the_energy_by_the_base_pose() {
 #[test]
 fn internal_forces_cancel() {
     // In a uniform field nothing but the clamp's moment is left over, however the rings pull at each other.
-    let mut inputs = Inputs::unloaded(SEGMENTS + 1);
+    let mut inputs = unloaded_beside_pair(SEGMENTS + 1);
     inputs.uniform_field = Vector3::new(0.002, 0.009, 0.001);
     let mut equilibrium = manipulator(Interaction::Rings);
     solve(&mut equilibrium, &inputs);
@@ -184,7 +184,7 @@ fn the_torque_of_a_uniform_field_is_moment_cross_field() {
     // Of the straight manipulator, known without any quadrature.
     let design = design();
     let field = Vector3::new(1e-9, 2e-9, 3e-9);
-    let mut inputs = Inputs { uniform_field: field, ..Inputs::unloaded(SEGMENTS + 1) };
+    let mut inputs = Inputs { uniform_field: field, ..unloaded_beside_pair(SEGMENTS + 1) };
     inputs.base = Pose::new([0.0; 3], [0.8, 0.36, -0.48, 0.0]).expect("a pose");
     let mut equilibrium = manipulator(Interaction::None);
     solve(&mut equilibrium, &inputs);

@@ -10,7 +10,7 @@ use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings,
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
 
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{LAW, LINEAR, SUPERPOSED, assert_close};
 
 const SEGMENTS: usize = 2;
@@ -160,7 +160,7 @@ fn solved(equilibrium: &mut Equilibrium, inputs: &Inputs) {
 }
 
 fn unloaded() -> Inputs {
-    Inputs::unloaded(SEGMENTS + 1)
+    unloaded_beside_pair(SEGMENTS + 1)
 }
 
 #[test]

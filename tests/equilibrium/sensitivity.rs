@@ -6,7 +6,7 @@ use mcm::geometry::Pose;
 use nalgebra::{DMatrix, Vector3};
 
 use super::critical::{is_stable, last_true};
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{NEUTRAL, SYMMETRY, assert_close};
 
 fn equilibrium(segments: usize, interaction: Interaction) -> Equilibrium {
@@ -104,7 +104,8 @@ fn there_are_none_before_a_solve_and_at_a_fold() {
     // Straight in an antiparallel field, up to where it turns over: there the compliance grows without bound.
     let mut start = equilibrium(3, Interaction::None);
     assert!(start.jacobian().expect_err("not solved").to_string().contains("nothing is solved"));
-    let inputs = |size: f64| Inputs { uniform_field: Vector3::new(0.0, 0.0, -size), ..Inputs::unloaded(4) };
+    let inputs =
+        |size: f64| Inputs { uniform_field: Vector3::new(0.0, 0.0, -size), ..unloaded_beside_pair(4) };
     let straight = vec![0.0; start.freedoms()];
     let critical = last_true(1e-3, 0.1, |size| is_stable(&mut start, &inputs(size), &straight));
     let at = |part: f64| {

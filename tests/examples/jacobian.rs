@@ -15,7 +15,7 @@ fn main() -> Result<(), Error> {
     let tip = manipulator.solve(&scene.inputs)?.tip;
 
     // Rows: displacement (m) and rotation (rad) of the tip. Columns: the same of the magnet about its centre.
-    let jacobian = manipulator.jacobian()?.tip_by_source(0).unwrap();
+    let Some(jacobian) = manipulator.jacobian()?.tip_by_source(0) else { return Ok(()) };
     println!("tip by magnet    along x    along y    along z    about x    about y    about z");
     println!("(columns: of the magnet, per mm and per deg; rows: of the tip, in um and mdeg)");
     let per = [1e-3, 1e-3, 1e-3, 1f64.to_radians(), 1f64.to_radians(), 1f64.to_radians()];

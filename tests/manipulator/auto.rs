@@ -11,7 +11,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{CHATTER, MARGIN_CHATTER};
 
 const SCENES: u64 = 2000;
@@ -33,7 +33,7 @@ impl Scene {
             }
         };
         let mut vector = |size: f64| Vector3::from_fn(|_, _| random.random_range(-size..=size));
-        let mut inputs = Inputs::unloaded(design.rings().count());
+        let mut inputs = unloaded_beside_pair(design.rings().count());
         // The magnet's surface stays 40 mm or more away.
         let direction = vector(1.0).normalize();
         inputs.sources[0].pose.rotation = RotationVector::new(vector(PI / 3.0_f64.sqrt())).matrix();
@@ -206,7 +206,7 @@ fn along_a_way_it_stays_within_its_tolerance_and_changes_models_without_a_jump()
     for (device, tolerance, start, pace) in near.into_iter().chain(passing) {
         let design = Design::new(Specification::Segmented(device.clone())).unwrap();
         let length = design.length();
-        let mut inputs = Inputs::unloaded(design.rings().count());
+        let mut inputs = unloaded_beside_pair(design.rings().count());
         inputs.sources[0].pose.rotation = RotationVector::new(Vector3::x() * PI).matrix();
         inputs.sources[0].strength = 1.0;
         let auto = Settings {

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::changes::{changed, inputs_and_sizes};
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{DIFFERENCE, JACOBIAN, JACOBIAN_CURVATURE, PAIRS, assert_close};
 
 /// Centreline points.
@@ -309,14 +309,14 @@ fn windings_that_touch() {
 #[test]
 fn there_are_none_of_what_is_not_solved() {
     let design = Design::new(Specification::paper(1)).unwrap();
-    let mut manipulator = ready(&design, Interaction::Full, &Inputs::unloaded(2));
+    let mut manipulator = ready(&design, Interaction::Full, &unloaded_beside_pair(2));
     assert!(manipulator.jacobian().is_ok());
     // The attraction pulls one segment shut at 35.83 mT.
-    let shut = Inputs { uniform_field: Vector3::new(0.0, 0.06, 0.0), ..Inputs::unloaded(2) };
+    let shut = Inputs { uniform_field: Vector3::new(0.0, 0.06, 0.0), ..unloaded_beside_pair(2) };
     assert_eq!(manipulator.solve(&shut).unwrap().status, Status::NotSolved);
     let message = manipulator.jacobian().unwrap_err().to_string();
     assert_eq!(message, "no derivatives: the last inputs are not solved");
-    let jacobian = ready(&design, Interaction::None, &Inputs::unloaded(2)).jacobian().unwrap();
+    let jacobian = ready(&design, Interaction::None, &unloaded_beside_pair(2)).jacobian().unwrap();
     assert!(jacobian.block(Output::RingAxis(2), Input::TipForce).is_none());
     assert!(jacobian.block(Output::TipAngle, Input::RingForce(2)).is_none());
     assert!(jacobian.along(&[0.0]).is_err());

@@ -64,7 +64,7 @@ impl Field {
         refuse_same(&[&self.scene, &self.at], &[&self.out])?;
         let mut table = Table::at(&self.out)?;
         let scene = read_scene(&self.scene)?.scene()?;
-        let source = if self.ring { Source::ring(&scene)? } else { Source::external(scene)? };
+        let source = if self.ring { Source::ring(&scene)? } else { Source::external(scene) };
         let points = self.points()?;
         table.header(POINT.iter().chain(&FIELD))?;
         let mut lost = Vec::new();
@@ -145,8 +145,8 @@ impl Source {
         Ok(Self::Ring(AxialSource::new(ring.inner_radius, ring.outer_radius, ring.length, ring.remanence)?))
     }
 
-    fn external(scene: Scene) -> Result<Self, Failure> {
-        Ok(Self::External { inputs: Box::new(scene.inputs), sources: scene.sources })
+    fn external(scene: Scene) -> Self {
+        Self::External { inputs: Box::new(scene.inputs), sources: scene.sources }
     }
 
     /// Field (T) and gradient (T/m) at a point (m) in the world frame.

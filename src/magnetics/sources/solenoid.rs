@@ -133,15 +133,12 @@ impl Solenoid {
         }
 
         for (point, out) in points.iter().zip(out) {
-            match self.components::<ORDER>(point) {
-                Some((at, components)) => *out = of_components(&components, &at),
-                None => {
-                    let point = from_ref(point);
-                    self.solenoids(point)
-                        .iter()
-                        .try_for_each(|solenoid| add(solenoid, point, from_mut(out)))?;
-                }
+            if let Some((at, components)) = self.components::<ORDER>(point) {
+                *out = of_components(&components, &at);
+                continue;
             }
+            let (point, out) = (from_ref(point), from_mut(out));
+            self.solenoids(point).iter().try_for_each(|solenoid| add(solenoid, point, out))?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::given::pair;
+use crate::given::{pair, unloaded_beside_pair};
 
 /// The levels and their shares.
 const LEVELS: [(Interaction, f64); 5] = [
@@ -146,7 +146,7 @@ fn specification(random: &mut StdRng, segments: usize) -> Specification {
 
 /// Half of them by the magnet, near or far; the others in a field that may be turned against the manipulator.
 fn inputs(random: &mut StdRng, design: &Design) -> Inputs {
-    let mut inputs = Inputs::unloaded(design.rings().count());
+    let mut inputs = unloaded_beside_pair(design.rings().count());
     let vector = |random: &mut StdRng, size: f64| Vector3::from_fn(|_, _| random.random_range(-size..=size));
     let across = Vector3::new(random.random_range(-1.0..=1.0), -1.0, 0.0).normalize();
     if random.random_bool(0.5) {

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::given::{direction, pair};
+use crate::given::{direction, pair, unloaded_beside_pair};
 
 /// Fine steps in a coarse one.
 const FINE: usize = 100;
@@ -97,7 +97,7 @@ impl Way {
 
     fn inputs(&self, part: f64) -> Inputs {
         let (half, whole) = ((0.5 * TAU * part).sin(), (TAU * part).sin());
-        let mut out = Inputs::unloaded(self.segments + 1);
+        let mut out = unloaded_beside_pair(self.segments + 1);
         out.uniform_field = self.field[0] + self.field[1] * half + self.field[2] * whole;
         if self.has_magnet {
             let pose = Pose {
