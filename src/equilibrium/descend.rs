@@ -13,6 +13,14 @@ const FIRST_RADIUS: f64 = 0.1;
 /// left.
 const RETURNED: f64 = 0.5;
 
+/// Length of a descent (radian norm) from which on it is asked whether it jumped within a narrow hysteresis.
+const FAR: f64 = 0.5;
+
+/// How often a change of inputs is halved to tell a jump from a steep branch, and the part of the descent's length that is left of a
+/// jump then: of a branch as steep as a square root a sixteenth is left.
+const HALVINGS: u32 = 8;
+const JUMP: f64 = 0.25;
+
 /// Distance, relative to that of the descent, within which overdamped motion ends if the descent has drifted along a
 /// neutral branch.
 const DRIFTED: f64 = 0.9;
@@ -136,12 +144,36 @@ impl Search<'_> {
         // Where the branch is soft, the residual is already small halfway back.
         let tolerance = (SOFT * distance / self.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
-        let left = self.apart(&back, last) > RETURNED * distance
-            && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
+        let returned = self.apart(&back, last) <= RETURNED * distance;
+        let jumps = returned && self.jumps([before, inputs], [last, reached]);
+        let left = (!returned || jumps) && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
         // The factorisation belongs to another shape.
         (self.work.factorisation, self.work.free_turn) = (None, turn);
         (self.report.residual, self.report.energy) = (residual, energy);
         left
+    }
+
+    /// Whether a descent between two shapes that lead to one another is a jump all the same, within a hysteresis narrower than the
+    /// change of the inputs: halving that change again and again shortens a steep branch, but not a jump.
+    fn jumps(&mut self, [before, inputs]: [&Inputs; 2], [last, reached]: [&[f64]; 2]) -> bool {
+        let distance = self.apart(reached, last);
+        if distance <= FAR * self.model.chain.radian_norm() {
+            return false;
+        }
+
+        let (mut near, mut far) = (last.to_vec(), reached.to_vec());
+        let (mut from, mut to) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (from + to);
+            let mut shape = near.clone();
+            self.go_downhill(&before.between(inputs, middle), &mut shape, ROUNDING);
+            if self.apart(&shape, &near) <= self.apart(&shape, &far) {
+                (near, from) = (shape, middle);
+            } else {
+                (far, to) = (shape, middle);
+            }
+        }
+        self.apart(&far, &near) > JUMP * distance
     }
 
     /// Whether overdamped motion from `last` ends within `reach` of it at a shape as low as `reached`. Then the branch

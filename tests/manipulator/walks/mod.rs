@@ -18,6 +18,9 @@ const SEED: u64 = 1;
 /// Ramps of the recorded run that are followed here.
 const RAMPS: u64 = 8;
 
+/// A ramp whose snap has a hysteresis as narrow as the smallest part of a step.
+const NARROW: u64 = 345;
+
 /// Coarse steps of a way.
 const STEPS: usize = 40;
 
@@ -39,7 +42,7 @@ fn coarse_walks_snap_where_fine_ones_do() {
 #[test]
 fn snaps_and_ends_do_not_depend_on_the_steps() {
     let (mut alike, mut folds) = (0, 0);
-    for index in 0..RAMPS {
+    for index in (0..RAMPS).chain([NARROW]) {
         let ramp = Ramp::random(SEED, index);
         match ramp.compare() {
             Verdict::Unfit => {}
