@@ -155,6 +155,10 @@ pub(crate) const COLLAPSE_MT: f64 = 0.01;
 /// relative to the largest effect that an input of usual size has on that kind of output (reached: 4e-8).
 pub(crate) const ABI_DIFFERENCE: f64 = 3e-7;
 
+/// Derivatives of curvatures through the C interface, likewise: [`JACOBIAN_CURVATURE`] says why they are known to less (reached: 3.1e-7;
+/// differences over three times as long a step agree to 3e-8).
+pub(crate) const ABI_CURVATURE: f64 = 1e-6;
+
 /// Other methods by default, relative to the length, a radian or the largest wrench (reached: 7.6e-6 by collocation, 1.1e-6
 /// by those that shoot).
 pub(crate) const METHOD_COARSE: f64 = 1e-5;
