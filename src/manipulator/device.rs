@@ -280,7 +280,7 @@ impl Manipulator {
     /// let mut manipulator = scene.manipulator(11)?;
     /// assert!(manipulator.jacobian().is_err()); // nothing is solved yet
     /// manipulator.solve(&scene.inputs)?;
-    /// let jacobian = manipulator.jacobian()?.tip_by_magnet();
+    /// let jacobian = manipulator.jacobian()?.tip_by_source(0).expect("the magnet");
     /// // The magnet comes nearer by 1 mm, along y: the tip moves towards it or away, and turns about x.
     /// let tip = jacobian.column(1) * 1e-3;
     /// assert!(tip[1].abs() > 1e-6 && tip[3].abs() > 1e-4);
