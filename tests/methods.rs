@@ -73,9 +73,13 @@ fn errors(length: f64, a: &Outputs, b: &Outputs) -> Errors {
     let turn = (a.tip.rotation - b.tip.rotation).norm();
     let tip = (a.tip.position - b.tip.position).norm();
     let wrenches = |out: &Outputs| {
-        let forces = [out.magnetic_force, out.base_reaction_force, out.reactions[0].force];
-        let torques = [out.magnetic_torque, out.base_reaction_moment, out.reactions[0].torque];
-        [forces, torques.map(|torque| torque / length)].concat()
+        let own =
+            [(out.magnetic_force, out.magnetic_torque), (out.base_reaction_force, out.base_reaction_moment)];
+        let reactions = out.reactions.iter().map(|reaction| (reaction.force, reaction.torque));
+        own.into_iter()
+            .chain(reactions)
+            .flat_map(|(force, torque)| [force, torque / length])
+            .collect::<Vec<_>>()
     };
     let size = wrenches(b).iter().map(Vector3::norm).fold(0.0, f64::max);
     let wrong = of(&wrenches(a), &wrenches(b));

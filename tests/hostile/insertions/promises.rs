@@ -208,9 +208,9 @@ fn are_finite(out: &Outputs) -> bool {
         out.magnetic_torque,
         out.base_reaction_force,
         out.base_reaction_moment,
-        out.reactions[0].force,
         out.tip_field,
     ];
+    let reactions = out.reactions.iter().flat_map(|reaction| [reaction.force, reaction.torque]);
     let numbers = [
         out.stability_margin,
         out.progress,
@@ -224,7 +224,11 @@ fn are_finite(out: &Outputs) -> bool {
         [wall.sum, wall.largest_force, wall.largest_indentation].iter().all(|x| x.is_finite() && *x >= 0.0);
     let rings =
         out.rings.iter().all(|pose| pose.position.iter().chain(pose.rotation.iter()).all(|x| x.is_finite()));
-    vectors.iter().chain(&out.shape).all(|v| v.iter().all(|x| x.is_finite()))
+    vectors
+        .into_iter()
+        .chain(reactions)
+        .chain(out.shape.iter().copied())
+        .all(|v| v.iter().all(|x| x.is_finite()))
         && numbers.iter().all(|x| x.is_finite())
         && forces
         && sums

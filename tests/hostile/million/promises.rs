@@ -252,8 +252,6 @@ fn not_finite(out: &Outputs) -> Option<&'static str> {
         ("magnetic torque", out.magnetic_torque),
         ("base reaction force", out.base_reaction_force),
         ("base reaction moment", out.base_reaction_moment),
-        ("magnet reaction force", out.reactions[0].force),
-        ("magnet reaction torque", out.reactions[0].torque),
         ("field at the tip", out.tip_field),
     ];
     let numbers = [
@@ -263,7 +261,11 @@ fn not_finite(out: &Outputs) -> Option<&'static str> {
         ("energy", out.energy),
         ("error estimate", out.error_estimate),
     ];
-    let vectors = vectors.iter().filter(|(_, vector)| is_odd(vector.iter())).map(|row| row.0);
+    let reactions = out.reactions.iter().flat_map(|reaction| {
+        [("reaction force of a source", reaction.force), ("reaction torque of a source", reaction.torque)]
+    });
+    let vectors = vectors.into_iter().chain(reactions).filter(|(_, vector)| is_odd(vector.iter()));
+    let vectors = vectors.map(|row| row.0);
     let numbers = numbers.iter().filter(|(_, number)| !number.is_finite()).map(|row| row.0);
     let residual = out.status != Status::NotSolved && !out.residual.is_finite();
     let rings = is_odd(out.rings.iter().flat_map(|pose| pose.position.iter().chain(pose.rotation.iter())));
