@@ -53,7 +53,7 @@ impl Design {
         Ok(Self { specification, base_ring, segments, shaft: None, guidewire: None })
     }
 
-    /// The same device at the end of a shaft: a tube that is pushed through a port, as long as its inserted part is.
+    /// This device at the end of a shaft: a tube that is pushed through a port, as long as its inserted part is.
     ///
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
@@ -74,7 +74,7 @@ impl Design {
         Ok(Self { shaft: Some(span), ..self })
     }
 
-    /// The same device, and its shaft if it has one by now, with a guidewire inside.
+    /// This device, and its shaft if it has one by now, with a guidewire inside.
     ///
     /// # Errors
     /// [`Error::Range`] for a radius that does not fit into every body, or a modulus out of range; [`Error::Unsupported`] where a
@@ -91,7 +91,7 @@ impl Design {
         Ok(Self { guidewire: Some(*wire), ..self })
     }
 
-    /// The same device with these, as far as they are given.
+    /// This device with these, as far as they are given.
     ///
     /// # Errors
     /// As [`Self::with_shaft`] and [`Self::with_guidewire`].

@@ -153,19 +153,20 @@ pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
 
 /// Checks the angles by which the spirals of so many segments are turned.
 fn spiral_start(start: &SpiralStart, segments: usize) -> Result<(), Error> {
-    let angle = |quantity: &str, value: f64| {
-        let checked = SPIRAL_START.check(quantity, value / (1.0 + FIT));
-        checked.map(|_| ()).map_err(|_| Error::range(quantity, value, SPIRAL_START.to_string()))
+    let angle = |name: &str, value: f64| {
+        let refused = |_| Error::range(name, value, SPIRAL_START.to_string()).of(&of::SPIRAL_START_ANGLE);
+        SPIRAL_START.check(name, value / (1.0 + FIT)).map(|_| ()).map_err(refused)
     };
     match start {
-        SpiralStart::Same(value) => angle("start angle of the spirals (rad)", *value),
+        SpiralStart::Same(value) => angle(of::SPIRAL_START_ANGLE.name, *value),
         SpiralStart::Each(values) if values.len() != segments => Err(Error::Count {
             quantity: "start angles of the spirals".into(),
             given: values.len(),
             expected: format!("{segments}, one for each segment"),
         }),
         SpiralStart::Each(values) => (1..).zip(values).try_for_each(|(index, value)| {
-            angle(&format!("start angle of the spiral of segment {index} (rad)"), *value)
+            let name = format!("start angle of the spiral of segment {index} (rad)");
+            angle(&name, *value).map_err(|error| error.of_item(index))
         }),
     }
 }

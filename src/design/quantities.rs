@@ -3,7 +3,7 @@
 use super::limits::{
     BACKBONE_OUTER_RADIUS, BOUNDARY_ANGLE, CORE_INNER_RADIUS, CORE_OUTER_RADIUS, DENSITY, ELASTIC_MODULUS,
     GUIDEWIRE_RADIUS, LENGTH, POISSON, RECOIL_PERMEABILITY, REMANENCE, ROD_INNER_RADIUS, SEGMENTS, SHORE_A,
-    TUBE_INNER_RADIUS, VOLUME_FRACTION, WINDINGS,
+    SPIRAL_START, TUBE_INNER_RADIUS, VOLUME_FRACTION, WINDINGS,
 };
 use crate::error::{Interval, quantities};
 
@@ -29,6 +29,9 @@ quantities! {
         "Density of the composite; 0: by its volume fraction", DENSITY;
     HELIX_WINDING_HEIGHT: "winding height h (m)", "design.helix", "", "Height of a winding, which follows from other numbers",
         Interval::above(0.0);
+
+    SPIRAL_START_ANGLE: "start angle of the spirals (rad)", "design.spiral_start_deg[*]", "design.spiral_start[*]",
+        "Angle by which the spiral of each segment is turned about the axis; 0: its sector begins at d1", SPIRAL_START;
 
     RING_LENGTH: "ring length L_mag (m)", "design.ring.length_mm", "design.ring.length", "Length of each ring magnet", LENGTH;
     RING_REMANENCE: "ring remanence B_r (T)", "design.ring.remanence_t", "design.ring.remanence", "Remanence of the ring magnets",

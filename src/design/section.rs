@@ -21,7 +21,7 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// The same with a lining of this bending stiffness (N m2), which slides and turns freely in it.
+    /// This stiffness with a lining of this bending stiffness (N m2), which slides and turns freely in it.
     #[must_use]
     pub fn lined(self, lining: f64) -> Self {
         Self { bending: self.bending + lining, ..self }

@@ -31,7 +31,7 @@ pub enum SpiralKind {
 /// At 0 the sector of a right-handed spiral begins at `d1` at the core's proximal end and extends towards `d2`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SpiralStart {
-    /// The same angle for all segments.
+    /// One angle for all segments.
     Same(f64),
     /// One angle for each segment, base to tip.
     Each(Vec<f64>),

@@ -47,7 +47,7 @@ fn outside(quantity: &Quantity) -> f64 {
         (Unbounded, Included(high) | Excluded(high)) => high + 1.0,
         (Unbounded, Unbounded) => panic!("{} may be anything", quantity.key),
     };
-    let per_si = match quantity.key.rsplit('_').next() {
+    let per_si = match quantity.key.trim_end_matches("[*]").rsplit('_').next() {
         Some("mm") => 1e3,
         Some("deg") => 180.0 / PI,
         Some("mpa") => 1e-6,

@@ -146,8 +146,7 @@ impl Rows {
                 }
             },
         };
-        let description =
-            "Angle by which the spiral of each segment is turned about the axis; 0: its sector begins at d1";
+        let description = of::SPIRAL_START_ANGLE.description;
         let draft = Draft::parameter("design.spiral_start", ANGLE, description, start);
         self.array(segments, &draft.min(-TAU).max(TAU));
     }

@@ -31,7 +31,7 @@ impl SceneFile {
         self.mesh_stl().is_some()
     }
 
-    /// The same with the mesh called by its name alone, as it travels without the folders that it was in.
+    /// The file with the mesh called by its name alone, as it travels without the folders that it was in.
     #[must_use]
     pub fn without_folders(&self) -> Self {
         let mut file = self.clone();

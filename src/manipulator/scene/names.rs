@@ -23,7 +23,7 @@ pub(super) enum Unit {
 impl Unit {
     /// That of a key, which its name ends with.
     pub(super) fn of(key: &str) -> Self {
-        match key.rsplit('_').next() {
+        match without_index(key).rsplit('_').next() {
             Some("mm") => Self::Millimetre,
             Some("deg") => Self::Degree,
             Some("mpa") => Self::Megapascal,
@@ -57,6 +57,11 @@ impl Unit {
             _ => words.split(' ').map(limit).collect::<Vec<_>>().join(" "),
         }
     }
+}
+
+/// The key of a list that the key of an entry belongs to, whose unit all entries have.
+pub(super) fn without_index(key: &str) -> &str {
+    key.trim_end_matches(|end: char| end.is_ascii_digit() || "[*]".contains(end))
 }
 
 /// The range of every quantity whose key holds a number, in the unit of the key.

@@ -23,8 +23,7 @@ pub(super) const CORRELATION: Interval = Interval::within(1.0);
 
 /// The keys that these ranges are of.
 #[cfg(test)]
-pub(super) const KEYS: [(&str, Interval); 9] = [
-    ("design.spiral_start_deg", SPIRAL_START),
+pub(super) const KEYS: [(&str, Interval); 8] = [
     ("field.turn_deg", TURN),
     ("magnet.turn_deg", TURN),
     ("base.turn_deg", TURN),

@@ -24,7 +24,7 @@ impl SceneFile {
         Self::parse_with(text, what, |name| Err(unplaced(name)))
     }
 
-    /// The same where `lumen_of` gives the lumen of the mesh that a scene names as `vessel.mesh_stl`.
+    /// Reads a scene where `lumen_of` gives the lumen of the mesh that a scene names as `vessel.mesh_stl`.
     ///
     /// # Errors
     /// As [`SceneFile::parse`]; those of `lumen_of` with their place.
@@ -44,7 +44,7 @@ impl SceneFile {
         toml::to_string(self).map_err(|error| unwritable(&error))
     }
 
-    /// The same file with the number at `key` replaced.
+    /// This file with the number at `key` replaced.
     ///
     /// `key` is a path in the file with indices from 1: `field.uniform_mt[2]`, `magnet.cylinders[1].radius_mm`.
     ///

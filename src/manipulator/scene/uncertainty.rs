@@ -107,7 +107,7 @@ impl SceneFile {
         Uncertainty::new(&keys, &deviations, &correlation).map_err(|reason| in_table("correlation", &reason))
     }
 
-    /// The same file with this uncertainty instead of its own.
+    /// This file with this uncertainty instead of its own.
     ///
     /// # Errors
     /// As [`Self::uncertainty`].

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use toml::Value;
 
 use super::SceneFile;
-use super::names::Unit;
+use super::names::{Unit, without_index};
 use super::path::numbers;
 use super::units::MM_PER_M;
 use crate::design::unit_mistake::{SIZE, UnitMistake, UnitRule};
@@ -66,8 +66,7 @@ impl Unit {
 
     /// The rule for the number under a key, and the unit of that.
     pub(super) fn rule(path: &str) -> Option<(&'static UnitRule, Self)> {
-        // An entry of a list has the unit of all.
-        let key = path.trim_end_matches(|end: char| end.is_ascii_digit() || "[]".contains(end));
+        let key = without_index(path);
         let name = key.rsplit_once('_').map_or(key, |(name, _)| name);
         Some((UnitRule::of(name)?, Self::of(key)))
     }
