@@ -47,10 +47,15 @@ impl Search<'_> {
     ) -> Outcome {
         let last = unknowns.to_vec();
         let end = self.descend(inputs, unknowns, tolerance);
-        if matches!(end, Outcome::Solved | Outcome::Neutral) && self.has_left(before, inputs, &last, unknowns)
-        {
-            self.report.snaps += 1;
-        }
+        let left = match end {
+            Outcome::Solved => {
+                self.has_left(before, inputs, &last, unknowns)
+                    || self.jumps([before, inputs], [&last, unknowns])
+            }
+            Outcome::Neutral => self.has_left(before, inputs, &last, unknowns),
+            _ => false,
+        };
+        self.report.snaps += u32::from(left);
         end
     }
 
@@ -144,9 +149,8 @@ impl Search<'_> {
         // Where the branch is soft, the residual is already small halfway back.
         let tolerance = (SOFT * distance / self.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
         self.go_downhill(before, &mut back, tolerance);
-        let returned = self.apart(&back, last) <= RETURNED * distance;
-        let jumps = returned && self.jumps([before, inputs], [last, reached]);
-        let left = (!returned || jumps) && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
+        let left = self.apart(&back, last) > RETURNED * distance
+            && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
         // The factorisation belongs to another shape.
         (self.work.factorisation, self.work.free_turn) = (None, turn);
         (self.report.residual, self.report.energy) = (residual, energy);
@@ -155,25 +159,37 @@ impl Search<'_> {
 
     /// Whether a descent between two shapes that lead to one another is a jump all the same, within a hysteresis narrower than the
     /// change of the inputs: halving that change again and again shortens a steep branch, but not a jump.
+    ///
+    /// The way back is halved, which is the same from whichever side of a symmetric branching it comes. Asked of stable shapes,
+    /// which no free direction leaves undetermined, and not in a vessel, whose contacts let go one by one.
     fn jumps(&mut self, [before, inputs]: [&Inputs; 2], [last, reached]: [&[f64]; 2]) -> bool {
         let distance = self.apart(reached, last);
-        if distance <= FAR * self.model.chain.radian_norm() {
+        if self.model.around.is_some() || distance <= FAR * self.model.chain.radian_norm() {
             return false;
         }
 
+        let turn = self.work.free_turn.take();
+        let (residual, energy) = (self.report.residual, self.report.energy);
         let (mut near, mut far) = (last.to_vec(), reached.to_vec());
-        let (mut from, mut to) = (0.0, 1.0);
+        let (mut from, mut to, mut settled) = (0.0, 1.0, true);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (from + to);
-            let mut shape = near.clone();
-            self.go_downhill(&before.between(inputs, middle), &mut shape, ROUNDING);
+            let mut shape = far.clone();
+            let here = before.between(inputs, middle);
+            settled &=
+                self.go_downhill(&here, &mut shape, ROUNDING).converged && self.is_confirmed(&here, &shape);
             if self.apart(&shape, &near) <= self.apart(&shape, &far) {
                 (near, from) = (shape, middle);
             } else {
                 (far, to) = (shape, middle);
             }
         }
-        self.apart(&far, &near) > JUMP * distance
+        // The factorisation belongs to another shape.
+        (self.work.factorisation, self.work.free_turn) = (None, turn);
+        (self.report.residual, self.report.energy) = (residual, energy);
+        settled
+            && self.apart(&far, &near) > JUMP * distance
+            && !self.has_drifted(inputs, last, reached, DRIFTED * distance)
     }
 
     /// Whether overdamped motion from `last` ends within `reach` of it at a shape as low as `reached`. Then the branch
