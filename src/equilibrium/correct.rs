@@ -9,7 +9,7 @@ use crate::numerics::trust_region::{Objective, dual_norm, norm};
 /// Largest ratio of the lengths of two successive Newton steps that is trusted to stay on the branch.
 const CONTRACTION: f64 = 0.5;
 
-/// The same ratio for steps with an earlier factorisation, which only pay off if they contract faster.
+/// Largest ratio of that kind for steps with an earlier factorisation, which only pay off if they contract faster.
 const CHORD_CONTRACTION: f64 = 0.1;
 
 /// Length of a Newton step (radian norm) from which on steps with the same factorisation are tried next: they cost a tenth.
@@ -198,7 +198,7 @@ impl Search<'_> {
         found
     }
 
-    /// The same from the shape to which the branch leads along its tangent: where there is contact, a step from the last shape
+    /// Corrects the shape to which the branch leads along its tangent: where there is contact, a step from the last shape
     /// itself would press the chain into the wall. `nearby` are inputs on the way, by a small part of the step.
     pub(super) fn try_to_correct_along(
         &mut self,

@@ -62,7 +62,7 @@ impl Equilibrium {
         (self.chain.shaft > 0).then(|| self.push_of(inputs, &self.branch.unknowns))
     }
 
-    /// The same at the equilibrium `unknowns`, evaluated last.
+    /// Push that holds the shaft at the equilibrium `unknowns`, evaluated last.
     fn push_of(&self, inputs: &Inputs, unknowns: &[f64]) -> f64 {
         let (chain, work) = (&self.chain, &self.work);
         let growth = chain.growth(inputs.insertion);
@@ -220,7 +220,7 @@ impl Equilibrium {
         out + DMatrix::from_row_slice(1, unknowns.nrows(), &by_insertion.gradient) * unknowns
     }
 
-    /// The same where every body stays in place: more length weighs more and touches more.
+    /// Rates of the push where every body stays in place: more length weighs more and touches more.
     fn weighted_rates(&self, inputs: &Inputs, columns: usize) -> DMatrix<f64> {
         let (chain, work) = (&self.chain, &self.work);
         let growth = chain.growth(inputs.insertion);

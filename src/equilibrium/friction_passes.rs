@@ -14,7 +14,7 @@ use crate::numerics::trust_region::Objective;
 /// Change of the friction forces from pass to pass at which they have settled, relative to the largest that they could be.
 const SETTLED: f64 = 1e-4;
 
-/// The same as a force, N: far below what matters.
+/// Change of a friction force at which it has settled, N: far below what matters.
 const NOTHING: f64 = 1e-8;
 
 /// Normal force (N) below which there is none: its square could underflow.
@@ -108,7 +108,7 @@ impl Search<'_> {
         false
     }
 
-    /// The same for a shape just found from the last one of the branch.
+    /// Settles the friction of a shape just found from the last one of the branch.
     pub(super) fn settle_friction_of(&mut self, branch: &mut History, target: &Inputs) -> bool {
         if !self.work.friction.holds() {
             return true;

@@ -108,7 +108,7 @@ impl Placing<'_> {
         })
     }
 
-    /// The same; a place outside the port is on the straight line behind that.
+    /// Frame of a place; one outside the port is on the straight line behind that.
     pub(super) fn frame_or_outside(&self, place: Place) -> Pose {
         let port = self.nodes[0];
         let outside = place.behind().map_or(0.0, |behind| self.chain.inserted(self.growth) - behind);

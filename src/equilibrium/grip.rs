@@ -88,7 +88,7 @@ impl Grip {
         self.anchor = self.point(frame) - slip * kept;
     }
 
-    /// The same anchor for a touching point at another arm, on a frame that had these directors when the anchor was set.
+    /// Keeps the anchor for a touching point at another arm, on a frame that had these directors when the anchor was set.
     pub(super) fn on_arm(&mut self, arm: &Vector3<f64>, directors: &Matrix3<f64>) {
         self.anchor += directors * (arm - self.arm);
         self.arm = *arm;

@@ -87,7 +87,7 @@ impl Inputs {
 }
 
 impl Inputs {
-    /// The same poses without field, magnet, load or weight: the start of a first solve.
+    /// These poses without field, magnet, load or weight: the start of a first solve.
     #[must_use]
     pub fn without_loads(&self) -> Self {
         let Self { base, insertion, roll, guidewire_insertion, .. } = *self;
@@ -96,7 +96,7 @@ impl Inputs {
         Self { sources, base, insertion, roll, guidewire_insertion, ..unloaded }
     }
 
-    /// The same inputs without the fixed moment on the tip, the only non-conservative load among them.
+    /// These inputs without the fixed moment on the tip, the only non-conservative load among them.
     #[must_use]
     pub fn without_moment(&self) -> Self {
         Self { tip_moment: Vector3::zeros(), ..self.clone() }

@@ -78,7 +78,7 @@ impl Jacobian {
         Err(crate::error::Error::Count { quantity, given, expected: self.matrix.ncols().to_string() })
     }
 
-    /// The same where the push on the shaft is given and its length follows; as it is without a shaft.
+    /// The derivatives where the push on the shaft is given and its length follows; as they are without a shaft.
     #[must_use]
     pub(crate) fn at_given_push(mut self) -> Self {
         let (insertion, given) = (Input::Insertion.columns().start, Input::FeedForce.columns().start);

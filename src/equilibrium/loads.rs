@@ -50,7 +50,7 @@ impl Potential<'_> {
         energy
     }
 
-    /// The same with the storage for the fields of the sources.
+    /// Loads of all stations, with the storage for the fields of the sources.
     fn load_stations_in(&mut self, fields: &mut [StationFields], order: Order) -> Option<f64> {
         let (mut energy, base) = (0.0, self.inputs.base.position);
         let stations = self.chain.elements.iter().enumerate().flat_map(|(k, element)| {
@@ -206,7 +206,7 @@ impl Potential<'_> {
         Some(energy)
     }
 
-    /// The same with second derivatives.
+    /// Load of a ring on a span, with second derivatives.
     fn load_ring_on_span(&mut self, k: usize, ring: usize) -> Option<f64> {
         let (spans, body, mut energy) = (self.terms.spans, &self.chain.rings[ring], 0.0);
         let mutual = spans.are_mutual();

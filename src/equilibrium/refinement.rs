@@ -79,7 +79,7 @@ impl Projection {
 }
 
 impl Settings {
-    /// The same settings with the next finer discretisation.
+    /// These settings with the next finer discretisation.
     #[must_use]
     pub fn refined(&self) -> Self {
         let finest = FINEST.min(self.pair_accuracy);

@@ -60,7 +60,7 @@ impl<'a> RingField<'a> {
         Some(dipoles.times(body.magnetisation).load(&section.rotation))
     }
 
-    /// The same from the magnetic charges on its proximal and distal face.
+    /// Load of this ring's field on a ring, from the magnetic charges on the faces of that, proximal and distal.
     pub(crate) fn on_faces(
         &self,
         body: &RingBody,

@@ -117,7 +117,7 @@ impl Search<'_> {
         self.choose_rules_here();
     }
 
-    /// The same for the shape evaluated last; returns whether any rule has changed.
+    /// Chooses the quadrature rules for the shape evaluated last; returns whether any has changed.
     pub(super) fn choose_rules_here(&mut self) -> bool {
         self.rules.choose(self.model.chain, &self.work.nodes)
     }

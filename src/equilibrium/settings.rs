@@ -143,7 +143,7 @@ impl Settings {
         self.bending_stop.unwrap_or(self.interaction == Interaction::Auto)
     }
 
-    /// The same settings without tolerances of the tip: the discretisation is exactly the one that the settings specify.
+    /// These settings without tolerances of the tip: the discretisation is exactly the one that the settings specify.
     #[must_use]
     pub fn as_discretised(&self) -> Self {
         Self { tolerance_position: f64::MAX, tolerance_angle: f64::MAX, tolerance_relative: 0.0, ..*self }

@@ -108,7 +108,7 @@ impl Equilibrium {
         Ok(out)
     }
 
-    /// The same manipulator, unsolved, in a vessel.
+    /// This manipulator, unsolved, in a vessel.
     #[must_use]
     pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
         let surface = Surface::new(&self.chain);

@@ -29,7 +29,7 @@ impl Near {
         Self { field: jet.field * strength, gradient: jet.gradient * strength, along }
     }
 
-    /// The same without second derivatives.
+    /// Field and gradient at a point, without second derivatives, at this strength.
     fn flat((field, gradient): &(Vector3<f64>, Matrix3<f64>), strength: f64) -> Self {
         Self { field: field * strength, gradient: gradient * strength, along: None }
     }
@@ -80,7 +80,7 @@ impl<'a> SourceField<'a> {
         Self { frame, source, strength, compact: 0.0 }
     }
 
-    /// The same source for a `chain` with its base at `base`, whose sections are sampled as coarsely as this relative
+    /// The source for a `chain` with its base at `base`, whose sections are sampled as coarsely as this relative
     /// `accuracy` of the energies allows.
     ///
     /// The mean field of a dipole over a section at distance `d` along its axis is `B (1 - 3 spread / d^2)`. The distance
@@ -130,7 +130,7 @@ impl<'a> SourceField<'a> {
         })
     }
 
-    /// The same at a few points, at most [`TOGETHER`], handed to `put` by their numbers.
+    /// Evaluates the field at a few points, at most [`TOGETHER`], handed to `put` by their numbers.
     fn near_each(
         &self,
         points: &[Vector3<f64>],
@@ -224,7 +224,7 @@ impl<'a> SourceField<'a> {
         Some(load)
     }
 
-    /// The same for the material of a section at `pose`, represented by `points` with equal shares; the field at the first
+    /// Load on the material of a section at `pose`, represented by `points` with equal shares; the field at the first
     /// ones may have been evaluated already.
     pub(crate) fn on_material(
         &self,

@@ -164,7 +164,7 @@ impl Workspace {
         }
     }
 
-    /// The same at a row of an element's tables, whose frame is in that of the element's start node.
+    /// Adds a load at a row of an element's tables, whose frame is in that of the element's start node.
     pub(super) fn load_row(
         &mut self,
         chain: &Chain,

@@ -76,7 +76,7 @@ impl Interval {
         Self { other: Included(other), ..self }
     }
 
-    /// The same with every limit multiplied by a positive factor, as in another unit.
+    /// The interval with every limit multiplied by a positive factor, as in another unit.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         let scale = |bound: Bound<f64>| bound.map(|limit| limit * factor);

@@ -26,7 +26,7 @@ const TOO_MUCH: f64 = 1e12;
 /// Expected part of the loss that a step gains, at which the loop ends: a step of a ten thousandth of a standard deviation.
 const GAIN: f64 = 1e-10;
 
-/// The same, at which a step that fails ends the loop.
+/// Expected part of the loss that a step gains, at which a step that fails ends the loop.
 const NOISE: f64 = 1e-7;
 
 /// Relative distance from a limit of a parameter's range that counts as the limit.

@@ -130,7 +130,7 @@ impl Measurements {
         self.outputs.iter().position(|own| own.name() == output)
     }
 
-    /// The same rows where values of `output` without a deviation of their own have this one.
+    /// These rows where values of `output` without a deviation of their own have this one.
     ///
     /// # Errors
     /// [`Error::Unsupported`] for an output that is not measured, [`Error::Range`] for a deviation that is not positive.

@@ -43,7 +43,7 @@ pub struct Cell {
     pub output: &'static str,
     /// Its value as measured.
     pub measured: f64,
-    /// The same as computed for the fitted parameters.
+    /// Its value as computed for the fitted parameters.
     pub computed: f64,
     /// Measured minus computed, in standard deviations.
     pub residual: f64,

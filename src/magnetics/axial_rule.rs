@@ -51,7 +51,7 @@ const ESTIMATED_DEGREES: usize = 16;
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxialRule {
     points: Vec<(f64, f64)>,
-    /// The same as dipoles of these volumes in a plane that contains the axis; their first coordinate is the height above
+    /// The points as dipoles of these volumes in a plane that contains the axis; their first coordinate is the height above
     /// the lower face.
     upright: DipoleSheet,
     /// `sqrt(a^2 + h^2)`, m.
@@ -130,7 +130,7 @@ impl AxialRule {
         self.points.iter().copied()
     }
 
-    /// The same as a list.
+    /// Positions on the axis (m) with their weights (m3), ascending, as a list.
     pub(crate) fn nodes(&self) -> &[(f64, f64)] {
         &self.points
     }

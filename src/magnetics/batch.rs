@@ -92,7 +92,7 @@ impl AxialSource {
         })
     }
 
-    /// The same with the second derivative.
+    /// Adds field, gradient and second derivative at the points, for a body whose centre is at that height, m.
     pub(super) fn add_jets(
         &self,
         height: f64,
@@ -122,7 +122,7 @@ impl AxialSource {
         self.side_by_side::<ORDER>(height, points, put)
     }
 
-    /// The same for enough points to fill the lanes.
+    /// Evaluates points that fill the lanes side by side, and hands each to `put` by its number.
     fn side_by_side<const ORDER: u8>(
         &self,
         height: f64,

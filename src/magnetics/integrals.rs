@@ -86,7 +86,7 @@ impl<const N: usize> Integrals<N> {
         }
     }
 
-    /// The same integrals for `gamma = numerator / denominator` by a fixed number of steps, with one division.
+    /// All integrals for `gamma = numerator / denominator` by a fixed number of steps, with one division.
     ///
     /// The third kind is carried as a quotient, with numerators `c`, `s` of cosine and sine over `d`, and the means'
     /// differences from the third on are subtractions: their errors do not count there. The denominator is of order one.

@@ -77,7 +77,7 @@ impl Jet {
         self.hessian.along(d)
     }
 
-    /// The same jet in the axes of a frame in which this one's axes are the columns of `rotation`.
+    /// The jet in the axes of a frame in which this one's axes are the columns of `rotation`.
     ///
     /// `B' = R B`, `G' = R G R^T`, `H'_kij = sum R_kc R_ia R_jb H_cab`.
     #[must_use]

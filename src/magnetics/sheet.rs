@@ -114,7 +114,7 @@ impl AxialSource {
         self.sum(sheet, pose, accuracy)
     }
 
-    /// The same sums for the second derivatives.
+    /// Sums of the second derivatives of the field over the dipoles of a sheet.
     #[must_use]
     pub fn second_on_sheet(
         &self,

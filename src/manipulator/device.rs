@@ -70,7 +70,7 @@ impl Manipulator {
         Ok(Self { hierarchy, measured: None, outputs, has_shape: false, way: Way::default() })
     }
 
-    /// The same manipulator, unsolved, in a vessel.
+    /// This manipulator, unsolved, in a vessel.
     #[must_use]
     pub fn in_vessel(mut self, vessel: &Vessel) -> Self {
         self.hierarchy = self.hierarchy.in_vessel(vessel);
@@ -323,7 +323,7 @@ impl Manipulator {
         out
     }
 
-    /// The same after a solve of that model.
+    /// Outputs of a model after a solve of it.
     pub(super) fn outputs_of_solve(&self, model: &Equilibrium, inputs: &Inputs, report: &Report) -> Outputs {
         let mut out = self.outputs_of(model, inputs);
         out.record(report, self.hierarchy.fold_margin());

@@ -15,7 +15,7 @@ const CHEAP: u32 = 100;
 /// Degree and pair accuracy of the coarse models without rings on spans.
 const COARSE: (usize, f64) = (0, 1e-3);
 
-/// The same with rings on spans: for the default tolerances.
+/// Degree and pair accuracy of the coarse model with rings on spans: for the default tolerances.
 const COARSE_FULL: (usize, f64) = (2, 3e-4);
 
 /// Number of finer discretisations that may give the answer; the next finer one only estimates the error.
@@ -62,7 +62,7 @@ impl Models {
         })
     }
 
-    /// The same models, unsolved, in a vessel.
+    /// These models, unsolved, in a vessel.
     pub(super) fn in_vessel(self, vessel: &Vessel) -> Self {
         let whole = self.whole.into_iter().map(|model| model.in_vessel(vessel)).collect();
         Self { whole, finer: Vec::new(), finer_coarse: None, judge: None, ..self }
@@ -84,7 +84,7 @@ impl Models {
         finer.map_or_else(|| &self.whole[number], |finer| &self.finer[finer].model)
     }
 
-    /// The same, mutable.
+    /// The model of that index, which must exist, to change.
     pub(super) fn at_mut(&mut self, number: usize) -> &mut Equilibrium {
         match number.checked_sub(self.whole.len()) {
             Some(finer) => &mut self.finer[finer].model,
@@ -212,7 +212,7 @@ impl Models {
         Ok(error.as_ref().map(ModelError::of_discretisation))
     }
 
-    /// The same for a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
+    /// Estimated error of a model that differs from the richest in discretisation alone: all its error is that of its discretisation,
     /// which a finer one of its own tells.
     fn error_of_coarse(&mut self, number: usize) -> Result<Option<ModelError>, Error> {
         let mut judge = match self.finer_coarse.take() {

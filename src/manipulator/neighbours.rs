@@ -111,7 +111,7 @@ impl Neighbours {
         self.sensitivities_at(manipulator, Inputs::clone)
     }
 
-    /// The same for a shape whose inputs are not those of the scene: `inputs_of` makes them from those of the scene, so that a
+    /// Sensitivities of a shape whose inputs are not those of the scene: `inputs_of` makes them from those of the scene, so that a
     /// number of the scene that they replace has no effect.
     ///
     /// # Errors

@@ -19,7 +19,7 @@ pub(super) struct Tableau {
     pub(super) weights: Vec<f64>,
     /// Integrals from 0 to each node.
     pub(super) inner: Vec<Vec<f64>>,
-    /// The same nodes on [-1, 1].
+    /// Nodes on [-1, 1].
     symmetric: Vec<f64>,
 }
 
@@ -123,7 +123,7 @@ impl Interval {
         Some(worst)
     }
 
-    /// The same polynomial on equal parts, enough to reduce a residual that is `excess` times too large.
+    /// This polynomial on equal parts, enough to reduce a residual that is `excess` times too large.
     pub(super) fn divided(&self, tableau: &Tableau, excess: f64) -> Vec<Self> {
         let stages = tableau.nodes.len() as f64;
         let parts = (2..MOST_PARTS).find(|n| (*n as f64).powf(stages) >= excess).unwrap_or(MOST_PARTS);

@@ -16,7 +16,7 @@ pub(super) trait Crossing<const D: usize> {
     fn basis(&self) -> &Basis<D>;
     /// Maps the state at a node to the state just before the next node.
     fn cross(&self, element: usize, state: &State, trace: Option<&mut Trace>) -> Option<State>;
-    /// The same map with its derivative; `next` is not set.
+    /// Maps the state at a node to the state just before the next node, with the derivative; `next` is not set.
     fn cross_linear(&self, element: usize, state: &State) -> Option<(State, Link<D>)>;
 }
 

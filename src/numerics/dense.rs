@@ -89,7 +89,7 @@ fn add_rows<const R: usize>(
     add_blocks::<R, 1>(&factor, right, columns, narrow..columns, rows);
 }
 
-/// The same for a range of columns, a multiple of `C`.
+/// Adds the product for a range of columns, a multiple of `C`.
 #[inline(always)]
 fn add_blocks<const R: usize, const C: usize>(
     factor: impl Fn(usize, usize) -> f64,

@@ -69,7 +69,7 @@ const SHRINKING: f64 = 0.4;
 /// Ratio of actual to predicted decrease above which the quadratic model is good.
 const GOOD: f64 = 0.75;
 
-/// The same for a corrected step, whose decrease the model predicts less well.
+/// Ratio from which on a corrected step is good, whose decrease the model predicts less well.
 const FAIR: f64 = 0.4;
 
 /// Stiffness, relative to the metric, above which a direction counts as a wall of a valley.

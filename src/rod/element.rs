@@ -20,7 +20,8 @@ use crate::numerics::{lagrange, quadrature::gauss_legendre};
 /// beyond the number of modes.
 const POINTS: (usize, usize) = (2, 1);
 
-/// The same for references. What limits the others is the spiral, whose third moments four points a section leave out.
+/// Gauss points per disc, and of a core or rod beyond the number of modes, of references. What limits the others is the spiral, whose
+/// third moments four points a section leave out.
 const FINE_POINTS: (usize, usize) = (6, 12);
 
 /// Share of an element's compliance from which the strain along a disc is resolved as that along the core.

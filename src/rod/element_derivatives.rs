@@ -280,7 +280,7 @@ impl ElementDerivatives {
         self.motion(element, &element.stations[index].row, &state.position, &state.left)
     }
 
-    /// The same derivatives at any arc length of the element, given its table `row`, position and left Jacobian.
+    /// Derivatives of displacement and rotation at any arc length of the element, given its table `row`, position and left Jacobian.
     pub fn motion(
         &mut self,
         element: &Element,

@@ -200,7 +200,7 @@ impl Configuration {
         energy / self.growth
     }
 
-    /// The same without what lies inside.
+    /// The rod without what lies inside it.
     #[must_use]
     pub fn unlined(&self) -> Self {
         let mut out = self.clone();

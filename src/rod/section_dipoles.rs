@@ -63,7 +63,7 @@ impl SectionDipoles {
         }
     }
 
-    /// The same for dipoles `factor` times as strong.
+    /// These sums for dipoles `factor` times as strong.
     #[must_use]
     pub fn times(mut self, factor: f64) -> Self {
         self.field *= factor;

@@ -35,7 +35,7 @@ impl SectionMaterial {
         Self::new(span, moments, 1.0)
     }
 
-    /// The same material averaged around the centreline.
+    /// This material averaged around the centreline.
     #[must_use]
     pub fn axisymmetric(&self) -> Self {
         Self { moments: self.moments.axisymmetric(), ..*self }

@@ -109,7 +109,7 @@ impl Steering {
         Ok(Self { rules, tolerances: Tolerances::default(), state, linear: None })
     }
 
-    /// The same with other tolerances.
+    /// This steering with other tolerances.
     ///
     /// # Errors
     /// As [`Tolerances::checked`].

@@ -39,7 +39,7 @@ impl Steering {
         Ok(answers)
     }
 
-    /// The same target with a larger margin, where that is small and there is a way.
+    /// This target with a larger margin, where that is small and there is a way.
     fn aside(&self, target: &Target, found: Attempt) -> Result<Attempt, Error> {
         if found.state.outputs().stability_margin >= COMFORTABLE {
             return Ok(found);

@@ -36,7 +36,7 @@ const DEVIATIONS: [(&str, Deviation); 3] = [
     ("design.helix.length_mm", Deviation::Absolute(0.05)),
 ];
 
-/// The same of a plain cylinder.
+/// What is uncertain of a plain cylinder.
 const OF_CYLINDER: [(&str, Deviation); 3] = [
     ("design.shore_a", Deviation::Absolute(1.0)),
     ("design.particle_remanence_t", Deviation::Relative(0.02)),

@@ -25,7 +25,7 @@ pub const DISTANCES: [f64; 6] = [0.2, 0.1, 0.05, 0.02, 0.01, 0.001];
 /// Maximum number of points of a branch.
 const POINTS: usize = 300;
 
-/// The same for three segments, whose rings touch some points later.
+/// Maximum number of points of a branch of three segments, whose rings touch some points later.
 const POINTS_OF_THREE: usize = 45;
 
 /// Bifurcation diagrams and their tables.
@@ -126,7 +126,7 @@ fn turning() -> Result<Found, Error> {
     Ok(found)
 }
 
-/// The same in a growing field, antiparallel and one degree off.
+/// Branches in a growing field, antiparallel and one degree off.
 fn growing() -> Result<Found, Error> {
     let (straight, aside) = (dipole::growing(180.0)?, dipole::growing(dipole::ASIDE)?);
     let mut found = Found::new("growing", ["mt", "deg"], 2);

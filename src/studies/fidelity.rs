@@ -45,7 +45,7 @@ pub struct Fidelity {
     pub tolerance: Option<f64>,
     /// Mean time of a step with all outputs, microseconds.
     pub time_us: f64,
-    /// The same, relative to the richest model.
+    /// Mean time of a step, relative to the richest model.
     pub time_relative: f64,
     /// Largest error of the tip's position over the length, against a finer discretisation of the richest model.
     pub tip_over_length: f64,

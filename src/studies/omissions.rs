@@ -24,7 +24,7 @@ pub struct Omission {
     pub what: &'static str,
     /// Mean time of a step, microseconds.
     pub time_us: f64,
-    /// The same, relative to the level without simplification.
+    /// Mean time of a step, relative to the level without simplification.
     pub time_relative: f64,
     /// Largest error of the tip's position over the length, against the level without simplification.
     pub tip_over_length: f64,

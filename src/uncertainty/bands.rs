@@ -79,7 +79,7 @@ impl Bands {
         self.band_along(&self.sensitivities.of(read))
     }
 
-    /// The same of a quantity with these derivatives by the uncertain numbers, in the order of the keys.
+    /// Half the width of the band of 95 % of a quantity with these derivatives by the uncertain numbers, in the order of the keys.
     #[must_use]
     pub fn band_along(&self, derivatives: &DVector<f64>) -> f64 {
         COVERAGE * self.deviation_along(derivatives)

@@ -191,7 +191,7 @@ impl Branch {
         })
     }
 
-    /// The same; `None` if that is not larger than `least` (m).
+    /// Clearance of a point; `None` if that is not larger than `least` (m).
     pub(super) fn clearance_above(&self, point: &Vector3<f64>, least: f64) -> Option<Clearance> {
         let nearest = self.nearest(point, least)?;
         let offset = point - nearest.place.value.xyz();

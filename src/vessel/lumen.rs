@@ -122,7 +122,7 @@ impl Lumen {
         mesh.distance_grid(spacing).map(Self::of_grid)
     }
 
-    /// The same with another length (m) over which walls merge.
+    /// This lumen with another length (m) over which walls merge.
     ///
     /// # Errors
     /// [`Error::Range`] unless it is positive and at most 10 mm, [`Error::Unsupported`] where there are no branches.

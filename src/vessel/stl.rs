@@ -50,7 +50,7 @@ impl Mesh {
     }
 }
 
-/// The same in a form that the reader takes: a binary file whose header does not look like text, or one `solid` in lower case.
+/// The file in a form that the reader takes: a binary file whose header does not look like text, or one `solid` in lower case.
 fn clean(bytes: &[u8]) -> Result<Vec<u8>, Error> {
     let announced = bytes.get(HEADER..BEFORE).map_or(0, |count| {
         let count = count.iter().rev().fold(0, |count: usize, byte| count << 8 | usize::from(*byte));

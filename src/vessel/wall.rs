@@ -49,7 +49,7 @@ impl Wall {
         Ok(Self { modulus, friction: 0.0 })
     }
 
-    /// The same wall with this coefficient of Coulomb friction.
+    /// This wall with this coefficient of Coulomb friction.
     ///
     /// ```
     /// use mcm::vessel::Wall;
@@ -77,7 +77,7 @@ impl Wall {
         self.modulus
     }
 
-    /// The same wall with its modulus divided by `exp(softening)`.
+    /// This wall with its modulus divided by `exp(softening)`.
     #[must_use]
     pub fn softened(self, softening: f64) -> Self {
         Self { modulus: self.modulus * (-softening).exp(), ..self }

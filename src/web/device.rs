@@ -78,7 +78,7 @@ impl Device {
         Ok(Self::of(Arc::new(file), Arc::new(package), level))
     }
 
-    /// The same device, not yet loaded, by another level of the model.
+    /// This device, not yet loaded, by another level of the model.
     #[must_use]
     pub fn at_level(&self, level: Interaction) -> Self {
         Self::of(Arc::clone(&self.file), Arc::clone(&self.package), level)

@@ -48,7 +48,7 @@ wall_modulus_mpa = 1.0
 enum VesselName {
     /// An abdominal aorta flat in a plane, as a phantom on a table
     Aorta,
-    /// The same in three dimensions
+    /// An abdominal aorta in three dimensions
     AortaSpatial,
 }
 

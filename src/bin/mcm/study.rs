@@ -63,7 +63,7 @@ enum Name {
     Rest,
     /// Field and gradient that eight coils reach
     Coils,
-    /// The same path of the magnet in few communication steps and in many
+    /// A path of the magnet in few communication steps and in many
     #[value(name = "communication-step")]
     CommunicationStep,
     /// Error against time of all methods, and their Pareto fronts

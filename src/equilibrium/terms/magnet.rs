@@ -39,7 +39,7 @@ impl<'a> Magnet<'a> {
         Some(Self { number, kind, placed, source, base: &inputs.base, rules })
     }
 
-    /// The same magnet for a chain whose sections are sampled as coarsely as this relative accuracy of the energies
+    /// The magnet for a chain whose sections are sampled as coarsely as this relative accuracy of the energies
     /// allows.
     pub(super) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
         let seen = |source: SourceField<'a>| source.seen_by(chain, self.base, accuracy);

@@ -24,7 +24,7 @@ impl<'a> Magnets<'a> {
         Self(all)
     }
 
-    /// The same sources for a chain whose sections are sampled as coarsely as this relative accuracy of the energies allows.
+    /// The sources for a chain whose sections are sampled as coarsely as this relative accuracy of the energies allows.
     pub(crate) fn seen_by(self, chain: &Chain, accuracy: f64) -> Self {
         Self(self.0.map(|source| source.map(|source| source.seen_by(chain, accuracy))))
     }
@@ -34,7 +34,7 @@ impl<'a> Magnets<'a> {
         self.0.iter().flatten()
     }
 
-    /// The same without those that are switched off: as if they could not be switched on.
+    /// The sources without those that are switched off: as if they could not be switched on.
     pub(crate) fn without_idle(self) -> Self {
         Self(self.0.map(|source| source.filter(Magnet::is_on)))
     }

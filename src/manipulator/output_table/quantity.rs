@@ -83,7 +83,7 @@ impl Quantity {
         Interval::within(LARGEST * self.nominal)
     }
 
-    /// The same, where arrays of it have these elements.
+    /// This quantity, where arrays of it have these elements.
     const fn with(self, elements: &'static [&'static str]) -> Self {
         Self { elements, ..self }
     }

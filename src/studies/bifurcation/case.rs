@@ -45,7 +45,7 @@ pub(super) fn turned(tip: &Pose) -> f64 {
     tip.axis().z.clamp(-1.0, 1.0).acos().to_degrees()
 }
 
-/// The same in the plane of the field, positive towards +y.
+/// The tip's angle in the plane of the field, positive towards +y.
 pub(super) fn turned_in_plane(tip: &Pose) -> f64 {
     tip.axis().y.atan2(tip.axis().z).to_degrees()
 }

@@ -94,7 +94,7 @@ impl Told {
         lines.concat()
     }
 
-    /// The same as JSON.
+    /// Bands, deviations and sensitivities as JSON.
     pub(super) fn as_json(&self) -> Value {
         let stated = self.bands.uncertainty();
         let deviations: Map<String, Value> =
