@@ -18,7 +18,7 @@ const ACCURACIES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 
 impl Source {
     /// The wrench on another source at `pose` in the frame of this one, both of strength 1 (coils: of one ampere), in the axes of
-    /// this frame; the torque is about the other's origin. `accuracy` is that of [`super::AxialSource::wrench_on`].
+    /// this frame; the torque is about the other's origin. `accuracy` is that of [`crate::magnetics::AxialSource::wrench_on`].
     ///
     /// ```
     /// use mcm::geometry::Pose;
@@ -102,7 +102,7 @@ impl Sources {
     /// Good to 1e-6; where bodies almost touch, at least to 1e-2.
     ///
     /// # Errors
-    /// As [`Assembly::wrench_on_source`], naming both sources.
+    /// As [`Source::wrench_on_source`], naming both sources.
     pub fn mutual_wrenches(&self, at: impl Fn(usize) -> Option<(Pose, f64)>) -> Result<Vec<Wrench>, Error> {
         let mut out = vec![Wrench::NONE; self.list().len()];
         for (number, second) in self.list().iter().enumerate() {
