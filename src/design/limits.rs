@@ -7,7 +7,7 @@ use super::quantities as of;
 use super::specification::{
     Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
 };
-use crate::error::{Error, Interval};
+use crate::error::{Error, Interval, Quantity};
 
 /// Largest number of segments of a manipulator.
 pub const MOST_SEGMENTS: usize = 64;
@@ -106,25 +106,29 @@ pub(super) fn ring(ring: &RingMagnet) -> Result<(), Error> {
 pub(super) fn backbone(backbone: &Backbone, bore: f64) -> Result<(), Error> {
     let widest = bore * (1.0 + FIT);
     of::BACKBONE_OUTER.check_beside(backbone.outer_radius, widest)?;
-    of::BACKBONE_INNER.check_beside(backbone.inner_radius, backbone.outer_radius)?;
-    match backbone.modulus {
-        Modulus::ShoreA(hardness) => of::BACKBONE_SHORE_A.check(hardness)?,
-        Modulus::Elastic(modulus) => of::BACKBONE_ELASTIC_MODULUS.check(modulus)?,
-    };
-    of::BACKBONE_POISSON.check(backbone.poisson)?;
-    of::BACKBONE_DENSITY.check(backbone.density).map(|_| ())
+    let [inner, shore_a, elastic_modulus] =
+        [&of::BACKBONE_INNER, &of::BACKBONE_SHORE_A, &of::BACKBONE_ELASTIC_MODULUS];
+    tube(backbone, [inner, shore_a, elastic_modulus, &of::BACKBONE_POISSON, &of::BACKBONE_DENSITY])
 }
 
 /// Checks the tube behind the base.
 pub(super) fn shaft(shaft: &Backbone) -> Result<(), Error> {
     of::SHAFT_OUTER.check(shaft.outer_radius)?;
-    of::SHAFT_INNER.check_beside(shaft.inner_radius, shaft.outer_radius)?;
-    match shaft.modulus {
-        Modulus::ShoreA(hardness) => of::SHAFT_SHORE_A.check(hardness)?,
-        Modulus::Elastic(modulus) => of::SHAFT_ELASTIC_MODULUS.check(modulus)?,
+    let [inner, shore_a, elastic_modulus] =
+        [&of::SHAFT_INNER, &of::SHAFT_SHORE_A, &of::SHAFT_ELASTIC_MODULUS];
+    tube(shaft, [inner, shore_a, elastic_modulus, &of::SHAFT_POISSON, &of::SHAFT_DENSITY])
+}
+
+/// Checks bore and material of a tube, whose quantities are given in the order in which they are checked; of hardness and modulus one is.
+fn tube(tube: &Backbone, of: [&'static Quantity; 5]) -> Result<(), Error> {
+    let [inner_radius, shore_a, elastic_modulus, poisson, density] = of;
+    inner_radius.check_beside(tube.inner_radius, tube.outer_radius)?;
+    match tube.modulus {
+        Modulus::ShoreA(hardness) => shore_a.check(hardness)?,
+        Modulus::Elastic(modulus) => elastic_modulus.check(modulus)?,
     };
-    of::SHAFT_POISSON.check(shaft.poisson)?;
-    of::SHAFT_DENSITY.check(shaft.density).map(|_| ())
+    poisson.check(tube.poisson)?;
+    density.check(tube.density).map(|_| ())
 }
 
 /// Checks a guidewire that runs through `lumens`, each with its name and radius (m).
