@@ -47,14 +47,9 @@ impl Search<'_> {
     ) -> Outcome {
         let last = unknowns.to_vec();
         let end = self.descend(inputs, unknowns, tolerance);
-        let left = match end {
-            Outcome::Solved => {
-                self.has_left(before, inputs, &last, unknowns)
-                    || self.jumps([before, inputs], [&last, unknowns])
-            }
-            Outcome::Neutral => self.has_left(before, inputs, &last, unknowns),
-            _ => false,
-        };
+        let left = matches!(end, Outcome::Solved | Outcome::Neutral)
+            && (self.has_left(before, inputs, &last, unknowns)
+                || end == Outcome::Solved && self.jumps([before, inputs], [&last, unknowns]));
         self.report.snaps += u32::from(left);
         end
     }
@@ -142,19 +137,26 @@ impl Search<'_> {
         if distance <= NEARLY * self.model.chain.radian_norm() {
             return false;
         }
+        self.aside(|search| {
+            let mut back = reached.to_vec();
+            // Where the branch is soft, the residual is already small halfway back.
+            let tolerance = (SOFT * distance / search.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
+            search.go_downhill(before, &mut back, tolerance);
+            search.apart(&back, last) > RETURNED * distance
+                && !search.has_drifted(inputs, last, reached, DRIFTED * distance)
+        })
+    }
+
+    /// Descends to other shapes than the one that has been found, whose results are kept.
+    fn aside<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
         // The way back may end at a straight shape: nothing is held on it.
         let turn = self.work.free_turn.take();
         let (residual, energy) = (self.report.residual, self.report.energy);
-        let mut back = reached.to_vec();
-        // Where the branch is soft, the residual is already small halfway back.
-        let tolerance = (SOFT * distance / self.model.chain.radian_norm()).clamp(ROUNDING, PASSING);
-        self.go_downhill(before, &mut back, tolerance);
-        let left = self.apart(&back, last) > RETURNED * distance
-            && !self.has_drifted(inputs, last, reached, DRIFTED * distance);
+        let out = act(self);
         // The factorisation belongs to another shape.
         (self.work.factorisation, self.work.free_turn) = (None, turn);
         (self.report.residual, self.report.energy) = (residual, energy);
-        left
+        out
     }
 
     /// Whether a descent between two shapes that lead to one another is a jump all the same, within a hysteresis narrower than the
@@ -168,28 +170,25 @@ impl Search<'_> {
             return false;
         }
 
-        let turn = self.work.free_turn.take();
-        let (residual, energy) = (self.report.residual, self.report.energy);
-        let (mut near, mut far) = (last.to_vec(), reached.to_vec());
-        let (mut from, mut to, mut settled) = (0.0, 1.0, true);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (from + to);
-            let mut shape = far.clone();
-            let here = before.between(inputs, middle);
-            settled &=
-                self.go_downhill(&here, &mut shape, ROUNDING).converged && self.is_confirmed(&here, &shape);
-            if self.apart(&shape, &near) <= self.apart(&shape, &far) {
-                (near, from) = (shape, middle);
-            } else {
-                (far, to) = (shape, middle);
+        self.aside(|search| {
+            let (mut near, mut far) = (last.to_vec(), reached.to_vec());
+            let (mut from, mut to) = (0.0, 1.0);
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (from + to);
+                let (here, mut shape) = (before.between(inputs, middle), far.clone());
+                let minimum = search.go_downhill(&here, &mut shape, ROUNDING);
+                if !minimum.converged || !search.is_confirmed(&here, &shape) {
+                    return false;
+                }
+                if search.apart(&shape, &near) <= search.apart(&shape, &far) {
+                    (near, from) = (shape, middle);
+                } else {
+                    (far, to) = (shape, middle);
+                }
             }
-        }
-        // The factorisation belongs to another shape.
-        (self.work.factorisation, self.work.free_turn) = (None, turn);
-        (self.report.residual, self.report.energy) = (residual, energy);
-        settled
-            && self.apart(&far, &near) > JUMP * distance
-            && !self.has_drifted(inputs, last, reached, DRIFTED * distance)
+            search.apart(&far, &near) > JUMP * distance
+                && !search.has_drifted(inputs, last, reached, DRIFTED * distance)
+        })
     }
 
     /// Whether overdamped motion from `last` ends within `reach` of it at a shape as low as `reached`. Then the branch
