@@ -25,6 +25,16 @@ pub enum Device {
     Compared(Box<Compared>),
 }
 
+/// Calls a method on whichever manipulator there is.
+macro_rules! on {
+    ($device:expr, $manipulator:ident => $call:expr) => {
+        match $device {
+            Self::Potential($manipulator) => $call,
+            Self::Compared($manipulator) => $call,
+        }
+    };
+}
+
 impl Device {
     /// The manipulator of a scene by the method that it names, unsolved; `shape_points` is the number of centreline points in its
     /// outputs.
@@ -36,14 +46,13 @@ impl Device {
         Self::new(scene, Settings { method, ..Settings::default() }, shape_points)
     }
 
-    /// The manipulator of a scene by the method of these settings, whichever the scene names, unsolved.
+    /// The manipulator of a scene by the method of these settings, unsolved.
     ///
     /// # Errors
     /// As [`Scene::manipulator`] and [`Compared::new`]; [`Error::Unsupported`] for a vessel, a shaft or a way with another method than the
     /// potential method.
     pub fn new(scene: &Scene, settings: Settings, shape_points: usize) -> Result<Self, Error> {
         if settings.method == Method::Potential {
-            let scene = Scene { method: POTENTIAL.into(), ..scene.clone() };
             return Ok(Self::Potential(Box::new(scene.manipulator(shape_points)?)));
         }
 
@@ -75,18 +84,12 @@ impl Device {
 
     /// Resets the shape and the count of snaps.
     pub fn reset(&mut self) {
-        match self {
-            Self::Potential(manipulator) => manipulator.reset(),
-            Self::Compared(compared) => compared.reset(),
-        }
+        on!(self, own => own.reset());
     }
 
     /// Computes tangents and curvatures of the shape.
     pub fn measure_strains(&mut self) -> &Outputs {
-        match self {
-            Self::Potential(manipulator) => manipulator.measure_strains(),
-            Self::Compared(compared) => compared.measure_strains(),
-        }
+        on!(self, own => own.measure_strains())
     }
 
     /// Derivatives of the outputs by the inputs.
@@ -113,16 +116,6 @@ impl Device {
             Self::Compared(_) => None,
         }
     }
-}
-
-/// Calls a method of [`Followed`] on whichever manipulator there is.
-macro_rules! on {
-    ($device:expr, $manipulator:ident => $call:expr) => {
-        match $device {
-            Self::Potential($manipulator) => $call,
-            Self::Compared($manipulator) => $call,
-        }
-    };
 }
 
 impl Followed for Device {
