@@ -64,12 +64,12 @@ impl PairQuadrature {
         changed
     }
 
-    /// Number that tells the chosen rules and levels from others (FNV-1a, RFC 9923): unlike [`Self::number`], equal choices of
-    /// two equal devices have equal ones.
-    pub(crate) fn fingerprint(&self) -> u64 {
-        const BASIS: u64 = 0xCBF2_9CE4_8422_2325;
-        const PRIME: u64 = 0x0100_0000_01B3;
-        self.chosen().fold(BASIS, |hash, number| (hash ^ number as u64).wrapping_mul(PRIME))
+    /// Checksum that tells the chosen rules and levels from others: unlike [`Self::number`], equal choices of two equal devices have
+    /// equal ones.
+    pub(crate) fn fingerprint(&self) -> u32 {
+        let mut sum = crc32fast::Hasher::new();
+        self.chosen().for_each(|number| sum.update(&(number as u64).to_le_bytes()));
+        sum.finalize()
     }
 
     /// The numbers of the chosen rules, then the levels.

@@ -161,7 +161,7 @@ impl Equilibrium {
     }
 
     /// Number that tells the quadrature rules of the last shape from others.
-    pub(crate) fn quadrature_fingerprint(&self) -> u64 {
+    pub(crate) fn quadrature_fingerprint(&self) -> u32 {
         self.rules.fingerprint()
     }
 

@@ -68,7 +68,7 @@ pub(super) struct ErrorEstimate {
     /// Bend of the cores, see [`bend`].
     bend: f64,
     /// Which quadrature rules the model had: those that follow one another may err in opposite directions.
-    rules: u64,
+    rules: u32,
     /// Estimated error of the tip pose.
     error: ModelError,
     /// Whether the shape was soft, so that its error changes faster.
