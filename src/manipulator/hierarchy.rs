@@ -203,7 +203,7 @@ impl Hierarchy {
         // If a cheaper model fails, a richer one starts from the shape before this solve; for the richest it is not needed.
         let way_back = (from < richest).then(|| {
             let present = self.present();
-            (before.clone(), present.unknowns().to_vec(), present.friction_memory().clone())
+            (before.clone(), present.unknowns().to_vec(), present.friction_memory())
         });
         let report = self.models.at_mut(from).solve_before(deadline, inputs)?;
         let changed = report.solved() && self.has_changed(inputs);

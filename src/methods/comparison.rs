@@ -209,7 +209,7 @@ impl Comparison {
             line: &self.line,
             inputs,
             sources: &self.sources,
-            terms: Terms::new(&self.line.chain, &self.model, &self.sources, None, inputs, &self.rules),
+            terms: Terms::new(&self.line.chain, &self.model, &self.sources, inputs, &self.rules),
         }
     }
 

@@ -181,9 +181,9 @@ fn tension_grows_round_a_former_as_on_a_capstan() {
     }
 }
 
-/// Derivative of the energy by the insertion, with the anchors where they are.
+/// Derivative of the energy by the insertion, with the stick points where they are.
 #[test]
-fn the_push_is_the_derivative_of_the_energy_at_fixed_anchors() {
+fn the_push_is_the_derivative_of_the_energy_at_fixed_stick_points() {
     let scene = cord(62.0);
     let mut model = laid(&scene, 0.3);
     for insertion in [0.0625, 0.0624] {

@@ -100,9 +100,9 @@ fn a_snapshot_with_friction_that_is_not_finite_is_refused() {
     let restore = |value: Value| model(&scene).restore(&value.try_into().expect("a snapshot"));
     restore(whole.clone()).expect("as it was");
     for odd in [f64::NAN, f64::INFINITY] {
-        for key in ["force", "anchor", "arm", "normal"] {
+        for key in ["force", "stick_point", "arm", "normal"] {
             let mut other = whole.clone();
-            let number = &mut other["friction"]["grips"][0][key];
+            let number = &mut other["friction"]["contacts"][0][key];
             let number = if number.is_array() { &mut number[1] } else { number };
             *number = Value::Float(odd);
             let refused = restore(other).expect_err(key).to_string();
@@ -133,7 +133,7 @@ fn a_snapshot_remembers_what_the_wall_holds() {
     assert!((push(fresh.outputs()) - push(again.outputs())).abs() > 0.1 * normal(fresh.outputs()));
 }
 
-/// A solve that fails leaves anchors and shape where they were.
+/// A solve that fails leaves stick points and shape where they were.
 #[test]
 fn a_failed_step_keeps_the_memory() {
     let scene = pressed("rings", "0.4").expect("a scene");
@@ -149,7 +149,7 @@ fn a_failed_step_keeps_the_memory() {
     assert_eq!(after.to_bits(), wanted.to_bits());
 }
 
-/// The levels that `auto` takes hand their anchors on.
+/// The levels that `auto` takes hand their stick points on.
 #[test]
 fn auto_holds_as_its_richest_level_does() {
     let pushes = ["auto", "full"].map(|level| {
