@@ -1,7 +1,11 @@
 //! Where the numbers of the pages come from: below every table with measured numbers a line in small print says which command made
-//! them, on which state of the code, or which test compares them. `tests/python/test_pages.py` holds that these commands exist.
+//! them, or which test compares them. `tests/provenance.csv` has a row for each, in the order of the pages, with the states of the code
+//! on which they were measured. `tests/python/test_pages.py` holds that these commands exist.
 
 use std::fs;
+use std::path::PathBuf;
+
+use serde::Deserialize;
 
 use crate::documents::{package, pages, prose};
 
@@ -16,14 +20,61 @@ const UNITS: [&str; 22] = [
 ];
 
 /// What a line in small print says of the numbers above it.
-#[derive(Debug, PartialEq)]
-enum Source {
-    /// Made by a command on these states of the code.
-    Made(String, Vec<String>),
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source<'a> {
+    /// Made by a command.
+    Made(&'a str),
     /// Computed again by a test, and compared.
-    Compared(String),
-    /// Measured once on these states, by what is no command of the project.
-    ByHand(Vec<String>),
+    Compared(&'a str),
+    /// Measured once, by what is no command of the project.
+    ByHand,
+}
+
+impl<'a> Source<'a> {
+    /// What the table of sources has under `kind` and `source`.
+    fn cells(self) -> [&'a str; 2] {
+        match self {
+            Self::Made(command) => ["made", command],
+            Self::Compared(test) => ["compared", test],
+            Self::ByHand => ["by hand", ""],
+        }
+    }
+}
+
+/// A row of `tests/provenance.csv`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    /// The page, from the package's folder.
+    page: String,
+    /// The heading above the numbers.
+    section: String,
+    /// How they were obtained: `made`, `compared`, `by hand`.
+    kind: String,
+    /// The command, or the test; nothing if measured by hand.
+    source: String,
+    /// Commits on which they were measured, with blanks between them; nothing if a test compares them.
+    states: String,
+    /// Day of the last of these commits.
+    date: String,
+}
+
+/// The table of sources.
+fn recorded() -> Vec<Row> {
+    let mut reader = csv::Reader::from_path(package().join("tests/provenance.csv")).unwrap();
+    reader.deserialize().collect::<Result<_, _>>().unwrap()
+}
+
+/// Whether these are hashes of commits, with blanks between them.
+fn are_hashes(states: &str) -> bool {
+    let hex = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+    states.split(' ').all(|hash| (7..=12).contains(&hash.len()) && hash.chars().all(hex))
+}
+
+/// Whether this is a day, year first.
+fn is_day(date: &str) -> bool {
+    let parts: Vec<Option<u32>> = date.split('-').map(|part| part.parse().ok()).collect();
+    matches!(parts[..], [Some(2020..), Some(1..=12), Some(1..=31)]) && date.len() == 10
 }
 
 /// Whether a cell holds a number with a decimal point, an exponent or a unit, or is a number.
@@ -40,38 +91,37 @@ fn is_measured(cell: &str) -> bool {
         || (!words.is_empty() && words.iter().all(|word| number(word)))
 }
 
-/// Hashes between backticks, with commas between them, and the full stop after them; what follows.
-fn hashes(text: &str) -> Option<(Vec<String>, &str)> {
-    let (listed, rest) = text.split_once('.')?;
-    let hash = |part: &str| {
-        let hash = part.strip_prefix('`')?.strip_suffix('`')?;
-        let letters = hash.chars().all(|c| c.is_ascii_digit() || ('a'..='f').contains(&c));
-        ((7..=12).contains(&hash.len()) && letters).then(|| hash.to_owned())
-    };
-    Some((listed.split(", ").map(hash).collect::<Option<_>>()?, rest))
-}
-
 /// What a line in small print says; nothing if it is not in this form.
-fn sources(line: &str) -> Option<Vec<Source>> {
+fn sources(line: &str) -> Option<Vec<Source<'_>>> {
     let mut rest = line.strip_prefix("<sub>")?.strip_suffix("</sub>")?;
     let mut out = Vec::new();
     while !rest.is_empty() {
         let source;
         if let Some(said) = rest.strip_prefix("Made by `") {
-            let (command, after) = said.split_once("` at ")?;
-            let (states, after) = hashes(after)?;
-            (source, rest) = (Source::Made(command.into(), states), after);
+            let (command, after) = said.split_once("`.")?;
+            (source, rest) = (Source::Made(command), after);
         } else if let Some(said) = rest.strip_prefix("Compared by `") {
             let (command, after) = said.split_once("`.")?;
-            (source, rest) = (Source::Compared(command.into()), after);
+            (source, rest) = (Source::Compared(command), after);
         } else {
-            let (states, after) = hashes(rest.strip_prefix("Measured by hand at ")?)?;
-            (source, rest) = (Source::ByHand(states), after);
+            (source, rest) = (Source::ByHand, rest.strip_prefix("Measured by hand.")?);
         }
         out.push(source);
         rest = rest.strip_prefix(' ').unwrap_or(rest);
     }
     (!out.is_empty()).then_some(out)
+}
+
+/// All that small print says on a page, in order, each with the heading above it.
+fn small_print(page: &str) -> Vec<(&str, Source<'_>)> {
+    let (mut section, mut out) = ("", Vec::new());
+    for line in page.lines() {
+        if line.starts_with('#') {
+            section = line.trim_start_matches('#').trim();
+        }
+        out.extend(sources(line).unwrap_or_default().into_iter().map(|source| (section, source)));
+    }
+    out
 }
 
 /// A table of a page: its header, whether it measures something, and the line below it.
@@ -130,6 +180,38 @@ fn below_every_measured_table_stands_where_its_numbers_come_from() {
 }
 
 #[test]
+fn every_source_has_its_row_and_every_row_its_source() {
+    let text = |page: &PathBuf| {
+        let name = page.strip_prefix(package()).unwrap().display().to_string();
+        (name, prose(&fs::read_to_string(page).unwrap()))
+    };
+    let mut texts: Vec<(String, String)> = pages().iter().map(text).collect();
+    texts.sort();
+
+    let said: Vec<[&str; 4]> = texts
+        .iter()
+        .flat_map(|(name, text)| small_print(text).into_iter().map(move |found| (name, found)))
+        .map(|(name, (section, source))| {
+            let [kind, command] = source.cells();
+            [name, section, kind, command]
+        })
+        .collect();
+
+    let rows = recorded();
+    let kept = rows.iter().map(|row| [&*row.page, &row.section, &row.kind, &row.source]);
+    for (number, (said, kept)) in said.iter().zip(kept).enumerate() {
+        assert_eq!(*said, kept, "a page, and row {} of the table", number + 2);
+    }
+    assert_eq!(said.len(), rows.len(), "sources on pages, and rows of the table");
+
+    for row in &rows {
+        let measured = row.kind != "compared";
+        assert_eq!(are_hashes(&row.states), measured, "{row:?}");
+        assert_eq!(is_day(&row.date), measured, "{row:?}");
+    }
+}
+
+#[test]
 fn what_measures_is_told_from_what_defines() {
     for cell in ["0.5 N/m", "1e-9", "12", "-4.5 %", "40 800", "off by 2e-11 mN", "GLIBC, 3.6 MB", "(17.82)"] {
         assert!(is_measured(cell), "{cell}");
@@ -145,22 +227,34 @@ fn what_measures_is_told_from_what_defines() {
 
 #[test]
 fn small_print_has_one_form() {
-    let made = "<sub>Made by `mcm study fig5 --out figures` at `0123abc`, `1234567`. Measured by hand at `89abcdef`.</sub>";
-    let states = ["0123abc", "1234567"].map(String::from).to_vec();
-    let first = Source::Made("mcm study fig5 --out figures".into(), states);
-    assert_eq!(sources(made), Some(vec![first, Source::ByHand(vec!["89abcdef".into()])]));
-    let compared = Some(vec![Source::Compared("cargo test".into())]);
-    assert_eq!(sources("<sub>Compared by `cargo test`.</sub>"), compared);
+    let made = "<sub>Made by `mcm study fig5 --out figures`. Measured by hand.</sub>";
+    assert_eq!(sources(made), Some(vec![Source::Made("mcm study fig5 --out figures"), Source::ByHand]));
+    assert_eq!(sources("<sub>Compared by `cargo test`.</sub>"), Some(vec![Source::Compared("cargo test")]));
     for wrong in [
-        "Made by `cargo bench` at `0123abc`.",
+        "Made by `cargo bench`.",
         "<sub></sub>",
-        "<sub>Made by `cargo bench`.</sub>",
-        "<sub>Made by `cargo bench` at `0123ab`.</sub>",
-        "<sub>Made by `cargo bench` at `0123abg`.</sub>",
-        "<sub>Made by cargo bench at `0123abc`.</sub>",
+        "<sub>Made by `cargo bench` at `0123abc`.</sub>",
+        "<sub>Made by cargo bench.</sub>",
         "<sub>Measured at `0123abc`.</sub>",
         "<sub>Compared by `cargo test`, I think.</sub>",
     ] {
         assert_eq!(sources(wrong), None, "{wrong}");
+    }
+    let page = "# A\n<sub>Measured by hand.</sub>\n## B c\n<sub>Compared by `d`. Measured by hand.</sub>";
+    let expected = [("A", Source::ByHand), ("B c", Source::Compared("d")), ("B c", Source::ByHand)];
+    assert_eq!(small_print(page), expected);
+}
+
+#[test]
+fn states_are_hashes_and_dates_are_days() {
+    for (states, right) in
+        [("0123abc", true), ("0123abc 89abcdef", true), ("", false), ("0123ab", false), ("0123abg", false)]
+    {
+        assert_eq!(are_hashes(states), right, "{states}");
+    }
+    for (date, right) in
+        [("2026-11-26", true), ("", false), ("2026-13-01", false), ("26-11-2026", false), ("2026-1-1", false)]
+    {
+        assert_eq!(is_day(date), right, "{date}");
     }
 }
