@@ -1,4 +1,4 @@
-//! What tests and recorded runs draw from: a random direction, and the paper's external magnet.
+//! What tests and recorded runs draw from: random numbers of a case, a random direction, and the paper's external magnet.
 
 use core::f64::consts::TAU;
 
@@ -6,8 +6,14 @@ use mcm::geometry::Pose;
 use mcm::magnetics::{AxialMagnet, Cylinders, Source};
 use mcm::manipulator::{Inputs, PlacedSource};
 use nalgebra::Vector3;
-use rand::RngExt;
 use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+/// The random numbers of one case of a run, which is determined by the run's seed and its own number. Numbers are spread by the golden
+/// ratio of 2^64, so that runs with neighbouring seeds share no case.
+pub(crate) fn of_case(seed: u64, number: u64) -> StdRng {
+    StdRng::seed_from_u64(seed ^ number.wrapping_mul(0x9E37_79B9_7F4A_7C15))
+}
 
 /// A unit vector, every direction as likely.
 pub(crate) fn direction(random: &mut StdRng) -> Vector3<f64> {

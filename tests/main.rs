@@ -13,6 +13,7 @@
     reason = "counts in tests and their tables are small whole numbers"
 )]
 
+mod differences;
 mod given;
 mod instructions;
 mod tolerance;

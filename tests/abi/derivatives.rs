@@ -2,7 +2,10 @@
 
 use mcm::fmi::variable::{Causality, Variable};
 
+use nalgebra::DVector;
+
 use super::*;
+use crate::differences::{Compared, derivative, worst};
 use crate::tolerance::{ABI_CURVATURE, ABI_DIFFERENCE};
 
 fn references(holds: impl Fn(&Variable) -> bool) -> Vec<(fmi2ValueReference, Variable)> {
@@ -70,46 +73,29 @@ fn every_output_by_every_input_is_what_differences_say() {
         // SAFETY: as above.
         assert_eq!(unsafe { fmi2SetFMUstate(component, state) }, OK);
         assert_eq!(set(component, name, value), OK);
-        values(component, &unknowns)
+        DVector::from_vec(values(component, &unknowns))
     };
-    let mut exact = Vec::new();
-    let mut differences = Vec::new();
+    let mut compared = Vec::new();
     for (known, variable) in &knowns {
         let name = variable.name.as_str();
         let size = SIZES.iter().find(|(start, _)| name.starts_with(start)).unwrap().1;
         // SAFETY: as above.
         assert_eq!(unsafe { fmi2SetFMUstate(component, state) }, OK);
         let value = get(component, name).1;
-        exact.push(along(component, &unknowns, *known).iter().map(|rate| rate * size).collect::<Vec<_>>());
-        let ends = [-2.0, -1.0, 1.0, 2.0].map(|steps| at(name, value + steps * STEP * size));
-        let difference = |row: usize| {
-            let [far, near, next, last] = ends.each_ref().map(|values| values[row]);
-            (8.0 * (next - near) - (last - far)) / (12.0 * STEP)
-        };
-        differences.push((0..unknowns.len()).map(difference).collect::<Vec<_>>());
-    }
-    let mut worst = 0.0_f64;
-    for (row, output) in outputs.iter().enumerate() {
-        // Relative to the largest effect of any input, of its usual size, on this kind of output.
-        let kind = |other: &Variable| other.derivative_role == output.derivative_role;
-        let rows = || outputs.iter().enumerate().filter(|(_, other)| kind(other)).map(|(row, _)| row);
-        let largest =
-            rows().flat_map(|row| exact.iter().map(move |column| column[row].abs())).fold(0.0, f64::max);
-        for ((column, difference), (_, input)) in exact.iter().zip(&differences).zip(&knowns) {
-            let error = (column[row] - difference[row]).abs();
-            worst = worst.max(if largest > 0.0 { error / largest } else { 0.0 });
-            let is_curvature = output.name.starts_with("shape.curvature");
-            assert!(
-                error <= if is_curvature { ABI_CURVATURE } else { ABI_DIFFERENCE } * largest,
-                "{} by {}: {} and {}, largest {largest}",
-                output.name,
-                input.name,
-                column[row],
-                difference[row]
-            );
+        let exact = along(component, &unknowns, *known);
+        let expected = derivative(STEP * size, |by| at(name, value + by));
+        for ((output, got), expected) in outputs.iter().zip(exact).zip(&expected) {
+            let kind = (output.derivative_role, output.name.starts_with("shape.curvature"));
+            let name = format!("{} by {name}: {got:e} and {expected:e}", output.name);
+            let (error, effect) = ((got - expected).abs() * size, expected.abs() * size);
+            compared.push(Compared { kind, name, error, effect });
         }
     }
-    println!("worst difference, relative to the largest effect: {worst:.1e}");
+    // Relative to the largest effect of any input, of its usual size, on this kind of output.
+    let allowed = |(_, is_curvature)| if is_curvature { ABI_CURVATURE } else { ABI_DIFFERENCE };
+    let (error, place) = worst(&compared, allowed);
+    println!("worst difference: {error:.1e} of what is allowed ({place})");
+    assert!(error <= 1.0, "{place}: off by {error:e} times what is allowed");
     fmi2FreeInstance(component);
 }
 

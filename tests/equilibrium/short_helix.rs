@@ -6,6 +6,7 @@ use mcm::geometry::Pose;
 use mcm::magnetics::AxialSource;
 use nalgebra::Vector3;
 
+use crate::differences::{Direction, assert_derivatives};
 use crate::magnetics::face_integral::by_faces;
 use crate::tolerance::{FACES_BALANCE, FACES_HESSIAN, FACES_SLOPE, PAIRS, assert_close};
 
@@ -75,8 +76,8 @@ fn attraction_and_axial_stiffness_balance() {
     }
 }
 
-/// A chain, the unknowns of a bent shape, and a direction.
-fn bent(length: f64, segments: usize, settings: Settings) -> (Equilibrium, Vec<f64>, Vec<f64>) {
+/// A chain, and a direction through a bent shape of it.
+fn bent(length: f64, segments: usize, settings: Settings) -> (Equilibrium, Direction) {
     let equilibrium = Equilibrium::new(&design(length, segments), None, settings, 2).expect("allowed");
     let metric = equilibrium.metric();
     let vector = |seed: f64, size: f64| {
@@ -87,12 +88,9 @@ fn bent(length: f64, segments: usize, settings: Settings) -> (Equilibrium, Vec<f
             .map(|(i, k)| unit(k) * (12.9898 * (i as f64 + 1.0) + 78.233 * seed).sin())
             .collect()
     };
-    let (shape, direction) = (vector(1.0, 0.12), vector(2.0, 1.0));
-    (equilibrium, shape, direction)
-}
-
-fn moved(shape: &[f64], direction: &[f64], distance: f64) -> Vec<f64> {
-    shape.iter().zip(direction).map(|(x, d)| x + distance * d).collect()
+    let (shape, along) = (vector(1.0, 0.12), vector(2.0, 1.0));
+    let allowed = [FACES_SLOPE, FACES_HESSIAN];
+    (equilibrium, Direction { shape, along, steps: [1e-4, 1e-5], shift: 30.0, allowed })
 }
 
 #[test]
@@ -103,28 +101,8 @@ fn energy_gradient_and_hessian_are_of_one_function() {
         // Rules on the axis, for rings further apart, have large weights, which make a noise of 1e-8 here out of rounding.
         let default = Settings::default();
         let pair_accuracy = if segments == 1 { default.pair_accuracy } else { PAIRS };
-        let (mut equilibrium, shape, direction) =
-            bent(length, segments, Settings { pair_accuracy, ..default });
-        let mut at = |s: f64| equilibrium.gradient(&inputs, &moved(&shape, &direction, s)).expect("apart");
-        let mut spread = |s: f64| (at(s).0 - at(-s).0) / (2.0 * s);
-        let step = 1e-4;
-        let difference = (4.0 * spread(step) - spread(2.0 * step)) / 3.0;
-        let slope: f64 = at(0.0).1.iter().zip(&direction).map(|(g, d)| g * d).sum();
-        println!("{length} m: gradient {:e}", slope / difference - 1.0);
-        assert_close("slope of the energy", &[slope], &[difference], FACES_SLOPE);
-
-        // `(H + shift K) d` by differences, solved by the factorisation, gives `d` back.
-        let (shift, step) = (30.0, 1e-5);
-        let (plus, minus) = (at(step).1, at(-step).1);
-        let metric = equilibrium.metric().to_vec();
-        let image = plus.iter().zip(&minus).map(|(a, b)| (a - b) / (2.0 * step));
-        let rhs: Vec<f64> =
-            image.zip(metric.iter().zip(&direction)).map(|(h, (k, d))| h + shift * k * d).collect();
-        let solved = equilibrium.solve_at(&inputs, &shape, shift, &rhs).expect("positive definite");
-        let error = solved.iter().zip(&direction).map(|(a, b)| ((a - b) / b).abs()).fold(0.0, f64::max);
-        println!("{length} m: Hessian {error:e}");
-        let weighted = |x: &[f64]| x.iter().zip(&metric).map(|(v, k)| v * k.sqrt()).collect::<Vec<f64>>();
-        assert_close("slope of the gradient", &weighted(&solved), &weighted(&direction), FACES_HESSIAN);
+        let (mut equilibrium, direction) = bent(length, segments, Settings { pair_accuracy, ..default });
+        assert_derivatives(format!("{length} m"), &mut equilibrium, &inputs, &direction);
     }
 }
 

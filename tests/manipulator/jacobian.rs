@@ -12,6 +12,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::changes::{changed, inputs_and_sizes};
+use crate::differences::{Compared, worst};
 use crate::given::{pair, unloaded_beside_pair};
 use crate::tolerance::{DIFFERENCE, JACOBIAN, JACOBIAN_CURVATURE, PAIRS, assert_close};
 
@@ -93,18 +94,9 @@ fn solved(mut manipulator: Manipulator, inputs: &Inputs) -> Outputs {
     manipulator.measure_strains().clone()
 }
 
-/// Central differences of fourth order by one number of the inputs.
-fn by_differences(
-    manipulator: &Manipulator,
-    inputs: &Inputs,
-    input: Input,
-    axis: usize,
-    step: f64,
-) -> Vec<(Output, Vec<f64>)> {
-    let spread = |h: f64| {
-        let at = |by: f64| solved(manipulator.clone(), &changed(inputs, input, axis, by));
-        differences(&at(h), &at(-h))
-    };
+/// Central differences of fourth order of all outputs over this step.
+pub(super) fn rates(step: f64, at: impl Fn(f64) -> Outputs) -> Vec<(Output, Vec<f64>)> {
+    let spread = |h: f64| differences(&at(h), &at(-h));
     let (near, far) = (spread(step), spread(2.0 * step));
     near.into_iter()
         .zip(far)
@@ -114,10 +106,20 @@ fn by_differences(
         .collect()
 }
 
-/// The largest error of any output by any input, relative to the largest effect that an input of usual size has on
-/// that output and to what is allowed, and where it is.
-fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f64, String) {
-    let mut entries: Vec<(Output, Input, usize, f64, f64)> = Vec::new();
+/// Central differences of fourth order by one number of the inputs.
+fn by_differences(
+    manipulator: &Manipulator,
+    inputs: &Inputs,
+    input: Input,
+    axis: usize,
+    step: f64,
+) -> Vec<(Output, Vec<f64>)> {
+    rates(step, |by| solved(manipulator.clone(), &changed(inputs, input, axis, by)))
+}
+
+/// Every output by every input, in effects of an input of usual size.
+fn compared(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> Vec<Compared<Output>> {
+    let mut out: Vec<Compared<Output>> = Vec::new();
     let mut all = inputs_and_sizes(inputs.ring_forces.len(), inputs.sources.len());
     if manipulator.outputs().feed_length.is_some() {
         all.push(if inputs.feed_force.is_some() {
@@ -135,20 +137,13 @@ fn worst(manipulator: &Manipulator, jacobian: &Jacobian, inputs: &Inputs) -> (f6
                 assert_eq!(got.len(), expected.len(), "{output:?}");
                 let expected = DVector::from_vec(expected);
                 assert!(got.iter().all(|entry| entry.is_finite()), "{output:?} by {input:?}");
-                entries.push((output, input, axis, (&got - &expected).norm() * size, expected.norm() * size));
+                let name = format!("{output:?} by {input:?} {axis}");
+                let [error, effect] = [&got - &expected, expected].map(|rate| rate.norm() * size);
+                out.push(Compared { kind: output, name, error, effect });
             }
         }
     }
-    let mut out = (0.0, String::new());
-    for (output, input, axis, error, _) in &entries {
-        let same = entries.iter().filter(|entry| entry.0 == *output);
-        let scale = same.map(|entry| entry.4).fold(0.0, f64::max);
-        let allowed = scale * allowed(*output);
-        if *error > out.0 * allowed {
-            out = (error / allowed, format!("{output:?} by {input:?} {axis}"));
-        }
-    }
-    assert_eq!(entries.len(), (jacobian.matrix().ncols() - others) * differences_of(manipulator));
+    assert_eq!(out.len(), (jacobian.matrix().ncols() - others) * differences_of(manipulator));
     out
 }
 
@@ -196,7 +191,7 @@ fn ready(design: &Design, interaction: Interaction, inputs: &Inputs) -> Manipula
 
 fn check(name: &str, manipulator: &Manipulator, inputs: &Inputs) {
     let jacobian = manipulator.jacobian().unwrap();
-    let (error, place) = worst(manipulator, &jacobian, inputs);
+    let (error, place) = worst(&compared(manipulator, &jacobian, inputs), allowed);
     println!("{name}: {error:.1e} of what is allowed ({place})");
     assert!(error <= 1.0, "{name}: {place} is off by {error:e} times what is allowed");
 }

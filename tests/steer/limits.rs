@@ -5,6 +5,7 @@ use mcm::steer::{Limit, Limits, Move, Steering, Target, Tolerances};
 use nalgebra::Vector3;
 
 use super::{assert_walked, scene, solved};
+use crate::differences::derivative;
 
 const POSE: [Move; 2] = [Move::MagnetPosition, Move::MagnetOrientation];
 
@@ -27,12 +28,11 @@ fn the_gradient_of_the_margin_is_that_of_differences_of_another_order() {
     };
     let largest = gradient.iter().take(3).fold(0.0_f64, |most, rate| most.max(rate.abs()));
     for axis in 0..3 {
-        let at = |steps: f64| {
+        let fourth = derivative(1e-3, |step| {
             let mut by = [0.0; 3];
-            by[axis] = steps * 1e-3;
+            by[axis] = step;
             margin(by)
-        };
-        let fourth = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / 12e-3;
+        });
         let apart = (gradient[axis] - fourth).abs() / largest;
         println!("axis {axis}: {} and {fourth}, {apart:.1e} of the largest", gradient[axis]);
         assert!(apart < 2e-4, "axis {axis}: {} beside {fourth}", gradient[axis]);

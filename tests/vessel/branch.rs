@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use mcm::vessel::Branch;
 use nalgebra::{Rotation3, Vector3};
 
-use super::{NEAR_AXIS, errors_of_derivatives, points_near, winding};
+use super::{NEAR_AXIS, STEP, errors_of_derivatives, points_near, winding};
 use crate::tolerance::{CLEARANCE, CLEARANCE_SLOPE};
 
 /// An arc of 60 mm radius in the x-z plane, from the origin along +z, of the given length (m), with radius 3 mm.
@@ -43,7 +43,7 @@ fn ends_are_half_balls() {
         let end = Vector3::new(0.0, 0.0, point.z.clamp(0.0, 0.05));
         let clearance = tube.clearance(&point);
         assert!((clearance.value - (4e-3 - (point - end).norm())).abs() < 1e-15);
-        let [slope, curve] = errors_of_derivatives(|x| tube.clearance(x), &point);
+        let [slope, curve] = errors_of_derivatives(|x| tube.clearance(x), &point, STEP);
         assert!(slope < 1e-8 && curve < 1e-7, "{slope:e}, {curve:e}");
     }
 }
@@ -102,7 +102,7 @@ fn derivatives_are_those_of_differences() {
             if clearance.hessian.norm() > NEAR_AXIS {
                 continue;
             }
-            let [slope, curve] = errors_of_derivatives(|x| branch.clearance(x), &point);
+            let [slope, curve] = errors_of_derivatives(|x| branch.clearance(x), &point, STEP);
             (slopes, curves, count) = (slopes.max(slope), curves.max(curve), count + 1);
         }
     }

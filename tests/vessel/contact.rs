@@ -3,8 +3,10 @@
 use mcm::equilibrium::{Equilibrium, Inputs, Outcome, Solution};
 use mcm::manipulator::{Input, Output, Scene};
 use mcm::vessel::{Branch, Lumen, Vessel, Wall};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
+use super::into_the_wall;
+use crate::differences::{Direction, assert_derivatives, derivative};
 use crate::tolerance::{CONTACT_INSERTION, CONTACT_RATE, CONTACT_SLOPE, WALL_BALANCE, WALL_MOVED};
 
 /// Hertz for a ball of 2 mm in a silicone of 1.7e6 Pa.
@@ -102,38 +104,9 @@ fn all_forces_balance() {
 fn gradient_and_hessian_agree_with_differences() {
     let scene = segments();
     let mut model = solved(&scene);
-    let unknowns = model.unknowns().to_vec();
-    let metric = model.metric().to_vec();
-    let unit = metric.iter().copied().fold(0.0, f64::max).sqrt();
-    // Deeper in the wall than at equilibrium, in a direction with all components.
-    let direction: Vec<f64> =
-        metric.iter().enumerate().map(|(i, k)| unit / k.sqrt() * (1.3 * i as f64).sin() / 20.0).collect();
-    let at = |part: f64| -> Vec<f64> { unknowns.iter().zip(&direction).map(|(x, d)| x + part * d).collect() };
-    let (here, step) = (2e-4, 1e-6);
-    let mut along = |part: f64| {
-        let (energy, gradient) = model.gradient(&scene.inputs, &at(part)).expect("inside");
-        (energy, gradient)
-    };
-    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|n| along(here + n * step));
-    let (_, told) = along(here);
-    let inner = |x: &[f64]| x.iter().zip(&direction).map(|(x, d)| x * d).sum::<f64>();
-    let slope = (8.0 * (c.0 - b.0) - (d.0 - a.0)) / (12.0 * step);
-    let norm = |x: &[f64]| x.iter().zip(&metric).map(|(x, k)| x * x / k).sum::<f64>().sqrt();
-    println!("gradient: {} {slope}", inner(&told));
-    let size = norm(&told) * unit / 20.0;
-    assert!((inner(&told) - slope).abs() < CONTACT_SLOPE * size, "{} {slope}", inner(&told));
-    // (H + K) d by differences of the gradient; then its inverse must lead back to d.
-    let curve: Vec<f64> = (0..unknowns.len())
-        .map(|i| {
-            let rate = (8.0 * (c.1[i] - b.1[i]) - (d.1[i] - a.1[i])) / (12.0 * step);
-            rate + SHIFT * metric[i] * direction[i]
-        })
-        .collect();
-    let back = model.solve_at(&scene.inputs, &at(here), SHIFT, &curve).expect("definite");
-    let apart: f64 = back.iter().zip(&direction).zip(&metric).map(|((b, d), k)| k * (b - d).powi(2)).sum();
-    let whole: f64 = direction.iter().zip(&metric).map(|(d, k)| k * d * d).sum();
-    println!("Hessian: {:.1e}", (apart / whole).sqrt());
-    assert!((apart / whole).sqrt() < CONTACT_RATE, "{}", (apart / whole).sqrt());
+    let direction = into_the_wall(&model, 2e-4, [CONTACT_SLOPE, CONTACT_RATE]);
+    let direction = Direction { shift: SHIFT, ..direction };
+    assert_derivatives("in contact", &mut model, &scene.inputs, &direction);
 }
 
 #[test]
@@ -220,23 +193,22 @@ fn a_failed_solve_keeps_all_that_is_read() {
 /// The segments on a shaft that is pushed in, on walls from soft to stiff, beside fourth-order differences of whole solves.
 #[test]
 fn derivatives_by_the_inserted_length_agree_with_solves_beside() {
-    let step = 1e-7;
     for modulus in [1.0, 30.0, 1000.0] {
         let tables = format!("{SHAFT}[vessel]\nwall_modulus_mpa = {modulus}\n");
         let scene = segments_of(&SEGMENTS.replace("[vessel]\n", &tables));
         let model = solved(&scene);
         let jacobian = model.jacobian().expect("regular");
-        let at = |steps: f64| {
-            let inputs = Inputs { insertion: scene.inputs.insertion + steps * step, ..scene.inputs.clone() };
+        let at = |by: f64| {
+            let inputs = Inputs { insertion: scene.inputs.insertion + by, ..scene.inputs.clone() };
             let mut beside = model.clone();
             assert!(beside.solve(&inputs).expect("finite").solved());
             let push = Vector3::x() * beside.feed_reaction(&inputs).expect("a shaft");
-            [beside.tip().position, beside.base_reaction().force, push]
+            Matrix3::from_columns(&[beside.tip().position, beside.base_reaction().force, push])
         };
-        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
+        let slopes = derivative(1e-7, at);
         let outputs = [Output::TipPosition, Output::BaseReactionForce, Output::FeedReaction];
         for (index, output) in outputs.into_iter().enumerate() {
-            let slope = ((c[index] - b[index]) * 8.0 - (d[index] - a[index])) / (12.0 * step);
+            let slope = slopes.column(index).into_owned();
             let told = jacobian.block(output, Input::Insertion).expect("exists");
             let told = Vector3::from_fn(|i, _| told.get((i, 0)).copied().unwrap_or_default());
             let apart = (told - slope).norm() / slope.norm();

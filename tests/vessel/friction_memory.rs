@@ -6,6 +6,8 @@ use nalgebra::Vector3;
 use toml::Value;
 
 use super::friction::{normal, push, solve, to};
+use super::into_the_wall;
+use crate::differences::derivative;
 use crate::tolerance::{FRICTION_DERIVATIVE, WALL_BALANCE};
 
 const PRESSED: &str = "[design]\nsegments = 3\n[field]\nuniform_mt = [0.0, 3.0, 0.0]\n[feed]\nmode = \"insertion\"\n\
@@ -49,44 +51,30 @@ fn all_forces_balance_with_friction() {
 /// With the lumen widened, the wall no longer touches, but holds on with the normal forces of before: friction alone, partly sliding.
 #[test]
 fn gradient_and_hessian_of_friction_agree_with_differences() {
-    const SHIFT: f64 = 1.0;
     let scene = pressed("rings", "0.4").expect("a scene");
     let mut model = model(&scene);
     for insertion in [0.004, 0.006, 0.005_995] {
         solve(&mut model, &Inputs { insertion, ..scene.inputs.clone() });
     }
     let inputs = Inputs { insertion: 0.005_995, widening: 1e-3, ..scene.inputs.clone() };
-    let (unknowns, metric) = (model.unknowns().to_vec(), model.metric().to_vec());
-    let unit = metric.iter().copied().fold(0.0, f64::max).sqrt();
-    let direction: Vec<f64> =
-        metric.iter().enumerate().map(|(i, k)| unit / k.sqrt() * (1.3 * i as f64).sin() / 20.0).collect();
-    let at = |part: f64| -> Vec<f64> { unknowns.iter().zip(&direction).map(|(x, d)| x + part * d).collect() };
+    let direction = into_the_wall(&model, 1e-4, [FRICTION_DERIVATIVE; 2]);
     let mut free = model.clone();
     free.set_friction(0.0).expect("allowed");
-    let (here, step) = (1e-4, 1e-6);
-    let inner = |x: &[f64]| x.iter().zip(&direction).map(|(x, d)| x * d).sum::<f64>();
-    // Energy and slope of friction alone, and the gradient of everything.
-    let mut along = |part: f64| {
-        let (energy, gradient) = model.gradient(&inputs, &at(part)).expect("inside");
-        let (other, without) = free.gradient(&inputs, &at(part)).expect("inside");
-        (energy - other, gradient.clone(), inner(&gradient) - inner(&without))
+
+    // Energy of friction alone, and its slope.
+    let mut along = |distance: f64| {
+        let (energy, gradient) = model.gradient(&inputs, &direction.at(distance)).expect("inside");
+        let (other, without) = free.gradient(&inputs, &direction.at(distance)).expect("inside");
+        (energy - other, direction.of(&gradient) - direction.of(&without))
     };
-    let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|n| along(here + n * step));
-    let told = along(here).2;
-    let slope = (8.0 * (c.0 - b.0) - (d.0 - a.0)) / (12.0 * step);
+    let slope = derivative(direction.steps[0], |distance| along(distance).0);
+    let told = along(0.0).1;
     println!("gradient: {told} {slope}, {:.1e}", (told / slope - 1.0).abs());
     assert!((told - slope).abs() < FRICTION_DERIVATIVE * slope.abs(), "{told} {slope}");
-    let curve: Vec<f64> = (0..unknowns.len())
-        .map(|i| {
-            let rate = (8.0 * (c.1[i] - b.1[i]) - (d.1[i] - a.1[i])) / (12.0 * step);
-            rate + SHIFT * metric[i] * direction[i]
-        })
-        .collect();
-    let back = model.solve_at(&inputs, &at(here), SHIFT, &curve).expect("definite");
-    let apart: f64 = back.iter().zip(&direction).zip(&metric).map(|((b, d), k)| k * (b - d).powi(2)).sum();
-    let whole: f64 = direction.iter().zip(&metric).map(|(d, k)| k * d * d).sum();
-    println!("Hessian: {:.1e}", (apart / whole).sqrt());
-    assert!((apart / whole).sqrt() < FRICTION_DERIVATIVE, "{}", (apart / whole).sqrt());
+
+    let error = direction.hessian_error(&mut model, &inputs);
+    println!("Hessian: {error:.1e}");
+    assert!(error < FRICTION_DERIVATIVE, "{error}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use super::tube::{arc, straight, tube};
-use super::{errors_of_derivatives, points_near, winding};
+use super::{STEP, errors_of_derivatives, points_near, winding};
 use crate::tolerance::{CLEARANCE_SLOPE, GRID_ACROSS_LEVELS, GRID_OUTSIDE};
 
 /// Box around a branch, m.
@@ -38,17 +38,8 @@ fn derivatives_are_those_of_differences() {
             let mut inner = || random.random_range(0.1..0.9_f64);
             let cell = (point - grid.origin()) / grid.spacing();
             let place = grid.origin() + cell.map(|v| v.floor() + inner()) * grid.spacing();
-            let (told, step) = (grid.clearance(&place), 0.04 * grid.spacing());
-            let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
-            for axis in 0..3 {
-                let at = |steps: f64| grid.clearance(&(place + Vector3::ith(axis, steps * step)));
-                let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
-                gradient[axis] = (8.0 * (c.value - b.value) - (d.value - a.value)) / (12.0 * step);
-                let turn = ((c.gradient - b.gradient) * 8.0 - (d.gradient - a.gradient)) / (12.0 * step);
-                hessian.set_column(axis, &turn);
-            }
-            slopes = slopes.max((told.gradient - gradient).norm());
-            curves = curves.max((told.hessian - hessian).norm() / told.hessian.norm().max(1.0));
+            let [slope, curve] = errors_of_derivatives(|x| grid.clearance(x), &place, 0.04 * grid.spacing());
+            (slopes, curves) = (slopes.max(slope), curves.max(curve));
         }
     }
     println!("gradients to {slopes:.1e}, second derivatives to {curves:.1e}");
@@ -157,7 +148,7 @@ fn outside_the_grid_the_clearance_falls_smoothly() {
             let told = grid.clearance(&point);
             assert!(told.value < last && told.value < 0.0, "{point:?}: {:e} after {last:e}", told.value);
             last = told.value;
-            let [slope, curve] = errors_of_derivatives(|point| grid.clearance(point), &point);
+            let [slope, curve] = errors_of_derivatives(|point| grid.clearance(point), &point, STEP);
             (slopes, curves) = (slopes.max(slope), curves.max(curve));
         }
     }

@@ -5,8 +5,9 @@ use core::f64::consts::PI;
 use mcm::equilibrium::{Equilibrium, Input, Inputs, Interaction, Output, Settings, Solution};
 use mcm::manipulator::{Manipulator, Outputs, Scene};
 use mcm::methods::Device;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
+use crate::differences::{Direction, assert_derivatives, derivative};
 use crate::tolerance::{
     SUM_OF_STIFFNESSES, TWO_STIFFNESSES, WIRE_DIFFERENCE, WIRE_PUSH, WIRE_RATES, assert_close,
 };
@@ -168,33 +169,13 @@ fn gradient_and_hessian_are_of_one_energy() {
         let (mut model, inputs) = model(reach);
         assert!(model.solve(&inputs).expect("finite").solved());
         let metric = model.metric().to_vec();
-        let here: Vec<f64> =
+        let shape: Vec<f64> =
             (0..).zip(model.unknowns()).map(|(i, x)| x * (1.0 + 0.2 * f64::from(i).sin())).collect();
-        let way: Vec<f64> = (0..).zip(&metric).map(|(i, k)| f64::from(i).cos() / k.sqrt()).collect();
+        let along: Vec<f64> = (0..).zip(&metric).map(|(i, k)| f64::from(i).cos() / k.sqrt()).collect();
         let step = 1e-5 * metric.iter().copied().fold(f64::INFINITY, f64::min).sqrt();
-        let (energy, gradient) = {
-            let mut at = |steps: f64| {
-                let there: Vec<f64> = here.iter().zip(&way).map(|(x, w)| x + steps * step * w).collect();
-                model.gradient(&inputs, &there).expect("apart")
-            };
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(&mut at);
-            let rate = |[a, b, c, d]: [f64; 4]| (8.0 * (c - b) - (d - a)) / (12.0 * step);
-            let change = (0..way.len()).map(|i| rate([a.1[i], b.1[i], c.1[i], d.1[i]]));
-            (rate([a.0, b.0, c.0, d.0]), change.collect::<Vec<f64>>())
-        };
-        let slope: f64 =
-            model.gradient(&inputs, &here).expect("apart").1.iter().zip(&way).map(|(g, w)| g * w).sum();
-        let shifted: Vec<f64> =
-            gradient.iter().zip(&way).zip(&metric).map(|((change, w), k)| change + SHIFT * k * w).collect();
-        let back = model.solve_at(&inputs, &here, SHIFT, &shifted).expect("definite");
-        let error = |(a, b): (&f64, &f64)| ((a - b) / b).abs();
-        println!(
-            "{reach}: {:e}, {:e}",
-            energy / slope - 1.0,
-            back.iter().zip(&way).map(error).fold(0.0, f64::max)
-        );
-        assert_close((reach, "gradient"), &[energy], &[slope], WIRE_DIFFERENCE);
-        assert_close((reach, "Hessian"), &back, &way, WIRE_DIFFERENCE);
+        let allowed = [WIRE_DIFFERENCE; 2];
+        let direction = Direction { shape, along, steps: [step; 2], shift: SHIFT, allowed };
+        assert_derivatives(reach, &mut model, &inputs, &direction);
     }
 }
 
@@ -205,14 +186,13 @@ fn the_push_is_the_derivative_of_the_energy() {
         let (mut model, inputs) = model(reach);
         assert!(model.solve(&inputs).expect("finite").solved());
         let push = model.feed_reaction(&inputs).expect("a shaft");
-        let mut energy_at = |steps: f64| {
-            let inputs = Inputs { insertion: inputs.insertion + steps * 5e-6, ..inputs.clone() };
+        let energy_at = |by: f64| {
+            let inputs = Inputs { insertion: inputs.insertion + by, ..inputs.clone() };
             assert!(model.solve(&inputs).expect("finite").solved());
             let unknowns = model.unknowns().to_vec();
             model.gradient(&inputs, &unknowns).expect("apart").0
         };
-        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(&mut energy_at);
-        let difference = (8.0 * (c - b) - (d - a)) / (12.0 * 5e-6);
+        let difference = derivative(5e-6, energy_at);
         println!("{reach}: {push:e}, {:e}", difference - push);
         assert!((difference - push).abs() < WIRE_PUSH, "{reach}: {push:e} {difference:e}");
     }
@@ -233,25 +213,23 @@ fn derivatives_by_the_reach_agree_with_differences() {
         };
         let jacobian = ready(&inputs).jacobian().expect("no fold");
         for input in [Input::GuidewireInsertion, Input::Insertion] {
-            let step = 1e-6;
-            let at = |steps: f64| {
+            let at = |by: f64| {
                 let mut moved = inputs.clone();
                 match input {
-                    Input::Insertion => moved.insertion += steps * step,
-                    _ => moved.guidewire_insertion += steps * step,
+                    Input::Insertion => moved.insertion += by,
+                    _ => moved.guidewire_insertion += by,
                 }
                 let made = ready(&moved);
                 let out = made.outputs();
                 let push = Vector3::x() * out.feed_reaction.expect("a shaft");
-                [out.tip.position, push, out.base_reaction_moment]
+                Matrix3::from_columns(&[out.tip.position, push, out.base_reaction_moment])
             };
-            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
+            let differences = derivative(1e-6, at);
             let outputs = [Output::TipPosition, Output::FeedReaction, Output::BaseReactionMoment];
             for (index, output) in outputs.into_iter().enumerate() {
-                let difference = ((c[index] - b[index]) * 8.0 - (d[index] - a[index])) / (12.0 * step);
                 let told: Vec<f64> = jacobian.block(output, input).expect("there").iter().copied().collect();
-                let expected = &difference.as_slice()[..told.len()];
-                assert_close((reach, input, output), &told, expected, WIRE_RATES);
+                let difference = differences.column(index);
+                assert_close((reach, input, output), &told, &difference.as_slice()[..told.len()], WIRE_RATES);
             }
         }
     }

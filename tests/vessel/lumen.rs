@@ -3,7 +3,7 @@
 use mcm::vessel::{Branch, Lumen};
 use nalgebra::Vector3;
 
-use super::{NEAR_AXIS, errors_of_derivatives, points_near, winding};
+use super::{NEAR_AXIS, STEP, errors_of_derivatives, points_near, winding};
 use crate::tolerance::{CLEARANCE, CLEARANCE_SLOPE};
 
 fn straight(name: &str, from: [f64; 3], to: [f64; 3], radius: f64) -> Branch {
@@ -59,7 +59,7 @@ fn derivatives_are_those_of_differences_through_mouths() {
                 if branches.iter().any(|branch| branch.clearance(&point).hessian.norm() > NEAR_AXIS) {
                     continue;
                 }
-                let [slope, curve] = errors_of_derivatives(|x| lumen.clearance(x), &point);
+                let [slope, curve] = errors_of_derivatives(|x| lumen.clearance(x), &point, STEP);
                 (slopes, curves) = (slopes.max(slope), curves.max(curve));
             }
         }

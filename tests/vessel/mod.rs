@@ -21,7 +21,13 @@ use nalgebra::{Matrix3, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
+use mcm::equilibrium::Equilibrium;
 use mcm::vessel::{Branch, Clearance};
+
+use crate::differences::{Direction, derivative};
+
+/// Step of differences of clearances, m.
+const STEP: f64 = 1e-6;
 
 /// Second derivative (1/m) above which a point is within 0.3 mm of a centreline, too near for differences.
 const NEAR_AXIS: f64 = 5e3;
@@ -54,18 +60,29 @@ fn points_near(branch: &Branch, number: u64, count: usize) -> Vec<Vector3<f64>> 
     (0..count).map(&mut any).collect()
 }
 
-/// Differences between the derivatives told and central differences (fourth order) of the values and gradients, relative to a
-/// unit gradient and to the second derivative.
-fn errors_of_derivatives(clearance: impl Fn(&Vector3<f64>) -> Clearance, point: &Vector3<f64>) -> [f64; 2] {
-    const STEP: f64 = 1e-6;
+/// A direction with all components, through the shape that lies `far` times it beyond the model's last one: elsewhere against the wall.
+fn into_the_wall(model: &Equilibrium, far: f64, allowed: [f64; 2]) -> Direction {
+    let metric = model.metric();
+    let unit = metric.iter().copied().fold(0.0, f64::max).sqrt();
+    let component = |(i, k): (usize, &f64)| unit / k.sqrt() * (1.3 * i as f64).sin() / 20.0;
+    let along: Vec<f64> = metric.iter().enumerate().map(component).collect();
+    let shape = model.unknowns().iter().zip(&along).map(|(x, d)| x + far * d).collect();
+    Direction { shape, along, steps: [1e-6; 2], shift: 1.0, allowed }
+}
+
+/// Differences between the derivatives told and central differences (fourth order) over a step (m) of the values and gradients,
+/// relative to a unit gradient and to the second derivative.
+fn errors_of_derivatives(
+    clearance: impl Fn(&Vector3<f64>) -> Clearance,
+    point: &Vector3<f64>,
+    step: f64,
+) -> [f64; 2] {
     let told = clearance(point);
     let (mut gradient, mut hessian) = (Vector3::zeros(), Matrix3::zeros());
     for axis in 0..3 {
-        let at = |steps: f64| clearance(&(point + Vector3::ith(axis, steps * STEP)));
-        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(at);
-        gradient[axis] = (8.0 * (c.value - b.value) - (d.value - a.value)) / (12.0 * STEP);
-        let turn = ((c.gradient - b.gradient) * 8.0 - (d.gradient - a.gradient)) / (12.0 * STEP);
-        hessian.set_column(axis, &turn);
+        let at = |by: f64| clearance(&(point + Vector3::ith(axis, by)));
+        gradient[axis] = derivative(step, |by| at(by).value);
+        hessian.set_column(axis, &derivative(step, |by| at(by).gradient));
     }
     let scale = told.hessian.norm().max(1.0);
     [(told.gradient - gradient).norm(), (told.hessian - hessian).norm() / scale]

@@ -4,6 +4,8 @@ use mcm::design::{Design, Ring, Span, SpanKind};
 use mcm::geometry::RotationVector;
 use nalgebra::{DMatrix, DVector, Matrix3, SymmetricEigen, Vector3};
 
+use crate::differences::derivative;
+
 /// Step of the differences of energies in scaled strains, in which the elastic energy is half their square.
 const STEP: f64 = 1e-2;
 
@@ -104,13 +106,11 @@ impl<'a> StrainRod<'a> {
 
     fn gradient(&self, x: &DVector<f64>, scale: f64) -> DVector<f64> {
         DVector::from_fn(x.len(), |i, _| {
-            let at = |by: f64| {
+            derivative(STEP, |by| {
                 let mut moved = x.clone();
                 moved[i] += by;
                 self.energy(&moved, scale).0
-            };
-            // Differences of fourth order.
-            (8.0 * (at(STEP) - at(-STEP)) - (at(2.0 * STEP) - at(-2.0 * STEP))) / (12.0 * STEP)
+            })
         })
     }
 

@@ -7,10 +7,10 @@ use mcm::geometry::RotationVector;
 use mcm::manipulator::{Inputs, Scene};
 use mcm::vessel::Aorta;
 use nalgebra::{UnitQuaternion, Vector3};
+use rand::RngExt;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
-use crate::given::direction;
+use crate::given::{direction, of_case};
 
 /// Steps after the first solve.
 const STEPS: usize = 10;
@@ -127,8 +127,7 @@ fn vessel(random: &mut StdRng, kind: &str) -> (String, f64) {
 impl Insertion {
     /// The insertion of this number.
     pub(crate) fn random(seed: u64, index: u64) -> Self {
-        let mut random = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let random = &mut random;
+        let random = &mut of_case(seed, index);
         let weights: Vec<(usize, u32)> = (1..).zip(SEGMENTS).collect();
         let (segments, level) = (one_of(random, &weights), one_of(random, &LEVELS));
         let kind = one_of(random, &VESSELS);

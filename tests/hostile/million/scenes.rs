@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use nalgebra::{UnitQuaternion, Vector3};
+use rand::RngExt;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
-use crate::given::direction;
+use crate::given::{direction, of_case};
 
 /// Strongest uniform field, mT.
 const STRONGEST_MT: f64 = 50.0;
@@ -133,8 +133,7 @@ impl Loads {
 impl Walk {
     /// The walk of this number.
     pub(crate) fn random(seed: u64, index: u64) -> Self {
-        let mut random = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let random = &mut random;
+        let random = &mut of_case(seed, index);
         let segments = 1 + one_of(random, SEGMENTS.iter().copied());
         let level = LEVELS[one_of(random, LEVELS.iter().map(|row| row.1))].0;
         let (base, tip) = (random.random_bool(0.7), random.random_bool(0.95));

@@ -5,10 +5,10 @@ use core::f64::consts::PI;
 use mcm::geometry::{Pose, RotationVector};
 use mcm::manipulator::{Branch, Inputs, Scene, Status};
 use nalgebra::Vector3;
+use rand::RngExt;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
-use crate::given::direction;
+use crate::given::{direction, of_case};
 
 /// Numbers of steps of a ramp.
 const STEPS: [usize; 3] = [12, 27, 50];
@@ -64,8 +64,7 @@ pub(crate) enum Verdict {
 impl Ramp {
     /// The ramp of this number.
     pub(crate) fn random(seed: u64, index: u64) -> Self {
-        let mut random = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let random = &mut random;
+        let random = &mut of_case(seed, index);
         let mut tables = vec![device(random)];
 
         let change = match random.random_range(0..5) {

@@ -6,10 +6,9 @@ use mcm::design::{Design, Specification};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Settings, Solution};
 use mcm::geometry::{Pose, RotationVector};
 use nalgebra::Vector3;
-use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 
-use crate::given::{direction, pair, unloaded_beside_pair};
+use crate::given::{direction, of_case, pair, unloaded_beside_pair};
 
 /// Fine steps in a coarse one.
 const FINE: usize = 100;
@@ -48,8 +47,7 @@ pub(crate) enum Comparison {
 impl Way {
     /// The way of this number.
     pub(crate) fn random(seed: u64, index: u64) -> Self {
-        let mut random = StdRng::seed_from_u64(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        let random = &mut random;
+        let random = &mut of_case(seed, index);
         let segments = [1, 1, 1, 2, 3, 3, 4, 5, 6, 9][random.random_range(0..10)];
         let rings = random.random_bool(0.5);
         let has_magnet = random.random_bool(0.6);
