@@ -150,3 +150,38 @@ fn the_page_of_magnets_and_coils_lists_the_files_that_know_of_coils() {
         .collect();
     assert_eq!(listed, known);
 }
+
+/// What cells of a table name between backticks as files or folders: from `src` or from the package's folder, or, without a folder,
+/// beside the one that is named before.
+fn files_named(cells: &str) -> Vec<PathBuf> {
+    let mut out: Vec<PathBuf> = Vec::new();
+    for name in cells.split('`').skip(1).step_by(2).filter(|name| !name.contains([' ', '=', '*'])) {
+        let path = if name.contains('/') {
+            let of_source = package().join("src").join(name);
+            if of_source.exists() { of_source } else { package().join(name) }
+        } else if name.contains('.') {
+            let before = out.last().unwrap_or_else(|| panic!("no folder for {name}"));
+            let folder = if before.is_dir() { before } else { before.parent().unwrap() };
+            folder.join(name)
+        } else {
+            continue;
+        };
+        out.push(path);
+    }
+    out
+}
+
+#[test]
+fn files_that_an_addition_touches_exist() {
+    let page = fs::read_to_string(package().join("src/README.md")).unwrap();
+    let (_, table) = page.split_once("| new | files |\n| --- | --- |\n").unwrap();
+    let rows: Vec<&str> = table.lines().take_while(|line| line.starts_with('|')).collect();
+    assert!(rows.len() > 6, "{rows:?}");
+    for row in rows {
+        let named = files_named(row);
+        assert!(!named.is_empty(), "no file in {row}");
+        for path in named {
+            assert!(path.exists(), "there is no {}, named by {row}", path.display());
+        }
+    }
+}
