@@ -13,7 +13,8 @@ use crate::tolerance::{
     DEMAGNETISATION, MEAN_FIELD, PRINTED_NAGAOKA, ROUNDING, UNIFORM_MAGNETISATION, assert_close,
 };
 
-/// The same for a solid cylinder from the self-inductance of a current sheet (L. Lorenz 1879, in the form of H. Nagaoka 1909):
+/// Demagnetising factor of a solid cylinder along its axis, from the self-inductance of a current sheet (L. Lorenz 1879, in the
+/// form of H. Nagaoka 1909):
 /// `1 - 4/(3 pi k') [(k'/k)^2 (K - E) + E - k]` with `k = 2R / sqrt(4 R^2 + L^2)`.
 fn by_inductance(radius: f64, length: f64) -> f64 {
     let far = (4.0 * radius * radius + length * length).sqrt();

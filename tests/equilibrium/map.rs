@@ -119,8 +119,8 @@ fn slope_of_energy(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64]
     least
 }
 
-/// The same by differences of fourth order with steps of one length: to both sides, or, where that shows a slope and one side
-/// a lesser one, to one.
+/// Norm of the slope of the energy by differences of fourth order with steps of one length: to both sides, or, where that shows a
+/// slope and one side a lesser one, to one.
 fn slope_by_steps(equilibrium: &mut Equilibrium, inputs: &Inputs, shape: &[f64], step: f64) -> f64 {
     let (roots, unit) = weights(equilibrium);
     let slope = |i: usize| {

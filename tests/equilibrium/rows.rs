@@ -148,7 +148,7 @@ impl Row {
         self.with(Settings::default())
     }
 
-    /// The same, resolved more finely than a user's: for loads at which a shape loses its stability.
+    /// The manipulator, unsolved, resolved more finely than a user's: for loads at which a shape loses its stability.
     pub(crate) fn refined(&self) -> Equilibrium {
         self.with(Settings { pair_accuracy: PAIRS, degree: 3, ..Settings::default() })
     }

@@ -98,7 +98,7 @@ fn a_guidewire_is_pushed_ahead() {
     assert_ne!(pushed.do_step(0.5, 0.1), Ending::Ok, "a wire pulled out of the port");
 }
 
-/// The same in mode force, with a magnet that takes the device along.
+/// In mode force the push is given, and a magnet takes the device along.
 #[test]
 fn a_shaft_under_a_given_push_tells_its_length_and_derivatives() {
     let text = PUSHED.replace("\"insertion\"", "\"force\"").replace("uniform_mt = [0.0, 3.0, 0.0]", "");

@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng, rngs::StdRng};
 /// Distance of the magnet from its place (m), and its turn (rad), at most, along each axis.
 const AROUND: [f64; 2] = [0.02, 0.5];
 
-/// The same for targets asked for from the target before.
+/// Distance of the magnet from the target before (m), and its turn from there (rad), at most, of targets asked for from that one.
 const NEAR: [f64; 2] = [1e-4, 1e-3];
 
 fn main() {

@@ -67,7 +67,7 @@ impl Springs {
             + 0.5 * self.stiffness[1] * (second - self.anchor).norm_squared()
     }
 
-    /// The same energy as loads on both frames, with the start node at the origin.
+    /// The loads of the springs on both frames, with the start node at the origin.
     fn loads(&self, element: &Element, amplitudes: &[f64]) -> (Vec<PlacedLoad>, Vec<PlacedCoupling>) {
         let frames = self.frames(element, amplitudes);
         let arms = [0, 1].map(|i| frames[i].pose.rotation * self.arms[i]);

@@ -1,4 +1,4 @@
-//! The same way of the magnet in few steps and in many: the same shape, or a word.
+//! A way of the magnet in few steps and in many leads to one shape, or the study says so.
 
 use mcm::studies::communication_step;
 

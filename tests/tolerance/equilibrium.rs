@@ -16,7 +16,7 @@ pub(crate) const STATICS_SPANS: f64 = 1e-4;
 /// Its energies, a minimum: of second order in the error of the shape.
 pub(crate) const STATICS_ENERGY: f64 = 1e-5;
 
-/// The same where rings act on spans: the table states no digits of an energy, and ours changes by 4e-5 when the spans
+/// Energies of the reference table where rings act on spans: it states no digits of them, and ours change by 4e-5 when the spans
 /// are resolved twice as finely.
 pub(crate) const STATICS_SPANS_ENERGY: f64 = 1e-3;
 
@@ -91,7 +91,7 @@ pub(crate) const SYMMETRY: f64 = 1e-9;
 /// Tip over the length at the default degree, uniform field of 20 mT.
 pub(crate) const DEGREE_NONE: f64 = 2e-6;
 
-/// The same with ring pairs.
+/// Tip over the length at the default degree with ring pairs, uniform field of 20 mT.
 pub(crate) const DEGREE_RINGS: f64 = 1e-5;
 
 /// Tip over length between two references of different degrees, nine segments beside the magnet pair; 4.7e-10 measured, 4e-7
@@ -119,7 +119,7 @@ pub(crate) const NEUTRAL: f64 = 1e-7;
 /// Sums over some million cells: of second order in their size.
 pub(crate) const BRUTE_FORCE: f64 = 2e-4;
 
-/// The same shape reached on another way, rad: both are solved to 1e-11 turns of one element.
+/// A shape that is reached on two ways, rad: both are solved to 1e-11 turns of one element.
 pub(crate) const SAME_SHAPE: f64 = 1e-9;
 
 /// The packed FMU in another importer beside the Rust API: the same library on the same path, compiled apart.
@@ -166,7 +166,7 @@ pub(crate) const METHOD_COARSE: f64 = 1e-5;
 /// Arcs of constant curvature: shear, extension and the moment's change along a core are missing (reached: 1.6e-2).
 pub(crate) const METHOD_ARCS: f64 = 0.02;
 
-/// The same with touching windings: an arc does not tell the discs' bend from the core's (reached: 2.2e-2).
+/// Arcs of constant curvature with touching windings: an arc does not tell the discs' bend from the core's (reached: 2.2e-2).
 pub(crate) const METHOD_ARCS_STOPPED: f64 = 0.03;
 
 /// Tips by other methods with fine meshes, over the length: what the shear that varies along a disc leaves of the potential
@@ -224,7 +224,7 @@ pub(crate) const ANGLE_BY_ACCURACY: f64 = 2.0;
 /// Changes of the tip angle, percent, by the same solve of a scene file: its millimetres and millitesla are rounded.
 pub(crate) const BUDGET_SOLVES: f64 = 1e-6;
 
-/// The same as an independent model states them, to one digit or two.
+/// Changes of the tip angle, percent, as an independent model states them, to one digit or two.
 pub(crate) const BUDGET_POINTS: f64 = 0.5;
 
 /// Effect of the recoil permeability by an integral equation: the moment is 5e-5 off, the effect 2.7e-2 of it.
@@ -265,7 +265,8 @@ pub(crate) const MOVED_BY_A_MOMENT: f64 = 3.0;
 /// relative to the length: forces follow the shape.
 pub(crate) const CHATTER: f64 = 10.0;
 
-/// The same for the stability margin, absolute: it is told anew when loads or shape have changed by a tenth of it.
+/// What changes of models and quadrature rules add to a step's change of the stability margin, absolute: it is told anew when
+/// loads or shape have changed by a tenth of it.
 pub(crate) const MARGIN_CHATTER: f64 = 0.1;
 
 /// Shapes of spirals turned about the axis beside the shape turned, relative to what bends it: the points that stand for the

@@ -6,7 +6,8 @@ pub(crate) const FIELD: f64 = 5e-12;
 /// Gradient and second derivative of the closed forms (reached: 3e-13).
 pub(crate) const DERIVATIVES: f64 = 1e-12;
 
-/// The same closer than 10 um to an edge, where one rounding of a coordinate alone moves them by up to 3.5e-12.
+/// Gradient and second derivative of the closed forms closer than 10 um to an edge, where one rounding of a coordinate alone
+/// moves them by up to 3.5e-12.
 pub(crate) const DERIVATIVES_NEAR_EDGE: f64 = 1e-11;
 
 /// Gradient at a source's centre, where it is zero, T/m: rounding of 1 T over the smallest dimension, 1 mm.
@@ -38,7 +39,8 @@ pub(crate) const PAIR_DEFAULT: f64 = 1e-5;
 /// Force, torque and energy of ring pairs at that accuracy: a tenth of it (reached: 7e-7).
 pub(crate) const RING_PAIR: f64 = 1e-6;
 
-/// The same for rings of other shapes, of whose close rules some poses are tried (reached: 1e-6).
+/// Force, torque and energy of pairs of rings of other shapes at the default accuracy, of whose close rules some poses are tried
+/// (reached: 1e-6).
 pub(crate) const OTHER_PAIR: f64 = 2e-6;
 
 /// As [`RING_PAIR`] at [`PAIRS`]: what the adaptive cubature beside them is good to (reached: 1e-10).
@@ -78,7 +80,7 @@ pub(crate) const UNIFORM_MAGNETISATION: f64 = 0.03;
 /// Depth of bodies in one another, mm: nested golden sections of 4e-11 of bodies of some centimetres.
 pub(crate) const DEPTH: f64 = 1e-8;
 
-/// The same by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
+/// Depth of bodies in one another by points up to 0.13, 0.2 and 0.14 mm apart in three directions, mm: half a diagonal.
 pub(crate) const DEPTH_SAMPLED: f64 = 0.15;
 
 /// Fields at many points beside those at single ones: other formulas of the same integrals.

@@ -9,7 +9,7 @@ pub(crate) const PRINTED: f64 = 1.5e-4;
 /// Numbers of the paper that are printed with four decimals, absolute.
 pub(crate) const PRINTED_FOUR_DECIMALS: f64 = 5e-5;
 
-/// The same with three decimals.
+/// Numbers of the paper that are printed with three decimals, absolute.
 pub(crate) const PRINTED_THREE_DECIMALS: f64 = 5e-4;
 
 /// Numbers known to two or three digits, of which the last may be one off.
@@ -61,7 +61,8 @@ pub(crate) const RESTING: f64 = 1e-9;
 /// root of the size: rounding, times the condition of an eigenvalue, some hundreds.
 pub(crate) const REAL_PART: f64 = 1e-9;
 
-/// The same by half as many vectors as rows, where the eigenvalue is next to zero.
+/// Smallest real part of the eigenvalues of random matrices, by Arnoldi's method with half as many vectors as rows, over the root
+/// of the size, where it is next to zero.
 pub(crate) const REAL_PART_OF_FEW: f64 = 1e-8;
 
 /// Single precision, of numbers below 1.

@@ -46,7 +46,7 @@ fn segments() -> Scene {
     segments_with("")
 }
 
-/// The same with these entries of the design.
+/// Three segments in a bent vessel, with these entries of the design.
 fn segments_with(entries: &str) -> Scene {
     segments_of(&format!("{entries}{SEGMENTS}"))
 }
@@ -218,7 +218,7 @@ fn derivatives_by_the_inserted_length_agree_with_solves_beside() {
     }
 }
 
-/// The same scene turned and moved, vessel and all.
+/// The shape turns and moves with its scene, vessel and all.
 #[test]
 fn a_moved_scene_has_the_same_answer() {
     let scene = segments();
@@ -250,8 +250,8 @@ fn a_moved_scene_has_the_same_answer() {
     assert!((model.tip().position - first.tip().position).norm() < 1e-7);
 }
 
-/// The same scene in a mirror. Fields and moments turn the other way round there; with every magnet reversed they mirror as forces
-/// do.
+/// A scene in a mirror has the shape in that mirror. Fields and moments turn the other way round there; with every magnet
+/// reversed they mirror as forces do.
 #[test]
 fn a_mirrored_scene_has_the_mirrored_answer() {
     let scene = segments_with("spiral = \"axisymmetric\"\n");

@@ -18,7 +18,7 @@ const BRANCH: &str = "[[vessel.branch]]\nname = \"tube\"\npoints_mm = [[0, 0, -2
 
 const MESH: &str = "mesh_stl = \"tube.stl\"\n";
 
-/// The same tube as triangles, fine enough for the grid, m.
+/// The tube of [`BRANCH`] as triangles, fine enough for the grid, m.
 fn triangles() -> Vec<Corners> {
     shifted(tube(straight(0.08, 3.5e-3), 240, 120), Vector3::new(0.0, 0.0, -0.02))
 }

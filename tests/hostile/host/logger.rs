@@ -41,7 +41,7 @@ pub(crate) fn heard(environment: usize) -> Vec<String> {
     in_heard(|heard| heard.get(&environment).cloned().unwrap_or_default())
 }
 
-/// The same, and forgets it.
+/// What an instance of this environment has said, as [`heard`] gives it; it is then forgotten.
 pub(crate) fn take(environment: usize) -> Vec<String> {
     in_heard(|heard| heard.remove(&environment).unwrap_or_default())
 }

@@ -148,7 +148,7 @@ fn tell(step: usize, inputs: &Inputs, out: &Outputs, seconds: f64) {
 /// What became of a step that was done again in small parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Repeated {
-    /// The same shape, without a jump.
+    /// The shape of the whole step, without a jump.
     Alike,
     /// Another shape, although neither tells of a jump.
     Elsewhere,
