@@ -91,6 +91,11 @@ fn is_measured(cell: &str) -> bool {
         || (!words.is_empty() && words.iter().all(|word| number(word)))
 }
 
+/// What stands between backticks and ends a sentence, and what follows it.
+fn quoted(text: &str) -> Option<(&str, &str)> {
+    text.split_once("`.").filter(|(quoted, _)| !quoted.contains('`'))
+}
+
 /// What a line in small print says; nothing if it is not in this form.
 fn sources(line: &str) -> Option<Vec<Source<'_>>> {
     let mut rest = line.strip_prefix("<sub>")?.strip_suffix("</sub>")?;
@@ -98,10 +103,10 @@ fn sources(line: &str) -> Option<Vec<Source<'_>>> {
     while !rest.is_empty() {
         let source;
         if let Some(said) = rest.strip_prefix("Made by `") {
-            let (command, after) = said.split_once("`.")?;
+            let (command, after) = quoted(said)?;
             (source, rest) = (Source::Made(command), after);
         } else if let Some(said) = rest.strip_prefix("Compared by `") {
-            let (command, after) = said.split_once("`.")?;
+            let (command, after) = quoted(said)?;
             (source, rest) = (Source::Compared(command), after);
         } else {
             (source, rest) = (Source::ByHand, rest.strip_prefix("Measured by hand.")?);
