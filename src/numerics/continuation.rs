@@ -152,11 +152,14 @@ pub fn follow(family: &mut impl Family, x: &DVector<f64>, walk: &Walk) -> Result
     let [low, high] = walk.range;
     check("first parameter of the walk", walk.from, |v| low <= v && v <= high, "within its range")?;
     check("longest step of the walk", walk.longest_step, |v| v > 0.0, "> 0")?;
+
+    // The first point is corrected at its own parameter: the plane normal to that axis.
     let mut along = DVector::zeros(x.len() + 1);
     along[x.len()] = if walk.upwards { 1.0 } else { -1.0 };
     let Some((first, _)) = correct(family, x.push(walk.from), &along)? else {
         return Ok((Vec::new(), End::Stuck));
     };
+
     let mut points = vec![first.clone()];
     let (mut here, mut step) = (first, FIRST * walk.longest_step);
     while points.len() < walk.points {
@@ -167,15 +170,18 @@ pub fn follow(family: &mut impl Family, x: &DVector<f64>, walk: &Walk) -> Result
             step *= SHRINK;
             continue;
         };
+
         let Some(singular) = between(family, &here, &next, step)? else {
             step *= SHRINK;
             continue;
         };
         points.extend(singular.into_iter().filter(|point| (low..=high).contains(&point.parameter)));
+
         if next.parameter <= low || next.parameter >= high {
             points.extend(at_limit(family, &here, &next, next.parameter.clamp(low, high))?);
             return Ok((points, End::Range));
         }
+
         points.push(next.clone());
         (here, step) = (next, length.min(walk.longest_step));
     }
@@ -202,18 +208,23 @@ fn correct(
 ) -> Result<Option<(Point, u32)>, Error> {
     let size = guess.len() - 1;
     let (mut place, mut previous) = (guess, f64::INFINITY);
+
     for corrections in 1..=CORRECTIONS {
         let x = place.rows(0, size).into_owned();
         let Some(local) = family.at(&x, place[size])? else { return Ok(None) };
         let Some(step) = bordered(&local, normal).lu().solve(&(-local.gradient).push(0.0)) else {
             return Ok(None);
         };
+
+        // Newton's method converges quadratically near the branch; corrections that shrink slowly come from
+        // elsewhere.
         let length = step.norm();
         if length.is_nan() || length > CONTRACTION * previous && length > SETTLED {
             return Ok(None);
         }
         place += step;
         previous = length;
+
         if length <= SETTLED {
             return Ok(finish(family, &place, normal)?.map(|point| (point, corrections)));
         }
@@ -291,15 +302,22 @@ fn locate(
     let (mut low, mut at_low) = (0.0, measure(here));
     let (mut high, mut at_high) = (step, measure(next));
     let mut found = None;
+
     for _ in 0..SECANTS {
         let middle = (low * at_high - high * at_low) / (at_high - at_low);
         let guess = here.place() + &here.tangent * middle;
         let Some((point, _)) = correct(family, guess, &here.tangent)? else { break };
         let value = measure(&point);
+
+        // Between two branches the test function changes its sign by a jump: no zero, hence no singular
+        // point.
         found = (value.abs() <= JUMPED).then_some(Point { kind, ..point });
         if value.abs() <= VANISHED || (high - low).abs() <= VANISHED * step {
             break;
         }
+
+        // Illinois: an end that stays twice counts half, or the secants would approach from one side for
+        // ever.
         if value * at_high < 0.0 {
             (low, at_low) = (high, at_high);
         } else {

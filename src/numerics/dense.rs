@@ -103,6 +103,8 @@ fn add_blocks<const R: usize, const C: usize>(
         for (row, sums) in sums.iter_mut().enumerate() {
             sums.copy_from_slice(&rows[row * columns + start..][..C]);
         }
+
+        // The block's sums stay in registers while the inner index runs.
         for (k, values) in right.chunks_exact(columns).enumerate() {
             let values = &values[start..start + C];
             for (row, sums) in sums.iter_mut().enumerate() {
@@ -112,6 +114,7 @@ fn add_blocks<const R: usize, const C: usize>(
                 }
             }
         }
+
         for (row, sums) in sums.iter().enumerate() {
             rows[row * columns + start..][..C].copy_from_slice(sums);
         }

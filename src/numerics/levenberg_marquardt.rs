@@ -54,29 +54,37 @@ pub fn solve(
     let mut scale = DVector::<f64>::zeros(x.len());
     let mut damping = FIRST;
     let mut jacobian = None;
+
     while end.iterations < iterations {
         end.residual = residual.norm();
         end.converged = end.residual <= tolerance;
         if end.converged || !end.residual.is_finite() || damping > BOUNDS[1] {
             break;
         }
+
+        // A rejected step leaves x where it was, and with it the Jacobian.
         if jacobian.is_none() {
             jacobian = system.jacobian(x, &residual);
         }
         let Some(matrix) = &jacobian else { break };
         end.iterations += 1;
+
+        // Moré's scaling: with the largest column norms so far, steps do not depend on the unknowns' units.
         for (entry, column) in scale.iter_mut().zip(matrix.column_iter()) {
             *entry = entry.max(column.norm()).max(f64::MIN_POSITIVE);
         }
         let lambda = damping * end.residual;
         let Some(step) = step(matrix, &residual, &scale, lambda) else { break };
+
         let trial = &*x + &step;
         let linear = (&residual + matrix * &step).norm_squared();
         let before = residual.norm_squared();
         let next = system.residual(&trial).filter(|next| next.iter().all(|entry| entry.is_finite()));
+
         let ratio = next.as_ref().map_or(f64::NEG_INFINITY, |next| {
             (before - next.norm_squared()) / (before - linear).max(f64::MIN_POSITIVE)
         });
+
         if let Some(next) = next.filter(|_| ratio > RATIOS[0]) {
             (*x, residual, jacobian) = (trial, next, None);
         }
@@ -86,6 +94,7 @@ pub fn solve(
             damping = BOUNDS[0].max(damping / FACTOR);
         }
     }
+
     end.residual = residual.norm();
     end.converged = end.residual <= tolerance;
     end

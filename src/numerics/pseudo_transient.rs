@@ -35,6 +35,7 @@ pub fn settle(
     if objective.linearise(x).is_none() {
         return end;
     }
+
     let mut gradient = objective.gradient().to_vec();
     while end.iterations < region.iterations && shift < LARGEST && proceed() {
         end.residual = dual_norm(objective.metric(), &gradient);
@@ -43,14 +44,19 @@ pub fn settle(
             return end;
         }
         end.iterations += 1;
+
         if !(objective.factorise(shift) && objective.dissipates()) {
             shift *= GROWTH;
             continue;
         }
+
+        // An implicit Euler step: (H + shift K) step = -g.
         step.iter_mut().zip(&gradient).for_each(|(s, g)| *s = -g);
         objective.solve(&mut step);
         let work: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
         trial.iter_mut().zip(x.iter().zip(&step)).for_each(|(t, (a, b))| *t = a + b);
+
+        // A step uphill, or too long for the quadratic model, is taken anew with a shorter time step.
         let short = norm(objective.metric(), &step) <= region.radius;
         let residual = if short && work < 0.0 && objective.slope(&trial).is_some() {
             dual_norm(objective.metric(), objective.gradient())
@@ -61,11 +67,14 @@ pub fn settle(
             shift *= GROWTH;
             continue;
         }
+
         x.copy_from_slice(&trial);
         if objective.linearise(x).is_none() {
             return end;
         }
         gradient.copy_from_slice(objective.gradient());
+
+        // Switched evolution relaxation: the time step grows as the residual falls.
         shift *= (residual / end.residual).min(DECREASE);
     }
     end

@@ -70,6 +70,8 @@ impl Refinement {
         let mut values = vec![0.0; checked_nodes(counts)?];
         let mut kept = vec![false; cells.iter().product()];
         let mut corrected = kept.clone();
+
+        // A B-spline through a value reaches its neighbours: what is kept is a brick and the 26 around it.
         for (brick, given) in bricks {
             if (0..3).any(|axis| brick[axis] < 2 || brick[axis] + 3 > cells[axis]) {
                 return Err(Error::Unsupported("a correction reaches the border of its grid".into()));
@@ -83,6 +85,8 @@ impl Refinement {
                 kept[place(cells, [brick[0] + x - 1, brick[1] + y - 1, brick[2] + z - 1])] = true;
             }
         }
+
+        // Once for all bricks: the B-splines of neighbours overlap.
         to_coefficients(counts, &mut values)?;
         let mut coefficients = Vec::new();
         for (cell, _) in kept.iter().enumerate().filter(|(_, kept)| **kept) {
@@ -95,6 +99,7 @@ impl Refinement {
             }
             coefficients.extend(rounded(&sums));
         }
+
         Self::try_from(Stored { coarse, kept, coefficients })
     }
 
