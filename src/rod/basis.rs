@@ -140,12 +140,16 @@ impl Modes {
             core::cmp::Ordering::Greater => 1.0,
             core::cmp::Ordering::Equal => 2.0 * (s - core.start) / core.length - 1.0,
         };
+
+        // Legendre's recurrence: n P_n = (2n - 1) x P_{n-1} - (n - 1) P_{n-2}.
         let mut values = vec![1.0];
         for j in 1..=self.degree {
             let (n, last) = (j as f64, values[j - 1]);
             let before = if j > 1 { values[j - 2] } else { 0.0 };
             values.push(((2.0 * n - 1.0) * x * last - (n - 1.0) * before) / n);
         }
+
+        // They begin at zero at the disc's face to the core, so that the resultant stays continuous there.
         for (other, part) in self.parts.iter().enumerate().filter(|(other, _)| *other != self.core) {
             let edge = if other < self.core { part.start + part.length } else { part.start };
             let along = if other == index { (s - edge) / part.length } else { 0.0 };
@@ -155,6 +159,7 @@ impl Modes {
                 values.push(power);
             }
         }
+
         if self.ends == Ends::Jump {
             values.push(if index == self.core { 1.0 } else { 0.0 });
         }

@@ -45,21 +45,27 @@ impl Element {
         let mut out = Vec::new();
         let mut start = 0.0;
         for (index, piece) in pieces.iter().enumerate() {
+            // The ring stands at the element's start, or beyond its end: distances are counted from there.
             let before = if geometry.beyond { self.length - start - piece.length } else { start };
             start += piece.length;
+
+            // A ring does not act on the disc bonded to its face.
             let adjacent = index == if geometry.beyond { pieces.len() - 1 } else { 0 };
             if geometry.bonded && adjacent && piece.span.kind == SpanKind::Disc {
                 continue;
             }
+
             let (nodes, first) = self.nodes(index);
             let distance = geometry.distance + before;
             let chosen = subset(nodes, geometry.interpolated(distance, piece.length));
             let own: Vec<f64> = chosen.iter().map(|i| nodes[*i]).collect();
             let fine: Vec<Fine> = fine_points(&own).collect();
+
             for (i, station) in chosen.iter().enumerate() {
                 let x = if geometry.beyond { -nodes[*station] } else { nodes[*station] };
                 let at = distance + 0.5 * piece.length * (1.0 + x);
                 let points = Section { piece, nodes: &own, fine: &fine, node: i }.points(geometry, at);
+
                 out.push(StationQuadrature {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,

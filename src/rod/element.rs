@@ -97,9 +97,12 @@ impl Element {
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
         let (disc_points, extra) = if resolution.fine { FINE_POINTS } else { POINTS };
         let core_points = resolved.max(degree + 1 + extra);
+
+        // Discs are stiff and bend little, unless there is much of them.
         let bend = |piece: &Piece<'_>| piece.length / piece.span.stiffness.bending;
         let all: f64 = pieces.iter().map(bend).sum();
         let is_long = |piece: &Piece<'_>| piece.span.kind == SpanKind::Disc && bend(piece) > LONG * all;
+
         let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
             let mut start = 0.0;
             let parts = pieces.iter().map(|piece| {
@@ -109,14 +112,19 @@ impl Element {
             });
             Modes::new(parts.collect(), core, degree, ends)
         };
+
         let stop = BendingStop::new(pieces);
         let jumps = resolution.bending_stop && stop.is_some();
         let bending = modes(|k| k.bending, if jumps { Ends::Jump } else { Ends::Linear });
         let shear = modes(|k| k.shear, Ends::Constant);
         let (torsion, axial) = (modes(|k| k.torsion, Ends::Constant), modes(|k| k.axial, Ends::Constant));
+
+        // The six strains u1, u2 (bending), u3 (twist), v1, v2 (shear), v3 (stretch).
         let modes = [bending.clone(), bending, torsion, shear.clone(), shear, axial];
         let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
         let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
+
+        // Neighbours of one component make a run, so that the loops of the derivatives meet adjacent entries.
         let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
         for (i, c) in component.iter().enumerate() {
             match runs.last_mut() {
@@ -125,6 +133,8 @@ impl Element {
             }
         }
         let metric = component.iter().map(|c| modes[*c].stiffness()).collect();
+
+        // A piece that bends as a core does is resolved as one.
         let mut tables = Vec::new();
         let mut first = 0;
         for piece in pieces {
@@ -133,6 +143,7 @@ impl Element {
             tables.push((piece.length, gauss_legendre(points).0, first));
             first += points;
         }
+
         let length = pieces.iter().map(|piece| piece.length).sum();
         let empty = Arc::new(Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] });
         let mut element = Self {
@@ -147,6 +158,8 @@ impl Element {
             modes,
             pieces: tables,
         };
+
+        // The rows need the tables of the pieces, which are in the element by now.
         element.core_ends = [before, before + core_length].map(|s| Arc::new(element.row(s)));
         for (index, piece) in pieces.iter().enumerate() {
             element.add_stations(index, piece);
@@ -251,6 +264,9 @@ impl Element {
         let span = piece.span;
         let nodes = self.pieces[index].1.clone();
         let weights = lagrange::integrals(&nodes, 1.0);
+
+        // The spiral turns along the piece faster than the modes: its moments are integrated on finer points
+        // and assigned to the stations by their Lagrange polynomials.
         let mut materials = vec![SectionMoments::zero(); nodes.len()];
         for (x, fine, polynomials) in fine_points(&nodes) {
             let along = 0.5 * piece.length * (1.0 + x);
@@ -258,6 +274,7 @@ impl Element {
                 material.add_section(span, along, 0.5 * piece.length * fine * value);
             }
         }
+
         for ((x, weight), material) in nodes.iter().zip(weights).zip(materials) {
             let weight = 0.5 * piece.length * weight;
             let along = 0.5 * piece.length * (1.0 + x);

@@ -290,6 +290,9 @@ impl ElementDerivatives {
     ) -> &[f64] {
         let (freedoms, size) = (element.freedoms(), self.size);
         self.motion.fill(0.0);
+
+        // The base's own motion: a rigid displacement, and a rotation, which swings the point about the
+        // start.
         for k in 0..3 {
             let mut unit = Vector3::zeros();
             unit[k] = 1.0;
@@ -299,6 +302,8 @@ impl ElementDerivatives {
                 self.motion[axis * size + 3 + k] = swing[axis];
             }
             self.motion[(3 + k) * size + 3 + k] = 1.0;
+
+            // Displacement: integral of the change of the tangents up to here.
             let target = &mut self.motion[k * size + START..][..freedoms];
             for (station, weight) in row.position.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
                 let source = &self.tangents[(3 * station + k) * freedoms..][..freedoms];
@@ -306,6 +311,8 @@ impl ElementDerivatives {
                     *entry += weight * value;
                 }
             }
+
+            // Rotation: only the rotational strains turn the section, by the left Jacobian of their integral.
             let target = &mut self.motion[(3 + k) * size + START..][..freedoms];
             for (c, run) in element.runs.iter().filter(|(c, _)| *c < ROTATIONS) {
                 let factor = left[(k, *c)];

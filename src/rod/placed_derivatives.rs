@@ -12,6 +12,7 @@ impl ElementDerivatives {
     /// Adds a placed load, except for its force on the tangents of the stations before it.
     pub(super) fn add_placed(&mut self, element: &Element, placed: &PlacedLoad, second: bool) {
         let PlacedLoad { row, frame, load } = placed;
+
         let pull = load.couple * frame.pose.rotation;
         let rotations = || element.runs.iter().filter(|(c, _)| *c < ROTATIONS);
         if !second {
@@ -23,9 +24,11 @@ impl ElementDerivatives {
             }
             return;
         }
+
         let (slope, curve) = frame.theta.contract_rotation(&pull);
         let turn = load.couple.transpose() - Matrix3::identity() * load.couple.trace();
         let turn_left: Matrix3<f64> = turn * frame.left;
+
         for (a, own) in rotations() {
             for i in own.clone() {
                 let phi = row.integral[i];
@@ -36,11 +39,14 @@ impl ElementDerivatives {
                             phi * curve[(*a, *b)] * row.integral[j];
                     }
                 }
+
+                // Mixed derivatives with the start node's rotation.
                 for k in 0..3 {
                     self.hessian[(3 + k) * self.size + START + i] += turn_left[(k, *a)] * phi;
                 }
             }
         }
+
         if load.stiff {
             self.motion(element, row, &frame.pose.position, &frame.left);
             self.add_stiffness(load);
