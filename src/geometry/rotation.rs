@@ -50,6 +50,8 @@ pub fn axial(n: &Matrix3<f64>) -> Vector3<f64> {
 /// Stumpff functions `c_0 .. c_7` of `z`.
 fn stumpff(z: f64) -> [f64; 8] {
     let mut c = [0.0; 8];
+
+    // Upwards, c_{k+2} = (1 / k! - c_k) / z, where z is large enough that little cancels.
     if z > SERIES_LIMIT {
         let angle = z.sqrt();
         c[0] = angle.cos();
@@ -61,12 +63,16 @@ fn stumpff(z: f64) -> [f64; 8] {
         }
         return c;
     }
+
+    // Below, series for the last two (here as k! c_k, by Horner's rule), and the recurrence downwards: it
+    // divides by nothing.
     let terms = if z < SHORT_LIMIT { SERIES_TERMS / 2 } else { SERIES_TERMS };
     let (mut six, mut seven) = (0.0, 0.0);
     for (sixth, seventh) in SIXTH[..terms].iter().zip(&SEVENTH[..terms]).rev() {
         six = six * z + sixth;
         seven = seven * z + seventh;
     }
+
     c[6] = six / 720.0;
     c[7] = seven / 5040.0;
     c[5] = 1.0 / 120.0 - z * c[7];
@@ -75,6 +81,7 @@ fn stumpff(z: f64) -> [f64; 8] {
     c[2] = 0.5 - z * c[4];
     c[1] = 1.0 - z * c[3];
     c[0] = 1.0 - z * c[2];
+
     c
 }
 
@@ -190,14 +197,18 @@ impl RotationVector {
         m: &Matrix3<f64>,
     ) -> (Vector3<f64>, Matrix3<f64>) {
         let v = &self.vector;
+
         let symmetric = m + m.transpose();
         let g = symmetric * v;
         let along = sign * v.dot(w);
         let quadratic = 0.5 * v.dot(&g);
+
+        // By the chain rule, since z = theta.theta: d f(z) = 2 f'(z) theta.d theta.
         let first = self.slope(k) * t + self.slope(k + 1) * along + self.slope(k + 2) * quadratic;
         let second = self.second_slope(k) * t
             + self.second_slope(k + 1) * along
             + self.second_slope(k + 2) * quadratic;
+
         let linear = w * (sign * self.c[k + 1]) + g * self.c[k + 2];
         let mixed = w * (2.0 * sign * self.slope(k + 1)) + g * (2.0 * self.slope(k + 2)) + v * (2.0 * second);
         let product = v * mixed.transpose();
