@@ -65,6 +65,8 @@ impl BoundingTree {
             if distance >= best.square {
                 continue;
             }
+
+            // Down to the leaf in the nearer box; the other box waits, if it can still hold a nearer point.
             while self.nodes[at].count == 0 {
                 let halves = [at + 1, self.nodes[at].next as usize];
                 let [mut near, mut far] = halves.map(|half| (half, self.nodes[half].distance(point)));
@@ -80,6 +82,8 @@ impl BoundingTree {
                     break;
                 }
             }
+
+            // Empty after the break above: an inner node counts no triangles of its own.
             let Node { next, count: triangles, .. } = self.nodes[at];
             for place in next as usize..(next + triangles) as usize {
                 let found = nearest_on(&self.corners[place], point);
@@ -88,6 +92,7 @@ impl BoundingTree {
                 }
             }
         }
+
         best
     }
 }
@@ -108,9 +113,12 @@ fn divide(
         }
         (least, most) = (least.inf(&middles[number]), most.sup(&middles[number]));
     }
+
     let at = nodes.len();
     #[expect(clippy::cast_possible_truncation, reason = "fewer than 2^32")]
     nodes.push(Node { lower, upper, next: start as u32, count: numbers.len() as u32 });
+
+    // Halved at the median of the middles, along the axis on which these spread most.
     if numbers.len() > LEAF {
         let axis = (most - least).imax();
         let half = numbers.len() / 2;

@@ -121,6 +121,7 @@ impl Branch {
                 expected: format!("{}, one for each of at least 2 points", points.len()),
             });
         }
+
         for value in points.iter().flat_map(Vector3::iter).chain(radii) {
             check(
                 &format!("coordinate or radius (m) of vessel branch \"{name}\""),
@@ -129,6 +130,9 @@ impl Branch {
                 "finite",
             )?;
         }
+
+        // Knots at the chords' lengths: the spline then runs nearly at unit speed, without loops between
+        // unequal points.
         let mut knots = vec![0.0];
         for (number, pair) in (2..).zip(points.windows(2)) {
             let quantity =
@@ -136,12 +140,16 @@ impl Branch {
             let chord = check(&quantity, (pair[1] - pair[0]).norm(), |v| v > 0.0, "> 0")?;
             knots.push(knots[knots.len() - 1] + chord);
         }
+
         let values = points.iter().zip(radii).map(|(c, r)| Vector4::new(c.x, c.y, c.z, *r)).collect();
         let curve = Spline::new(knots, values)?;
         let pieces = pieces(&curve);
+
+        // Balls around groups of pieces, and around all: a look-up passes over most of them.
         let starts = (0..pieces.len()).step_by(GROUPED).map(|i| i..(i + GROUPED).min(pieces.len()));
         let groups = starts.map(|range| (range.clone(), Hull::of(&pieces[range]))).collect();
         let whole = Hull::of(&pieces);
+
         let branch = Self { name: name.into(), curve, pieces, groups, whole };
         branch.check_radii()?;
         Ok(branch)
@@ -255,6 +263,8 @@ impl Branch {
     ///
     /// Newton's method for the zero of the derivative, kept within a bracket by bisection.
     fn local_maximum(&self, piece: &Piece, point: &Vector3<f64>) -> Option<CurvePoint<4>> {
+        // Derivative of the depth r(t) - |p - c(t)| along the centreline; on the centreline itself, that of
+        // the radius alone.
         let slope = |place: &CurvePoint<4>| {
             let offset = point - place.value.xyz();
             let distance = offset.norm();
@@ -264,21 +274,26 @@ impl Branch {
                 place.first.w + offset.dot(&place.first.xyz()) / distance
             }
         };
+
         let [mut low, mut high] = piece.range;
         let [rise, fall] = [slope(&piece.ends[0]), slope(&piece.ends[1])];
         if rise < 0.0 || fall > 0.0 {
             return None;
         }
+
         let at = |t: f64| self.curve.within(piece.interval, t);
         let mut t = if rise > fall { low + (high - low) * rise / (rise - fall) } else { low };
         let mut place = at(t);
+
         for _ in 0..STEPS {
             let rise = slope(&place);
+
             *(if rise > 0.0 { &mut low } else { &mut high }) = t;
             let offset = point - place.value.xyz();
             let bend = second(&place, &offset, offset.norm());
             let newton = t - rise / bend;
             let found = (newton - t).abs() <= FOUND * piece.range[1];
+
             let next = if found || newton > low && newton < high { newton } else { 0.5 * (low + high) };
             if found || (next - t).abs() <= f64::EPSILON * piece.range[1] {
                 place = at(next);
@@ -286,6 +301,7 @@ impl Branch {
             }
             (t, place) = (next, at(next));
         }
+
         Some(place)
     }
 
@@ -295,11 +311,15 @@ impl Branch {
             for part in 0..=CHECKED {
                 let t = low + (high - low) * part as f64 / CHECKED as f64;
                 let CurvePoint { value, first, second } = self.curve.within(piece.interval, t);
+
                 let (centre, along) = (value.xyz() * 1e3, first.xyz());
                 let here = |what: &str| {
                     let [x, y, z] = [centre.x, centre.y, centre.z];
                     format!("{what} of vessel branch \"{}\" at ({x:.1}, {y:.1}, {z:.1}) mm", self.name)
                 };
+
+                // Where the radius changes as fast as the arc length, each ball holds its neighbour, and no
+                // wall is left.
                 check(&here("radius (m)"), value.w, |v| v > 0.0, "> 0")?;
                 let taper = first.w / along.norm();
                 check(
@@ -308,6 +328,7 @@ impl Branch {
                     |v| v.abs() < 1.0,
                     "between -1 and 1",
                 )?;
+
                 let curvature = along.cross(&second.xyz()).norm() / along.norm().powi(3);
                 let quantity = here("radius times curvature of the centreline");
                 check(&quantity, value.w * curvature, |v| v < 1.0, "< 1, or the wall would fold")?;

@@ -126,18 +126,26 @@ impl DistanceGrid {
         let place = (point - self.origin) / self.spacing;
         let scale = 1.0 / self.spacing;
         let ends = self.field.coarse().counts().map(|count| ((count - 1) * RATIO) as f64 - BORDER);
+
         if (0..3).all(|axis| place[axis] >= BORDER && place[axis] <= ends[axis]) {
             let SpacePoint { value, gradient, hessian } = self.field.at(&place);
             return Clearance { value, gradient: gradient * scale, hessian: hessian * (scale * scale) };
         }
+
+        // Near the border and beyond: the value at a point bent inwards, plus the loss by the distance from
+        // there.
         let mut bent = place;
         let (mut first, mut second) = (Vector3::repeat(1.0), Vector3::zeros());
         for axis in 0..3 {
             (bent[axis], first[axis], second[axis]) = bend(place[axis], ends[axis]);
         }
+
         let (inner, outer) = (self.field.at(&bent), self.outside(&(place - bent)));
         let (stays, goes) = (Matrix3::from_diagonal(&first), Matrix3::from_diagonal(&first.map(|v| 1.0 - v)));
+
+        // Second derivatives by the chain rule: the bend's own curvature acts on the gradients' difference.
         let turn = second.component_mul(&(inner.gradient - outer.gradient));
+
         Clearance {
             value: inner.value + outer.value,
             gradient: (stays * inner.gradient + goes * outer.gradient) * scale,

@@ -89,9 +89,12 @@ impl Surface {
                 edges.push(([from.min(to), from.max(to)], number, edge));
             }
         }
+
         edges.sort_unstable();
         let mut neighbours = vec![[0; 3]; self.triangles.len()];
         let (mut open, mut crowded): (Vec<Edge>, Vec<Edge>) = (Vec::new(), Vec::new());
+
+        // On a closed surface each edge is shared by two triangles.
         for group in edges.chunk_by(|a, b| a.0 == b.0) {
             match group {
                 [(_, first, edge), (_, second, other)] => {
@@ -102,6 +105,7 @@ impl Surface {
                 _ => crowded.push(group[0]),
             }
         }
+
         let aside = flat.first().map_or(String::new(), |first| {
             format!(" (leaving out {} without area, first triangle {first})", flat.len())
         });
@@ -113,6 +117,7 @@ impl Surface {
                 return Err(Error::range(quantity, edges.len() as f64, "0, as it is of a closed surface"));
             }
         }
+
         if self.triangles.is_empty() {
             return Err(Error::range(
                 format!("number of triangles with an area of the vessel's mesh{aside}"),
@@ -120,6 +125,7 @@ impl Surface {
                 "at least 4",
             ));
         }
+
         Ok(neighbours)
     }
 
@@ -195,18 +201,22 @@ impl Surface {
         for corner in self.triangles.iter().flatten() {
             around[*corner] += 1;
         }
+
         let mut seen = vec![false; self.vertices.len()];
         for first in 0..self.triangles.len() {
             for corner in self.triangles[first] {
                 if core::mem::replace(&mut seen[corner], true) {
                     continue;
                 }
+
+                // Around the corner from neighbour to neighbour, until the first triangle comes again.
                 let (mut triangle, mut fan) = (first, 0);
                 while fan <= around[corner] && (fan == 0 || triangle != first) {
                     let edge = self.triangles[triangle].iter().position(|own| *own == corner);
                     triangle = self.neighbours[triangle][edge.unwrap_or(0)];
                     fan += 1;
                 }
+
                 if fan != around[corner] {
                     return Err(Error::Unsupported(format!(
                         "the vessel's mesh touches itself in a single point at {}",
@@ -215,6 +225,7 @@ impl Surface {
                 }
             }
         }
+
         Ok(())
     }
 }

@@ -43,34 +43,43 @@ pub(super) fn nearest_on([a, b, c]: &[Vector3<f64>; 3], point: &Vector3<f64>) ->
         point: at,
         square: (point - at).norm_squared(),
     };
+
     let from = point - a;
     let (b_of_a, c_of_a) = (ab.dot(&from), ac.dot(&from));
     if b_of_a <= 0.0 && c_of_a <= 0.0 {
         return found(Part::Corner(0), *a);
     }
+
     let from = point - b;
     let (b_of_b, c_of_b) = (ab.dot(&from), ac.dot(&from));
     if b_of_b >= 0.0 && c_of_b <= b_of_b {
         return found(Part::Corner(1), *b);
     }
+
     let from = point - c;
     let (b_of_c, c_of_c) = (ab.dot(&from), ac.dot(&from));
     if c_of_c >= 0.0 && b_of_c <= c_of_c {
         return found(Part::Corner(2), *c);
     }
+
+    // Products of edges and offsets are the barycentric coordinates, not normalised: that of c, then of b and
+    // a.
     let of_c = b_of_a * c_of_b - b_of_b * c_of_a;
     if of_c <= 0.0 && b_of_a >= 0.0 && b_of_b <= 0.0 {
         return found(Part::Edge(0), a + ab * (b_of_a / (b_of_a - b_of_b)));
     }
+
     let of_b = b_of_c * c_of_a - b_of_a * c_of_c;
     if of_b <= 0.0 && c_of_a >= 0.0 && c_of_c <= 0.0 {
         return found(Part::Edge(2), a + ac * (c_of_a / (c_of_a - c_of_c)));
     }
+
     let of_a = b_of_b * c_of_c - b_of_c * c_of_b;
     let (to_b, to_c) = (b_of_c - c_of_c, c_of_b - b_of_b);
     if of_a <= 0.0 && to_b >= 0.0 && to_c >= 0.0 {
         return found(Part::Edge(1), b + (c - b) * (to_c / (to_b + to_c)));
     }
+
     let whole = of_a + of_b + of_c;
     found(Part::Face, a + ab * (of_b / whole) + ac * (of_c / whole))
 }

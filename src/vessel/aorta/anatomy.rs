@@ -190,12 +190,15 @@ impl Aorta {
             internal_direction: [-25.0 * DEGREE, 0.0],
             ..iliac()
         });
+
         let side = |artery: SideArtery, azimuth: f64, outwards: f64| SideArtery {
             azimuth,
             turn: [outwards * DEGREE, 0.0],
             ..artery
         };
+
         let spatial = Self::spatial();
+
         Self {
             lordosis: 0.0,
             celiac: side(spatial.celiac, FRAC_PI_2, 15.0),
@@ -226,6 +229,7 @@ impl Aorta {
             length: [20e-3, 100e-3, 60e-3][which],
             turn: [[20.0 * DEGREE, 0.0], [-33.0 * DEGREE, 10.0 * DEGREE], [-20.0 * DEGREE, 0.0]][which],
         });
+
         let [left_renal, right_renal] = [0, 1].map(|side| SideArtery {
             width: RENAL[side][0],
             height: UNPAIRED_HEIGHTS[1] - RENAL_BELOW[side],
@@ -234,12 +238,14 @@ impl Aorta {
             length: RENAL[side][1],
             turn: [[0.0, -15.0 * DEGREE], [0.0, 45.0 * DEGREE]][side],
         });
+
         let [left_iliac, right_iliac] = COMMON_ILIAC_ANGLES.map(|angle| Iliac {
             common_direction: [angle, -12.0 * DEGREE],
             external_direction: [30.0 * DEGREE, 38.0 * DEGREE],
             internal_direction: [0.0, -50.0 * DEGREE],
             ..iliac()
         });
+
         let [top_width, bottom_width] = AORTA_WIDTHS;
         Self {
             top_width,

@@ -100,6 +100,9 @@ impl Aorta {
                 points: stations.iter().map(|s| course.place(*s).point - layout.port).collect(),
                 radii: stations.iter().map(|s| radius(*s)).collect(),
             };
+
+        // The left iliac artery is listed from behind the port upwards, so that it goes on into the aorta as
+        // one branch.
         let mut aorta = artery(
             "left iliac and aorta",
             format!(
@@ -112,10 +115,13 @@ impl Aorta {
             layout.left.stations().into_iter().rev().collect(),
             &|s| layout.iliac_radius(&self.left_iliac, 0.5 * self.bottom_width, s),
         );
+
+        // The first station of the aorta is the last of the iliac artery.
         for station in layout.aorta.stations().into_iter().skip(1) {
             aorta.points.push(layout.aorta.place(station).point - layout.port);
             aorta.radii.push(self.radius(&layout, station));
         }
+
         let start = 0.5 * WITHIN * self.bottom_width;
         let right = artery(
             "right iliac",
@@ -124,6 +130,7 @@ impl Aorta {
             layout.right.stations(),
             &|s| layout.iliac_radius(&self.right_iliac, start, s),
         );
+
         let mut out = vec![aorta, right];
         let sides = [
             ("left internal iliac", &self.left_iliac, &layout.left),
@@ -134,6 +141,7 @@ impl Aorta {
             let remark = format!("{} mm wide: Koziej et al. 2024", millimetres(iliac.internal_width));
             out.push(artery(name, remark, &course, course.stations(), &|_| 0.5 * iliac.internal_width));
         }
+
         for (name, side, source) in self.side_arteries() {
             let course = self.side_course(&layout, side)?.course;
             let remark = format!("{} mm wide: {source}", millimetres(side.width));
@@ -223,6 +231,7 @@ impl Aorta {
             ("width of the aorta's bottom", self.bottom_width),
             ("length behind the port", self.behind_port),
         ];
+
         let mut angles = vec![("the lordosis", self.lordosis)];
         for (name, side, _) in self.side_arteries() {
             positive.extend([(name, side.width), (name, side.length - 0.5 * side.width)]);
@@ -231,6 +240,7 @@ impl Aorta {
             let quantity = format!("angle (deg) of the artery \"{name}\"");
             check(&quantity, angle, |v| (20.0..=150.0).contains(&v), "between 20 and 150")?;
         }
+
         for iliac in [&self.left_iliac, &self.right_iliac] {
             let directions = [iliac.common_direction, iliac.external_direction, iliac.internal_direction];
             angles.extend(directions.into_iter().flatten().map(|angle| ("an iliac artery", angle)));
@@ -245,6 +255,7 @@ impl Aorta {
                 ),
             ]);
         }
+
         for (name, value) in positive {
             check(&format!("{name} (m)"), value, |v| v > 0.0, "> 0")?;
         }
@@ -252,6 +263,7 @@ impl Aorta {
             let quantity = format!("angle (deg) of {name}");
             check(&quantity, angle.to_degrees(), |v| v.abs() <= 180.0, "between -180 and 180")?;
         }
+
         check("access length (m)", self.access_length, |v| v >= 0.0, ">= 0")?;
         let celiac = self.celiac.height;
         check("length of the aorta (m)", self.length, |v| v > celiac, "beyond the celiac trunk")?;

@@ -78,12 +78,16 @@ impl Aorta {
                 "no artery \"{artery}\" leaves the aorta; there are {known}"
             )));
         };
+
         let length = side.length;
         check("depth (m) in the artery", depth, |v| (0.0..=length).contains(&v), "within its length")?;
         let layout = self.layout()?;
         let SideCourse { course, start, to_mouth, .. } = self.side_course(&layout, side)?;
+
         let lengths = [layout.to_port, start, to_mouth + depth];
         let mut points = Vec::new();
+
+        // Points at equal distances, without the last: that is the next part's first.
         let mut add = |length: f64, place: &dyn Fn(f64) -> Vector3<f64>| {
             let count = (length / STEP).ceil();
             let mut step = 0.0;
@@ -92,9 +96,12 @@ impl Aorta {
                 step += 1.0;
             }
         };
+
+        // The left iliac artery runs downwards from the parting, hence backwards here.
         add(lengths[0], &|at| layout.left.place(lengths[0] - at).point);
         add(lengths[1], &|at| layout.aorta.place(at).point);
         add(lengths[2], &|at| course.place(at).point);
+
         points.push(course.place(lengths[2]).point - layout.port);
         Ok(Route { points, length: lengths.iter().sum() })
     }
