@@ -243,21 +243,27 @@ impl Hierarchy {
         let richest = self.models.richest();
         let (mut iterations, mut sound) = (0, None);
         self.present = first;
+
         loop {
             let report = solve(&mut self.models, self.present, sound)?;
             iterations += report.iterations;
             let (at_richest, report) = (self.present == richest, Report { iterations, ..report });
+
+            // Nothing is left to try: what the richest model could not solve is the result.
             if at_richest && !report.solved() {
                 self.estimate = None;
                 return Ok(report);
             }
+
             sound = self.is_sound(&report).then_some(self.present);
             if (at_richest || sound.is_some()) && self.is_accurate(inputs, deadline)? {
                 return Ok(report);
             }
+
             if at_richest {
                 return self.refine(inputs, report, deadline);
             }
+
             self.present = if report.solved() { self.present + 1 } else { richest };
         }
     }

@@ -177,6 +177,7 @@ impl Models {
         if number < richest && self.is_refinement(richest, number) {
             return self.error_of_coarse(number);
         }
+
         let mut apart = TipDeviation::NONE;
         if number < richest {
             let (cheaper, richest) = self.whole.split_at_mut(richest);
@@ -186,11 +187,14 @@ impl Models {
             }
             apart = deviation;
         }
+
         self.make(number.max(richest) + 1)?;
         let number = number.max(richest);
+
         if self.at(number).is_soft() {
             return Ok(self.error_of_soft(number)?.map(|error| error.beside(apart)));
         }
+
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
         Ok(above[0].error_of(model).map(|error| ModelError::of_discretisation(&error).beside(apart)))

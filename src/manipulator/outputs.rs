@@ -128,8 +128,10 @@ impl Outputs {
     /// Outputs of the straight, unloaded manipulator at the origin, the state of a new or reset `solution`.
     pub(crate) fn straight(solution: &impl Solution, resolution: Resolution) -> Self {
         let zero = Vector3::zeros();
+
         let (shape_arc_length, shape) = solution.shape().unzip();
         let Resolution { interaction, degree, error_estimate, beyond_tolerance } = resolution;
+
         Self {
             tip_angle: 0.0,
             tip: solution.tip(),
@@ -173,22 +175,28 @@ impl Outputs {
         (self.magnetic_force, self.magnetic_torque) = (magnetic.force, magnetic.torque);
         let base = solution.base_reaction();
         (self.base_reaction_force, self.base_reaction_moment) = (base.force, base.torque);
+
+        // Not known at this shape: computed only where they are asked for.
         self.mutual_wrenches.clear();
         self.shape_tangents.clear();
         self.shape_curvatures.clear();
         self.reactions.clear();
+
         self.reactions.extend((0..inputs.sources.len()).map(|number| {
             let Wrench { force, torque } = solution.source_reaction(number, inputs);
             Reaction { source: solution.sources().name(number), force, torque }
         }));
+
         self.tip_field = solution.field_at(inputs, &self.tip.position).unwrap_or_default();
         self.wall = solution.wall();
         self.feed_reaction = solution.feed_reaction(inputs);
         self.feed_length = self.feed_reaction.map(|_| inputs.insertion);
+
         let places = self.shape.iter_mut().zip(&mut self.shape_arc_length);
         places.zip(solution.shape()).for_each(|((point, place), (s, at))| (*point, *place) = (at, s));
         self.rings.iter_mut().zip(solution.rings()).for_each(|(slot, pose)| *slot = pose);
         self.core_angles.iter_mut().zip(solution.core_angles()).for_each(|(slot, angle)| *slot = angle);
+
         let Resolution { interaction, degree, error_estimate, beyond_tolerance } = resolution;
         (self.interaction, self.degree) = (interaction, degree);
         (self.error_estimate, self.beyond_tolerance) = (error_estimate, beyond_tolerance);

@@ -50,10 +50,14 @@ impl Hierarchy {
     pub(super) fn solve_pushed(&mut self, inputs: &Inputs, push: f64) -> Result<Report, Error> {
         self.present().check(inputs)?;
         let deadline = self.deadline();
+
         let known = self.present().inputs().map(|last| last.insertion);
         let mut length = known.unwrap_or(inputs.insertion);
         let mut balance =
             Balance { between: [0.0, LONGEST_INSERTION], last: None, stiffness: 0.0, ran: false };
+
+        // A Newton step from the last solution, whose stiffness is known; useless where the shaft is free to
+        // slide.
         if known.is_some()
             && let Some(response) = self.present().feed_response(Some(inputs))
             && response.stiffness > FREE * response.elastic
@@ -63,15 +67,18 @@ impl Hierarchy {
             length -= (missing / response.stiffness).clamp(-STRIDE, STRIDE);
             length = length.clamp(0.0, LONGEST_INSERTION);
         }
+
         let (mut iterations, mut snaps) = (0, 0);
         for _ in 0..SOLVES {
             let at = Inputs { insertion: length, ..inputs.clone() };
             let report = self.solve_before(&deadline, &at)?;
             (iterations, snaps) = (iterations + report.iterations, snaps + report.snaps);
             let report = Report { iterations, snaps, ..report };
+
             if !report.solved() {
                 return Ok(report);
             }
+
             let model = self.present();
             let Some(held) = model.feed_reaction(&at) else { return Ok(report) };
             match balance.next(model, &at, held - push) {
@@ -85,6 +92,7 @@ impl Hierarchy {
                 }
             }
         }
+
         Ok(Report { outcome: Outcome::OutOfBudget(Budget::Iterations), iterations, snaps, ..Report::start() })
     }
 }
@@ -96,10 +104,15 @@ impl Balance {
         if missing.abs() <= BALANCED || here == 0.0 && missing > 0.0 {
             return None;
         }
+
+        // The residual of the shapes limits what can be balanced: a small difference that no longer halves is
+        // the end.
         if self.last.is_some_and(|last| 2.0 * missing.abs() > last[1].abs()) && missing.abs() <= UNDETERMINED
         {
             return None;
         }
+
+        // Secant slope, and only where there is none the response, which needs a factorised Hessian.
         if let Some([length, lacking]) = self.last.replace([here, missing])
             && (here - length).abs() >= DIFFERENT
         {
@@ -108,17 +121,23 @@ impl Balance {
         if self.stiffness <= 0.0 {
             self.stiffness = model.feed_response(None).map_or(0.0, |response| response.stiffness);
         }
+
         self.between[usize::from(missing > 0.0)] = here;
+
         let step = if self.stiffness > 0.0 {
             (-missing / self.stiffness).clamp(-STRIDE, STRIDE)
         } else {
             self.ran = true;
             -STRIDE * missing.signum()
         };
+
         let [low, high] = self.between;
         if high - low <= SETTLED || step.abs() <= SETTLED {
             return None;
         }
+
+        // Inside the bracket the step is taken, at its ends clamped where nothing was tried yet, else it is
+        // halved.
         let next = here + step;
         if next > low && next < high {
             return Some(next);

@@ -45,6 +45,7 @@ impl DesignEntries {
 
     pub(super) fn specification(&self) -> Result<Specification, Error> {
         self.refuse_keys_of_other_kind()?;
+
         let segments = self.segments.unwrap_or(Self::SEGMENTS);
         Ok(match self.kind {
             DesignKind::Segments => Specification::Segmented(Segmented {
@@ -64,6 +65,7 @@ impl DesignEntries {
                 ring: self.ring.unwrap_or_default().si(),
                 backbone: self.backbone.map(|entries| entries.si("design.backbone")).transpose()?,
             }),
+
             DesignKind::Cylinder => Specification::Cylinder(Cylinder {
                 length: required("design.length_mm", self.length_mm)? / MM_PER_M,
                 radius: required("design.radius_mm", self.radius_mm)? / MM_PER_M,

@@ -95,6 +95,8 @@ impl Faults<'_> {
                 Ok(file) => break file,
                 Err(error) => error,
             };
+
+            // The deserialiser stops at its first error: note it, take the entry out and read again.
             let span = error.span().unwrap_or(0..0);
             let path = entries(root.get_ref()).into_iter().rfind(|entry| entry.is_at(&span));
             let path = path.map(|entry| entry.path);
@@ -104,8 +106,12 @@ impl Faults<'_> {
                 return None;
             }
         };
+
         file.design.complete();
         let mut written = Value::Table(file.table().ok()?);
+
+        // Arrays of fixed length are read without complaint when they are too long: compare with what was
+        // kept.
         for Entry { path, span, value, .. } in entries(kept.get_ref()) {
             if let DeValue::Array(given) = value
                 && let Ok(Value::Array(kept)) = entry(&mut written, &path)
@@ -117,6 +123,7 @@ impl Faults<'_> {
                 );
             }
         }
+
         Some(file)
     }
 

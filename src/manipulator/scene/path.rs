@@ -27,12 +27,14 @@ pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value
     let first = path.strip_prefix("magnet.").filter(|_| root.get("magnet").is_some_and(Value::is_array));
     let of_first = first.map(|rest| format!("magnet[1].{rest}"));
     let path = of_first.as_deref().unwrap_or(path);
+
     let mut here = root;
     for part in path.split('.') {
         let (key, indices) = part.split_once('[').map_or((part, None), |(key, rest)| (key, Some(rest)));
         let Value::Table(table) = here else {
             return Err(Error::Unsupported(format!("unknown key `{path}`: `{key}` is not in a table")));
         };
+
         if !table.contains_key(key) {
             if let Some(optional) = OPTIONAL
                 .iter()
@@ -48,6 +50,7 @@ pub(super) fn entry<'a>(root: &'a mut Value, path: &str) -> Result<&'a mut Value
             };
             return Err(Error::Unsupported(format!("unknown key `{path}`{}", suggestion(key, &known))));
         }
+
         here = &mut table[key];
         if let Some(rest) = indices {
             here = indexed(here, rest, path)?;

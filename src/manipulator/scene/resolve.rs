@@ -60,13 +60,16 @@ impl SceneFile {
         let design = Design::new(specification.clone())?;
         let inputs = self.inputs(&design)?;
         let sources = self.sources()?;
+
         let vessel = self.vessel.as_ref().map(vessel_of).transpose()?.flatten();
         let shaft = self.shaft(&specification)?;
         let guidewire = self.guidewire.map(GuidewireEntries::si);
+
         design.clone().with(shaft.as_ref(), guidewire.as_ref())?;
         if let Some(vessel) = &vessel {
             fits(&design, vessel, &inputs)?;
         }
+
         let settings = self.settings()?;
         self.uncertainty()?;
         let way = Way::new(
@@ -80,6 +83,7 @@ impl SceneFile {
             },
             &inputs,
         )?;
+
         let scene = Scene {
             specification,
             sources: Sources::new(sources)?,
@@ -91,6 +95,7 @@ impl SceneFile {
             settings,
             method: self.model.method.clone(),
         };
+
         scene.sources.check_apart(|number| {
             let placed = scene.inputs.sources.get(number)?;
             scene.sources.is_there(number, placed.strength).then_some((placed.pose, true))
@@ -119,6 +124,7 @@ impl SceneFile {
     fn inputs(&self, design: &Design) -> Result<Inputs, Error> {
         let rings = design.rings().count();
         let mut inputs = Inputs::unloaded(rings);
+
         inputs.sources = self.placed_sources(beside(design))?;
         let FieldEntries { uniform_mt, turn_axis, turn_deg, gradient_t_per_m } = self.field;
         inputs.uniform_field =
@@ -126,17 +132,21 @@ impl SceneFile {
         inputs.field_gradient = gradient_t_per_m;
         let base = pose("base", in_metres(self.base.position_mm), self.base.orientation_wxyz)?;
         inputs.base = turned(&turn("base", self.base.turn_axis, self.base.turn_deg)?, base);
+
         if let Some(feed) = &self.feed {
             (inputs.insertion, inputs.roll) = (feed.insertion_mm / MM_PER_M, feed.roll_deg.to_radians());
             inputs.feed_force = (feed.mode == FeedMode::Force).then(|| feed.force_n.unwrap_or(0.0));
         }
+
         if let Some(wire) = &self.guidewire {
             let reach = GUIDEWIRE_INSERTION.check("guidewire.insertion_mm", wire.insertion_mm)?;
             inputs.guidewire_insertion = reach / MM_PER_M;
         }
+
         inputs.tip_force = self.load.tip_force_n.into();
         inputs.tip_moment = self.load.tip_moment_nm.into();
         inputs.gravity = self.gravity.acceleration_m_s2.into();
+
         if let Some(forces) = &self.load.ring_force_n {
             if forces.len() != rings {
                 return Err(Error::Count {
@@ -147,16 +157,19 @@ impl SceneFile {
             }
             inputs.ring_forces = forces.iter().map(|&force| force.into()).collect();
         }
+
         Ok(inputs)
     }
 
     /// The shaft that is pushed in: its own table, or the backbone that goes on behind the base.
     fn shaft(&self, specification: &Specification) -> Result<Option<Backbone>, Error> {
         let Some(feed) = &self.feed else { return Ok(None) };
+
         TURN.check("feed.roll_deg", feed.roll_deg)?;
         if let Some(force) = feed.force_n.filter(|_| feed.mode != FeedMode::Force) {
             check("feed.force_n", force, |v| v == 0.0, "0 unless feed.mode = \"force\"")?;
         }
+
         if feed.mode == FeedMode::Clamped {
             check(
                 "feed.insertion_mm",
@@ -171,10 +184,12 @@ impl SceneFile {
                 None => Ok(None),
             };
         }
+
         INSERTION.check("feed.insertion_mm", feed.insertion_mm)?;
         if let Some(shaft) = feed.shaft {
             return Ok(Some(shaft.si("feed.shaft")?));
         }
+
         match specification {
             Specification::Segmented(Segmented { backbone: Some(backbone), .. }) => Ok(Some(*backbone)),
             _ => Err(Error::Unsupported(

@@ -94,6 +94,7 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
     let bulk = ["elastic_modulus_mpa", "remanence_t"];
     let pushed = has("mode", json!({ "enum": ["insertion", "force"] }));
     let pushed_without_shaft = json!({ "allOf": [pushed, { "not": { "required": ["shaft"] } }] });
+
     vec![
         (
             "",
@@ -226,11 +227,14 @@ fn tidy(node: &mut Value) {
             if map.get("default").is_some_and(Value::is_object) {
                 map.remove("default");
             }
+
             if let Some(Value::Array(types)) = map.get("type")
                 && let Some(own) = types.iter().find(|own| *own != "null").cloned()
             {
                 map.insert("type".into(), own);
             }
+
+            // An alternative beside null alone is no choice: its entries take the place of the list.
             if let Some(Value::Array(alternatives)) = map.get_mut("anyOf") {
                 alternatives.retain(|own| own["type"] != "null");
                 if let [only] = &alternatives[..] {
@@ -241,6 +245,7 @@ fn tidy(node: &mut Value) {
                     }
                 }
             }
+
             map.values_mut().for_each(tidy);
         }
         Value::Array(list) => list.iter_mut().for_each(tidy),

@@ -203,6 +203,7 @@ impl CoilEntries {
             }
             (None, None) => None,
         };
+
         let inner_radius = self.inner_radius_mm / MM_PER_M;
         let coil = Coil { inner_radius, outer_radius, length, turns: self.turns };
         Ok(match multipoles {

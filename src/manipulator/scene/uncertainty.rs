@@ -50,6 +50,7 @@ impl Uncertainty {
                 return Err(Error::Count { quantity: quantity.into(), given, expected });
             }
         }
+
         for (key, deviation) in keys.iter().zip(deviations) {
             DEVIATION.check(&format!("`{key}`"), *deviation)?;
         }
@@ -58,11 +59,14 @@ impl Uncertainty {
             let name = format!("`{row}{SEPARATOR}{column}`");
             CORRELATION.check(&name, *value)?;
         }
+
         if Cholesky::new(correlation.clone()).is_none() {
             return Err(Error::Unsupported(
                 "the correlations contradict one another: their matrix is not positive definite".into(),
             ));
         }
+
+        // A file's tables have no order: sorted by key, equal lists compare equal.
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by_key(|&index| &keys[index]);
         Ok(Self {
