@@ -77,15 +77,18 @@ impl Arcs {
         let base = around.inputs.base;
         let (nodes, _) = place(&self.arcs, &self.angles, &base);
         let mut trace = Trace::default();
+
         for (element, (arc, angles)) in self.arcs.iter().zip(&self.angles).enumerate() {
             let offset = around.line.chain.elements[element].offset;
             trace.add_rigid(offset, &nodes[element]);
             let mut pose = nodes[element].advanced(offset);
+
             for (piece, span) in around.line.spans[element].iter().enumerate() {
                 let (start, bends) = (pose, piece == arc.core);
                 let local = Vector3::new(angles.x, angles.y, 0.0) / arc.length;
                 let turning = if bends { start.rotation * local } else { Vector3::zeros() };
                 let links = if bends { LINKS } else { 1 };
+
                 for link in 0..links {
                     let part = (link + 1) as f64 / links as f64;
                     let end =
@@ -102,15 +105,19 @@ impl Arcs {
                 }
             }
         }
+
         trace.add_rigid(around.line.chain.tip_offset, &nodes[self.arcs.len()]);
         let residual = DVector::zeros(0);
         let balance = Balance { around, arcs: &self.arcs, residual, factors: None };
         let (bodies, _, _, _) = balance.bodies(&self.angles, Order::Gradient)?;
+
+        // All loads together, with their moments about the base.
         let total = bodies.iter().fold(Vector6::zeros(), |total, body| {
             let force = body.gradient.fixed_rows::<3>(0).into_owned();
             let moment = (body.position - base.position).cross(&force) + body.gradient.fixed_rows::<3>(3);
             total - column(&force, &moment)
         });
+
         Some(Shape { nodes, base: total, trace })
     }
 }

@@ -90,6 +90,8 @@ impl Surroundings<'_> {
         for _ in 0..STEPS {
             let (end, own) = across(&start.relieved(&moment))?;
             let touching = self.stop_of(span).and(self.winding_moment(span.0, [&start.pose, &end.pose]));
+
+            // Open under a relief that is not zero decides nothing: try again without.
             let Some(carried) = touching else {
                 if moment == open {
                     return Some(Crossed { moment, end, own });
@@ -97,18 +99,22 @@ impl Surroundings<'_> {
                 moment = open;
                 continue;
             };
+
             let turned = own.fixed_rows::<3>(3);
             let [by_near, by_far] = carried.by_ends;
             let rate = Matrix3::identity() + by_far * turned.fixed_columns::<3>(9);
             let inverse = rate.try_inverse()?;
             let excess = moment - carried.moment;
+
             if excess.norm() <= SETTLED * self.line.moment {
+                // By the implicit function theorem, at the moment that solves the equation.
                 let mut by_state = by_far * turned;
                 let mut by_near_end = by_state.fixed_columns_mut::<3>(3);
                 by_near_end += by_near;
                 let own = beside(&(inverse * by_state), &own);
                 return Some(Crossed { moment, end: end.relieved(&-moment), own });
             }
+
             moment -= inverse * excess;
         }
         None

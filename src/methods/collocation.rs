@@ -74,10 +74,12 @@ impl Collocation {
         let base = around.inputs.base;
         let turn = base.rotation * self.guess.shape.nodes[0].rotation.transpose();
         let turned = |element: &Vec<Interval>| element.iter().map(|i| i.turned(&turn)).collect();
+
         let mut guess = Guess {
             shape: self.guess.shape.carried(&base),
             mesh: self.guess.mesh.iter().map(turned).collect(),
         };
+
         let mut iterations = 0;
         for _ in 0..ROUNDS {
             let mut equations = Collocated::new(around, &self.tableau);
@@ -87,6 +89,7 @@ impl Collocation {
             if !end.converged {
                 return end;
             }
+
             let Some(refined) = equations.refined(&mut guess, settings.mesh_tolerance) else { break };
             if !refined {
                 self.guess = guess;
@@ -224,12 +227,14 @@ impl Equations for Collocated<'_, '_> {
 
     fn linearise(&mut self, at: &Guess) -> Option<f64> {
         let (mut ends, mut links) = (Vec::new(), Vec::new());
+
         self.residuals.clear();
         self.condensed.clear();
         for element in 0..at.mesh.len() {
             let (starts, windings) = starts(self.around, self.tableau, at, element);
             let mut condensed = Condensed::new(self.around, &self.basis, element, &at.shape.state(element));
             let mut residuals = Vec::new();
+
             for (interval, start) in at.mesh[element].iter().zip(&starts) {
                 let stages = (0..interval.rates.len()).map(|j| {
                     let place = interval.stage(self.tableau, j);
@@ -242,9 +247,11 @@ impl Equations for Collocated<'_, '_> {
                 );
                 condensed.add(self.tableau, interval, &stages)?;
             }
+
             if let Some(windings) = windings {
                 condensed.couple(windings)?;
             }
+
             let end = starts[starts.len() - 1];
             let mut link = condensed.link();
             link.next = at.shape.next(&self.basis, element, &end);
@@ -253,6 +260,7 @@ impl Equations for Collocated<'_, '_> {
             self.residuals.push(residuals);
             self.condensed.push(condensed);
         }
+
         let (loads, totals) = self.around.nodes(&at.shape.nodes, Order::Hessian)?;
         self.defects = at.shape.defects(&self.basis, &ends, &totals);
         self.system = NodeSystem::new(links, &couplings(&self.basis, &loads));

@@ -85,6 +85,7 @@ impl Comparison {
         let (model, settings) = (model.checked()?, settings.checked()?);
         let arc_lengths = arc_lengths(design.length(), shape_points)?;
         let (own, other) = (settings.method.name(), Method::Potential.name());
+
         if design.guidewire().is_some() {
             let reason = format!("method \"{own}\" has no guidewire: choose method \"{other}\"");
             return Err(Error::Unsupported(reason));
@@ -96,6 +97,7 @@ impl Comparison {
                 "method \"{own}\" has no interaction \"{level}\": choose \"{none}\" or \"{rings}\", or method \"{other}\""
             )));
         }
+
         let line = Line::new(design, &model)?;
         let state = State::straight(&line, &settings)?;
         Ok(Self {
@@ -140,11 +142,14 @@ impl Comparison {
         if self.settings.method == Method::Planar {
             Plane::of(inputs, &self.sources)?;
         }
+
         let before = self.state.clone();
         let start = self.state.inputs.clone().unwrap_or_else(|| inputs.without_loads());
         let smallest = self.settings.smallest_part;
         let mut report = Report::start();
         let (mut done, mut part) = (0.0, 1.0);
+
+        // Loads come in parts: halved where a part fails, doubled after each success.
         while done < 1.0 && part >= smallest {
             let next = f64::min(1.0, done + part);
             let target = if next >= 1.0 { inputs.clone() } else { start.between(inputs, next) };
@@ -154,6 +159,7 @@ impl Comparison {
                 part *= 0.5;
             }
         }
+
         let answers = if done >= 1.0 { self.answers(inputs) } else { None };
         let contact = self.contact(inputs);
         let (Some((energy, wrenches, clamp)), None) = (answers, contact) else {
@@ -161,6 +167,7 @@ impl Comparison {
             (report.outcome, report.progress) = (contact.map_or(report.outcome, Outcome::Contact), done);
             return Ok(report);
         };
+
         self.state.inputs = Some(inputs.clone());
         (self.state.wrenches, self.state.clamp) = (wrenches, clamp);
         (report.outcome, report.progress, report.energy) = (Outcome::Solved, 1.0, energy);

@@ -99,17 +99,20 @@ impl Condensed {
         for by in &mut windings.by_ends {
             *by /= self.units[9];
         }
+
         let Range { start, end } = windings.intervals;
         let (mut own, mut turned) = (self.offset, [SMatrix::<f64, 3, 12>::zeros(); 2]);
         let mut by_moment = SMatrix::<f64, 12, 3>::zeros();
         let mut inverse = Matrix3::zeros();
         for (k, interval) in self.intervals.iter().enumerate() {
+            // Within the core the windings' moment is taken off, after it given back.
             if k == start {
                 turned[0] = own.fixed_rows::<3>(3).into_owned();
                 by_moment.fixed_rows_mut::<3>(9).fill_with_identity();
                 by_moment.neg_mut();
             }
             (own, by_moment) = (interval.carried(&own), interval.carried(&by_moment));
+
             if k + 1 == end {
                 turned[1] = own.fixed_rows::<3>(3).into_owned();
                 let turned_by_moment = by_moment.fixed_rows::<3>(3);
@@ -118,6 +121,7 @@ impl Condensed {
                 moment += Matrix3::identity();
             }
         }
+
         let [near, far] = &windings.by_ends;
         self.own = own + by_moment * (inverse * (near * turned[0] + far * turned[1]));
         self.coupled = Some(Coupled { windings, inverse });
@@ -172,12 +176,15 @@ impl Condensed {
         mut step: Option<&mut Vec<f64>>,
     ) -> Vector12 {
         let core = self.coupled.as_ref().map_or(0..0, |coupled| coupled.windings.intervals.clone());
+
         let mut change = self.offset * start;
         for (k, (interval, own)) in self.intervals.iter().zip(particular).enumerate() {
             if k == core.start {
                 let mut internal = change.fixed_rows_mut::<3>(9);
                 internal -= moment;
             }
+
+            // The rates that condensation took out follow from the change of the interval's start.
             let rates = own + &interval.by_start * change;
             let (mut sum, turned) = split(&change);
             for (j, weight) in interval.weights.iter().enumerate() {
@@ -188,6 +195,7 @@ impl Condensed {
                 let mut internal = change.fixed_rows_mut::<3>(9);
                 internal += moment;
             }
+
             if let Some(step) = step.as_deref_mut() {
                 step.extend(rates.iter());
             }

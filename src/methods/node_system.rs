@@ -98,6 +98,7 @@ impl<const D: usize> NodeSystem<D> {
     /// The Newton correction for these defects.
     pub(super) fn solve(&self, defects: &Defects<D>) -> Option<Solution<D>> {
         let count = self.links.len();
+
         let mut right: Vec<SVector<f64, D>> = defects.wrench.iter().map(|defect| -defect).collect();
         for (k, (link, stiff)) in self.links.iter().zip(&self.stiffness).enumerate() {
             let wrench = -(stiff * defects.pose[k]);
@@ -106,6 +107,7 @@ impl<const D: usize> NodeSystem<D> {
                 right[k - 1] += wrench;
             }
         }
+
         match &self.factors {
             Factors::Tridiagonal(rows) => substitute(rows, &mut right),
             Factors::Full(lu) => {
@@ -118,6 +120,8 @@ impl<const D: usize> NodeSystem<D> {
                 }
             }
         }
+
+        // The wrenches, eliminated before, follow from the nodes' motion.
         let wrenches = (0..count).map(|k| {
             let link = &self.links[k];
             let mut end = link.next * right[k] - defects.pose[k];
@@ -126,6 +130,7 @@ impl<const D: usize> NodeSystem<D> {
             }
             self.stiffness[k] * end
         });
+
         Some(Solution { wrenches: wrenches.collect(), poses: right })
     }
 }

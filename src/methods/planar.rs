@@ -65,19 +65,26 @@ impl<'a, 'b> InPlane<'a, 'b> {
         let span = &self.around.line.spans[place.element][place.piece];
         let material = SectionMaterial::section(span, place.s).axisymmetric();
         let load = self.around.external(&material, &self.state(y).pose, order)?;
+
         let (sine, cosine) = y[2].sin_cos();
         let (d, t) = (SVector::<f64, 2>::new(sine, cosine), SVector::<f64, 2>::new(cosine, -sine));
         let n = SVector::<f64, 2>::new(y[3], y[4]);
+
         let k = &span.stiffness;
         let (along, across) = (n.dot(&d), n.dot(&t));
         let tangent = d * (1.0 + along / k.axial) + t * (across / k.shear);
+
+        // n' = dU/dr and m' = n x r' + dU/d(angle); angles turn from the second axis to the first.
         let force = self.axes.tr_mul(&gradient(&load));
         let couple = tangent[0] * n[1] - tangent[1] * n[0] + force[2];
         let rates = Vector6::new(tangent[0], tangent[1], y[5] / k.bending, force[0], force[1], couple);
+
         let mut by = Matrix6::zeros();
         if order == Order::Gradient {
             return Some((rates, by));
         }
+
+        // Both directions turn with the angle: d' = t, t' = -d.
         let by_angle = t * (1.0 + along * (1.0 / k.axial - 1.0 / k.shear))
             + d * (across * (1.0 / k.axial - 1.0 / k.shear));
         let by_force = d * d.transpose() / k.axial + t * t.transpose() / k.shear;
@@ -85,9 +92,11 @@ impl<'a, 'b> InPlane<'a, 'b> {
         by.fixed_view_mut::<2, 2>(0, 3).copy_from(&by_force);
         by[(2, 5)] = 1.0 / k.bending;
         by.fixed_view_mut::<3, 3>(3, 0).copy_from(&(self.axes.transpose() * derivative(&load) * self.axes));
+
         by[(5, 2)] += by_angle[0] * n[1] - by_angle[1] * n[0];
         by[(5, 3)] = by_force[(0, 0)] * n[1] - by_force[(1, 0)] * n[0] - tangent[1];
         by[(5, 4)] = by_force[(0, 1)] * n[1] - by_force[(1, 1)] * n[0] + tangent[0];
+
         Some((rates, by))
     }
 
@@ -208,26 +217,31 @@ impl Plane {
     pub(super) fn carried(&self, shape: &NodeShape) -> NodeShape {
         let moved = shape.carried(&self.base);
         let axis = self.base.axis();
+
         let across = |p: &Vector3<f64>| p - axis * p.dot(&axis);
         let aside = moved.nodes.iter().map(|node| across(&(node.position - self.base.position)));
         let bent = aside.fold(Vector3::zeros(), |a, b| if b.norm() > a.norm() { b } else { a });
         let old = bent.try_normalize(f64::MIN_POSITIVE).unwrap_or(self.across);
         let new = if old.dot(&self.across) < 0.0 { -self.across } else { self.across };
+
         let (old_normal, new_normal) = (axis.cross(&old), axis.cross(&new));
         let turned =
             |v: &Vector3<f64>| axis * v.dot(&axis) + new * v.dot(&old) + new_normal * v.dot(&old_normal);
         let in_plane = |v: &Vector3<f64>| v - self.normal * v.dot(&self.normal);
+
         let mut out = moved;
         for node in &mut out.nodes[1..] {
             let angle = self.angle(&turned(&node.axis()));
             let offset = in_plane(&turned(&(node.position - self.base.position)));
             *node = self.pose(self.base.position + offset, angle);
         }
+
         for wrench in &mut out.wrenches {
             let force = in_plane(&turned(&wrench.fixed_rows::<3>(0).into_owned()));
             let moment = turned(&wrench.fixed_rows::<3>(3).into_owned());
             *wrench = column(&force, &(self.normal * self.normal.dot(&moment)));
         }
+
         out
     }
 }

@@ -43,9 +43,12 @@ impl Surroundings<'_> {
         let mut state = self.offset(element, state, trace.as_deref_mut());
         for piece in 0..self.line.spans[element].len() {
             let (count, length) = self.steps(element, piece, steps);
+
+            // The windings of a closed core carry a part of its moment, so that its material carries less.
             let relief = self
                 .relief((element, piece), &state, |state| self.span_linear((element, piece), state, steps))?;
             state = state.relieved(&relief);
+
             for index in 0..count {
                 let place = Place { element, piece, s: index as f64 * length };
                 let next = self.step(&Step { place, start: state, length })?;
@@ -56,6 +59,7 @@ impl Surroundings<'_> {
                 }
                 state = next;
             }
+
             state = state.relieved(&-relief);
         }
         state.is_finite().then_some(state)

@@ -108,6 +108,7 @@ impl Problem<'_, '_> {
             reactions: vec![Vector6::zeros(); count + 1],
             columns: Vec::new(),
         };
+
         let mut columns = nalgebra::OMatrix::<f64, nalgebra::U12, nalgebra::Dyn>::zeros(if linear {
             self.size()
         } else {
@@ -117,6 +118,7 @@ impl Problem<'_, '_> {
             columns.rows_mut(6, 6).copy_from(&self.wrench_columns(0));
             shot.columns.push(columns.rows(0, 6).into_owned());
         }
+
         for element in 0..count {
             let state = State { pose: shot.nodes[element], wrench: shot.wrenches[element] };
             let mut end = if linear {
@@ -126,10 +128,12 @@ impl Problem<'_, '_> {
             } else {
                 around.cross(element, &state, self.steps, trace.as_deref_mut())?
             };
+
             let node = element + 1;
             shot.nodes.push(end.pose);
             let load = around.node(node, &shot.nodes, order)?;
             end.wrench += load.gradient;
+
             if linear {
                 let moved = columns.rows(0, 6).into_owned();
                 let mut added = load.own * &moved;
@@ -140,9 +144,13 @@ impl Problem<'_, '_> {
                 let mut target = columns.rows_mut(6, 6);
                 target += added;
             }
+
+            // Reactions on nodes already passed: their wrenches are unknowns, and these sums what they must
+            // equal.
             for pair in &load.pairs {
                 shot.reactions[pair.node] += pair.reaction;
             }
+
             if (1..=self.reacting()).contains(&node) {
                 end.wrench += self.wrench(unknowns, node);
                 if linear {
@@ -150,9 +158,11 @@ impl Problem<'_, '_> {
                     target += self.wrench_columns(node);
                 }
             }
+
             shot.loads.push(load);
             shot.wrenches.push(end.wrench);
         }
+
         if let Some(trace) = trace {
             trace.add_rigid(around.line.chain.tip_offset, &shot.nodes[count]);
         }

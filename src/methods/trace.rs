@@ -175,17 +175,22 @@ impl Trace {
         let mut out = Totals { wrenches: TermWrenches::none(), energy: self.stop_energy(around) };
         for (link, from) in self.links.iter().filter_map(|link| Some((link, link.place?))) {
             let span = &around.line.spans[from.element][from.piece];
+
             for (point, weight) in points.iter().zip(&weights) {
                 let x = 0.5 * (1.0 + point);
                 let weight = 0.5 * weight * link.length;
                 let place = Place { s: from.s + x * link.length, ..from };
                 let (pose, tangent, turning) = link.at(x);
+
+                // Strains in the material frame: rates along the unstrained arc length.
                 let stretch = pose.rotation.tr_mul(&tangent) / link.length - Vector3::z();
                 let curvature = pose.rotation.tr_mul(&turning) / link.length;
+
                 let k = &span.stiffness;
                 let bent = Vector3::new(k.bending, k.bending, k.torsion).component_mul(&curvature);
                 let sheared = Vector3::new(k.shear, k.shear, k.axial).component_mul(&stretch);
                 let stored = 0.5 * (bent.dot(&curvature) + sheared.dot(&stretch));
+
                 let (material, mut wrenches) =
                     (SectionMaterial::section(span, place.s), TermWrenches::none());
                 let load = around.on(&Frame::Section(&material), &pose, Order::Gradient, &mut wrenches)?;
