@@ -51,6 +51,9 @@ impl Samples {
         let values = uncertainty.keys.iter().map(|key| file.number(key)).collect::<Result<Vec<_>, _>>()?;
         let contradicting = || Error::Unsupported("the correlations contradict one another".into());
         let factor = Cholesky::new(uncertainty.covariance()).ok_or_else(contradicting)?.unpack();
+
+        // All deviates are drawn before the devices are solved, so that the seed alone decides, not the
+        // threads.
         let mut random = StdRng::seed_from_u64(seed);
         let deviates: Vec<DVector<f64>> = (0..count)
             .map(|_| {
@@ -58,6 +61,7 @@ impl Samples {
                 &factor * DVector::from_iterator(values.len(), normal)
             })
             .collect();
+
         let device = |deviate: &DVector<f64>| {
             let mut varied = file.clone();
             for ((key, value), by) in uncertainty.keys.iter().zip(&values).zip(deviate) {
@@ -66,6 +70,7 @@ impl Samples {
                     Err(_) => return Ok(Drawn::Refused),
                 }
             }
+
             let Ok(scene) = varied.scene() else { return Ok(Drawn::Refused) };
             let outputs = manipulator.variant(&scene.variant()?)?;
             done();
@@ -76,6 +81,7 @@ impl Samples {
                 Status::Solved | Status::NearFold => Drawn::On(Box::new(outputs)),
             })
         };
+
         let drawn = deviates.par_iter().map(device).collect::<Result<Vec<_>, Error>>()?;
         let mut out = Self { outputs: Vec::new(), snapped: 0, lost: 0, refused: 0 };
         for each in drawn {
