@@ -159,6 +159,7 @@ impl Case {
 
     fn points(&self) -> Result<Vec<Point>, Error> {
         let base = self.scene.settings;
+
         let fine = |(degree, pair_accuracy)| Settings {
             degree,
             pair_accuracy,
@@ -166,11 +167,15 @@ impl Case {
             time_budget: PATIENCE,
             ..base
         };
+
         let (Some(reference), Some(coarser)) =
             (self.reference(fine(REFERENCE))?, self.reference(fine(COARSER))?)
         else {
             return Ok(vec![self.empty("reference", "not solved", "cold")]);
         };
+
+        // The reference is as uncertain as it is far from a coarser one, and from that of an independent
+        // method.
         let mut uncertainty = self.tip_error(&coarser, &reference);
         if Method::Collocation.supports(base.interaction) {
             let solver = methods::Settings {
@@ -186,12 +191,16 @@ impl Case {
                 uncertainty = uncertainty.max(apart);
             }
         }
+
         let mut points = self.round(&reference, uncertainty)?;
+
+        // The least time of several rounds: other work on the machine can only add to it.
         for _ in 1..ROUNDS {
             for (point, again) in points.iter_mut().zip(self.round(&reference, uncertainty)?) {
                 point.time_us = point.time_us.zip(again.time_us).map(|(time, again)| time.min(again));
             }
         }
+
         Ok(points)
     }
 
@@ -248,7 +257,10 @@ impl Case {
         let mut manipulator = self.device(trial.settings, trial.solver)?;
         let warm = start == "warm";
         let walk = if warm { &self.walk[..] } else { std::slice::from_ref(&self.scene.inputs) };
+
+        // Solved once before the clock starts: a warm device begins there.
         let mut solved = manipulator.solve(&self.scene.inputs)?.status != Status::NotSolved;
+
         let (begin, mut count, mut time) = (Instant::now(), 0, f64::INFINITY);
         while count == 0 || (count < MOST_REPETITIONS && begin.elapsed() < BUDGET) {
             if !warm {
@@ -260,16 +272,19 @@ impl Case {
             }
             (count, time) = (count + 1, time.min(start.elapsed().as_secs_f64() / walk.len() as f64));
         }
+
         let outputs = manipulator.outputs();
         let point = self.empty(trial.name, &trial.resolution, start);
         if !solved {
             return Ok(Point { reference_over_length: Some(uncertainty), ..point });
         }
+
         let wrench = |a: &Outputs, b: Option<&Outputs>| {
             let other = |pick: fn(&Outputs) -> Vector3<f64>| b.map_or_else(Vector3::zeros, pick);
             (a.magnetic_force - other(|o| o.magnetic_force)).norm()
                 + (a.magnetic_torque - other(|o| o.magnetic_torque)).norm() / self.length
         };
+
         Ok(Point {
             time_us: Some(1e6 * time),
             tip_over_length: Some(self.tip_error(outputs, reference)),

@@ -92,10 +92,12 @@ fn bend(
 ) -> Result<Vec<Option<Known>>, Error> {
     let file = SceneFile::parse(text, "study")?;
     let scene = file.scene()?;
+
     let (keys, sizes) = sized(&file, deviations)?;
     let mut neighbours = Neighbours::new(&file, &keys)?;
     let mut manipulator = scene.manipulator(2)?;
     let mut lost = false;
+
     let mut each = |[across, along]: [f64; 2]| {
         let mut inputs = scene.inputs.clone();
         (inputs.uniform_field.y, inputs.uniform_field.z) = (across, along);
@@ -103,11 +105,13 @@ fn bend(
         if lost {
             return Ok(None);
         }
+
         let found = neighbours.sensitivities_at(&manipulator, |_| inputs.clone())?;
         let rates = found.of(|outputs| outputs.tip_angle.to_degrees());
         let parts = rates.iter().zip(&sizes).map(|(rate, size)| rate * size).collect();
         Ok(Some(Known { value: manipulator.outputs().tip_angle.to_degrees(), parts }))
     };
+
     fields.iter().map(|field| each(*field)).collect()
 }
 
@@ -158,8 +162,10 @@ pub fn bands() -> Result<Study, Error> {
     let with = bend(SEGMENT, &DEVIATIONS, &across)?;
     let bare = SEGMENT.replace("segments = 1", "segments = 1\nbase_magnet = false");
     let without = bend(&bare, &DEVIATIONS, &across)?;
+
     let gains: Vec<Option<Known>> =
         with.iter().zip(&without).map(|(more, less)| Some(gain(more.as_ref()?, less.as_ref()?))).collect();
+
     let degrees: Vec<u32> = (60..=LAST_TURN).step_by(5).collect();
     let turned: Vec<[f64; 2]> = degrees
         .iter()
@@ -168,7 +174,9 @@ pub fn bands() -> Result<Study, Error> {
             [1e-3 * FIELD * sine, 1e-3 * FIELD * cosine]
         })
         .collect();
+
     let three = bend(THREE, &DEVIATIONS, &turned)?;
+
     let length = 1e3 * Design::new(Specification::paper(3))?.length();
     let Helix { radius, shore_a, poisson, particle_remanence, .. } = Helix::paper();
     let cylinder = format!(
@@ -177,8 +185,10 @@ pub fn bands() -> Result<Study, Error> {
         1e3 * radius
     );
     let cylinder = bend(&cylinder, &OF_CYLINDER, &turned)?;
+
     let stated: Vec<Known> = gains[FIELDS[0] as usize - 1..].iter().flatten().cloned().collect();
     let most = cylinder.iter().flatten().max_by(|a, b| a.value.total_cmp(&b.value)).cloned();
+
     let rows = [
         ("more tip angle by the base ring, mean of 5 to 25 mT", 3, GAIN, Some(mean(&stated))),
         (
@@ -190,10 +200,12 @@ pub fn bands() -> Result<Study, Error> {
         ("solid cylinder, 20 mT in the direction that bends it most (deg)", 1, CYLINDER_DEG, most),
         ("largest axial force on nine segments (N)", 4, FORCE, Some(axial_force()?)),
     ];
+
     let comparison = rows
         .into_iter()
         .filter_map(|(quantity, decimals, paper, known)| Some(compared(quantity, decimals, paper, &known?)));
     let comparison = comparison.collect();
+
     let (count, fields): (usize, Vec<f64>) = (turned.len(), (1..=FIELDS[1]).map(f64::from).collect());
     let mut columns = vec![Column::new("field_mt", fields)];
     columns.extend(limits("alpha", "_deg", &with));
@@ -205,6 +217,7 @@ pub fn bands() -> Result<Study, Error> {
     for column in &mut columns {
         column.values.resize(rows, f64::NAN);
     }
+
     let marks = [("gain", GAIN), ("three segments", THREE_DEG), ("cylinder", CYLINDER_DEG)]
         .map(|(quantity, measured)| Mark::level(format!("paper, {quantity}"), measured));
     Ok(Study { columns, marks: marks.into(), comparison })

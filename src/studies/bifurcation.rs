@@ -84,16 +84,19 @@ pub fn bifurcation(progress: &dyn Progress) -> Result<Bifurcation, Error> {
         |_| spacing::branches(),
         spacing::critical,
     ];
+
     progress.more(diagrams.len());
     let found = diagrams.into_par_iter().map(|diagram| {
         let found = diagram(progress);
         progress.done();
         found
     });
+
     let found = found.collect::<Result<Vec<_>, Error>>()?;
     let rows = found.iter().map(|diagram| diagram.branches.rows()).max().unwrap_or(0);
     let (mut columns, mut marks) = (Vec::new(), Vec::new());
     let (mut places, mut predictions) = (Vec::new(), Vec::new());
+
     for diagram in found {
         diagram.branches.finish(rows, &mut columns, &mut marks);
         places.extend(diagram.places);
@@ -156,6 +159,7 @@ fn growing() -> Result<Found, Error> {
 fn nearing() -> Result<Found, Error> {
     let design = Design::new(Specification::paper(SEGMENTS))?;
     let rings = design.rings().count();
+
     let way = move |millimetres: f64| Inputs {
         sources: vec![PlacedSource {
             pose: Pose { position: Vector3::new(0.0, -1e-3 * millimetres, 0.0), ..Pose::identity() },
@@ -163,6 +167,7 @@ fn nearing() -> Result<Found, Error> {
         }],
         ..Inputs::unloaded(rings)
     };
+
     let case = Case {
         design,
         magnet: Some(magnet_pair()?),
@@ -172,9 +177,11 @@ fn nearing() -> Result<Found, Error> {
         angle: turned,
         points: POINTS,
     };
+
     let mut found = Found::new("nearing", ["mm", "deg"], 1);
     let loading = case.load(true)?;
     found.branches.add_loading(&loading);
+
     for (number, what) in
         ["nine segments: snap as the magnet comes (mm)", "nine segments: snap as it goes (mm)"]
             .into_iter()

@@ -79,7 +79,9 @@ fn directions() -> impl Iterator<Item = Vector3<f64>> {
 pub fn coils() -> Result<Study, Error> {
     let scene = Scene::parse(SCENE, "eight coils")?;
     let (sources, placed) = (&scene.sources, &scene.inputs.sources);
+
     let fields: Vec<_> = directions().map(|n| DVector::from_column_slice(n.as_slice())).collect();
+
     let gradients: Vec<_> = directions()
         .map(|n| {
             let gradient = 1.5 * n * n.transpose() - 0.5 * Matrix3::identity();
@@ -87,6 +89,7 @@ pub fn coils() -> Result<Study, Error> {
             DVector::from_iterator(8, [0.0; 3].into_iter().chain(five))
         })
         .collect();
+
     let mut columns = vec![Column::new("place_mm", PLACES_MM.to_vec())];
     for (axis, name) in [(0, "x"), (2, "z")] {
         let reached = PLACES_MM.map(|place| {
@@ -98,8 +101,10 @@ pub fn coils() -> Result<Study, Error> {
         columns.push(Column::new(format!("field_{name}_mt"), part(0)));
         columns.push(Column::new(format!("gradient_{name}_t_per_m"), part(1)));
     }
+
     let middle = Map::at(sources, placed, &Vector3::zeros())?;
     let [field, gradient] = [middle.reach(&fields)?, middle.reach(&gradients)?];
+
     let row = |quantity: &str, [least, most]: [f64; 2], remark: &str| Comparison {
         quantity: quantity.into(),
         decimals: 2,
@@ -108,6 +113,7 @@ pub fn coils() -> Result<Study, Error> {
         exact: Value::Range(least, most),
         remark: remark.into(),
     };
+
     Ok(Study {
         columns,
         marks: Vec::new(),

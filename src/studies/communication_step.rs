@@ -59,14 +59,17 @@ struct Walked {
 pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
     let ways = ways()?;
     let walks: Vec<(usize, u32)> = (0..ways.len()).flat_map(|way| STEPS.map(|steps| (way, steps))).collect();
+
     progress.more(walks.iter().map(|(_, steps)| *steps as usize).sum());
     let walked = walks.par_iter().map(|&(way, steps)| ways[way].walked(steps, progress));
     let walked = walked.collect::<Result<Vec<Walked>, Error>>()?;
+
     let mut columns = vec![Column::new("steps", STEPS.iter().map(|&steps| f64::from(steps)).collect())];
     let mut comparison = Vec::new();
     for (way, walked) in ways.iter().zip(walked.chunks(STEPS.len())) {
         let finest = &walked[STEPS.len() - 1];
         let apart = |walked: &Walked| 1e3 * (walked.tip - finest.tip).norm();
+
         let mut add = |quantity: &str, value: &dyn Fn(&Walked) -> f64| {
             let name = quantity.replace("WAY", &way.name.replace(' ', "_"));
             columns.push(Column::new(name, walked.iter().map(value).collect()));
@@ -75,6 +78,7 @@ pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
         add("WAY_apart_mm", &apart);
         add("snaps_WAY", &|walked| f64::from(walked.snaps));
         add("refused_WAY", &|walked| f64::from(walked.refused));
+
         let same =
             |walked: &Walked| walked.refused == 0 && apart(walked) <= SAME && walked.snaps == finest.snaps;
         let fine = walked.iter().rev().take_while(|walked| same(walked)).map(|walked| walked.step);
@@ -93,6 +97,7 @@ pub fn communication_step(progress: &dyn Progress) -> Result<Study, Error> {
             ),
         });
     }
+
     Ok(Study { columns, marks: Vec::new(), comparison })
 }
 
@@ -130,16 +135,20 @@ fn ways() -> Result<Vec<Way>, Error> {
     let settings = Settings { interaction: Interaction::Rings, ..Settings::default() };
     let free = Manipulator::new(&design, Some(&magnet_pair()?), settings, 2)?;
     let (first, last) = (hysteresis::FIRST, hysteresis::LAST);
+
     let passing = |from: f64, to: f64| move |part: f64| hysteresis::inputs(from + (to - from) * part);
     let forth = Way::new(
         ["snap forth", "the path of the study hysteresis"],
         hysteresis::manipulator()?,
         passing(first, last),
     )?;
+
+    // For the way back, a device that has snapped over on the way forth.
     let mut over = forth.manipulator.clone();
     for step in 1..=FINEST {
         over.solve(&(forth.inputs)(f64::from(step) / f64::from(FINEST)))?;
     }
+
     let back = ["snap back", "the same path in reverse"];
     Ok(vec![
         Way::new(

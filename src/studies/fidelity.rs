@@ -92,11 +92,13 @@ impl Walk {
         let base = self.scene.settings;
         let models = models_of_auto(&base, true);
         let mut rows = Vec::new();
+
         for settings in &models {
             let Settings { interaction, degree, pair_accuracy, .. } = settings;
             let model = format!("{}, degree {degree}, pairs {pair_accuracy:.0e}", interaction.name());
             rows.push((model, None, settings.as_discretised()));
         }
+
         for tolerance in TOLERANCES {
             let (tolerance_position, tolerance_angle) = (tolerance * self.length, tolerance);
             let settings = Settings {
@@ -108,11 +110,15 @@ impl Walk {
             };
             rows.push(("auto".to_owned(), Some(tolerance), settings));
         }
+
+        // Errors are counted from a model one refinement above the richest that is timed.
         let richest = models.last().copied().unwrap_or(base).as_discretised();
         progress.more(rows.len());
+
         let scenes: Vec<Scene> = rows.iter().map(|row| self.with(row.2)).collect();
         let shown = self.follow(&scenes, &self.with(richest.refined()), progress)?;
         let whole = shown.get(models.len() - 1).map_or(f64::NAN, |shown| shown.time);
+
         let row = |((model, tolerance, _), shown): ((String, Option<f64>, Settings), Shown)| Fidelity {
             scene: self.name,
             model,

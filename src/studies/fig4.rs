@@ -78,16 +78,20 @@ pub fn fig4(progress: &dyn Progress) -> Result<Study, Error> {
     let grid: Vec<Candidate> = LENGTHS
         .flat_map(|tenths| ANGLES.map(move |degrees| Candidate::new(tenths, degrees)))
         .collect::<Result<_, _>>()?;
+
     progress.more(MODELS.len() * grid.len());
     let solved =
         MODELS.iter().map(|model| solve(&grid, *model, progress)).collect::<Result<Vec<_>, Error>>()?;
     let scored: Vec<_> = solved.iter().map(|solved| score(&grid, solved)).collect();
+
+    // The paper's grid is not printed: one of round numbers stands for it.
     let on_coarse = |solved: &Vec<Option<(f64, f64)>>| {
         let kept: Vec<_> =
             grid.iter().zip(solved).map(|(c, solved)| solved.filter(|_| c.is_coarse())).collect();
         score(&grid, &kept)
     };
     let coarse: Vec<_> = solved.iter().map(on_coarse).collect();
+
     let column =
         |name: &str, value: &dyn Fn(&Candidate) -> f64| Column::new(name, grid.iter().map(value).collect());
     let mut columns = vec![
@@ -97,6 +101,7 @@ pub fn fig4(progress: &dyn Progress) -> Result<Study, Error> {
         column("height_over_pitch", &|c| c.geometry.height / c.geometry.pitch),
         column("bend_length_mm", &|c| c.bend),
     ];
+
     for ((level, _), values) in MODELS.iter().zip(&scored) {
         let of = |value: &dyn Fn(&Scored) -> f64| {
             values.iter().map(|scored| scored.as_ref().map_or(f64::NAN, value)).collect()
@@ -108,6 +113,7 @@ pub fn fig4(progress: &dyn Progress) -> Result<Study, Error> {
             columns.push(Column::new(format!("score_{score}_{name}"), of(&|s| s.scores[index])));
         }
     }
+
     let chosen = [f64::from(CHOSEN.0) / 10.0, f64::from(CHOSEN.1)];
     let comparison = comparison(&grid, &scored, &coarse);
     Ok(Study { columns, marks: vec![Mark::point("paper", chosen)], comparison })
@@ -207,6 +213,7 @@ fn comparison(
         let own = sums.and_then(|(_, s)| Some(s.as_ref()?.scores[2]));
         own.zip(best(grid, &scored[model])).map_or(Value::Absent, |(own, (_, top))| Value::Number(own / top))
     };
+
     let good = |model: usize, of: &dyn Fn(&Candidate) -> f64| {
         let Some((_, top)) = best(grid, &scored[model]) else { return Value::Absent };
         let good =
@@ -214,7 +221,9 @@ fn comparison(
         let [low, high] = span(good.map(|(c, _)| of(c)));
         Value::Range(low, high)
     };
+
     let chosen = || Value::Words("4.0 mm, 40 deg".into());
+
     vec![
         Comparison {
             quantity: "best design on a grid of 0.5 mm, 5 deg".into(),

@@ -75,11 +75,14 @@ pub fn fig7a() -> Result<Study, Error> {
     ] {
         columns.push(Column::new(name, device.bend(across, &fields)?.angles));
     }
+
     let scripts =
         |field: u32| AUTHORS_SCRIPTS.iter().find(|row| row.0 == field).map_or(f64::NAN, |row| row.1);
     columns.push(Column::new("alpha_authors_scripts_deg", (0..=LARGEST_FIELD).map(scripts).collect()));
+
     let gains = LEVELS.iter().map(|&level| gain_from_base_ring(level)).collect::<Result<Vec<_>, Error>>()?;
     let comparison = comparison(&columns, &gains);
+
     for (level, gain) in LEVELS.iter().zip(gains) {
         for (what, values) in [("angle", gain.angle), ("field", gain.field)] {
             let before = core::iter::repeat_n(f64::NAN, GAIN_FROM as usize);
@@ -88,6 +91,7 @@ pub fn fig7a() -> Result<Study, Error> {
             columns.push(Column::new(name, before.chain(values).chain(after).collect()));
         }
     }
+
     Ok(Study { columns, marks: vec![Mark::level("paper, gain", PAPER_GAIN)], comparison })
 }
 
@@ -98,6 +102,7 @@ fn comparison(columns: &[Column], gains: &[Gain]) -> Vec<Comparison> {
             .find(|column| column.name == name)
             .map_or(Value::Absent, |c| Value::Number(c.values[20]))
     };
+
     let mean = |values: &[f64]| Value::Number(values.iter().sum::<f64>() / values.len() as f64);
     let row = |quantity: &str, decimals, paper, printed, exact, remark: &str| Comparison {
         quantity: quantity.into(),
@@ -107,6 +112,7 @@ fn comparison(columns: &[Column], gains: &[Gain]) -> Vec<Comparison> {
         exact,
         remark: remark.into(),
     };
+
     vec![
         row(
             "more tip angle by the base ring, mean of 5 to 25 mT",

@@ -101,11 +101,13 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
         None => Value::Number(bent.angles[ROWS as usize]),
     };
     let ends = |bent: &Bent| bent.end.map_or(f64::NAN, |[place, _]| place);
+
     let [paper, paper_cylinder] = PAPER;
     let reached = |device: &Device| device.place_of(turning, paper, [90.0, LAST_TURN]);
     let directions = [reached(&devices[3])?, reached(&devices[2])?];
     let largest = turned[4].angles.iter().copied().fold(0.0, f64::max);
     let field = devices[4].place_of(across, paper_cylinder, [1.0, 60.0])?;
+
     let row = |quantity: &str, paper, printed, exact, remark: String| Comparison {
         quantity: quantity.into(),
         decimals: 1,
@@ -114,6 +116,7 @@ fn comparison(devices: &[Device], grown: &[Bent], turned: &[Bent]) -> Result<Vec
         exact,
         remark,
     };
+
     Ok(vec![
         row(
             "three segments, 20 mT at 90 deg, exact with bending stop (deg)",

@@ -68,8 +68,10 @@ fn comparison(found: &[Extremes], manipulator: &Design, cylinder: &Design) -> Re
     let of = |device: usize, value: fn(&Extremes) -> f64| {
         found.get(device).map_or(Value::Absent, |found| Value::Number(value(found)))
     };
+
     let with_tube = Segmented { backbone: Some(Backbone::silicone()), ..Segmented::paper(SEGMENTS) };
     let mass = Design::new(Specification::Segmented(with_tube))?.mass();
+
     let row = |quantity: &str, paper, exact, remark: String| Comparison {
         quantity: quantity.into(),
         decimals: 3,
@@ -78,6 +80,7 @@ fn comparison(found: &[Extremes], manipulator: &Design, cylinder: &Design) -> Re
         exact,
         remark,
     };
+
     Ok(vec![
         row(
             "largest axial force on nine segments (N)",

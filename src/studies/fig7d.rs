@@ -66,17 +66,21 @@ fn comparison(magnet: &Source, places: &[f64]) -> Result<Vec<Comparison>, Error>
     let stated = |[low, high]: [f64; 2]| Value::Range(low, high);
     let rows = places.iter().map(|z| Ok((*z, beside(magnet, DISTANCE, z * MM)?)));
     let rows = rows.collect::<Result<Vec<_>, Error>>()?;
+
     let range = |value: fn(&[f64; 5]) -> f64| {
         let along = rows.iter().filter(|(z, _)| z.abs() <= HALF_DEVICE).map(|(_, row)| value(row));
         let [low, high] = along.fold([f64::INFINITY, 0.0_f64], |[low, high], v| [low.min(v), high.max(v)]);
         Value::Range(low, high)
     };
+
     let (steepest, gradient) = rows
         .iter()
         .map(|(z, row)| (z.abs(), row[2].abs()))
         .fold((0.0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
+
     let dipole = Dipole::new(magnet.moment())?;
     let single = -dipole.field(&Vector3::new(0.0, axis_distance(DISTANCE), 0.0))?.z * 1e3;
+
     Ok(vec![
         Comparison {
             quantity: "field along the device at 40 mm (mT)".into(),

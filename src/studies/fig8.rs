@@ -51,10 +51,12 @@ pub fn fig8() -> Result<Study, Error> {
     let ring = RingMagnet::paper();
     let source = AxialSource::new(helix.core_inner_radius, helix.radius, ring.length, ring.remanence)?;
     let length = helix.length * 1e3;
+
     let deflections: Vec<f64> = DEFLECTIONS.map(f64::from).collect();
     let spacings: Vec<f64> = (0..deflections.len()).map(|i| SPACINGS.0 + SPACINGS.1 * i as f64).collect();
     let mut columns =
         vec![Column::new("deflection_deg", deflections.clone()), Column::new("spacing_mm", spacings.clone())];
+
     for count in COUNTS {
         let torques = deflections
             .par_iter()
@@ -68,6 +70,7 @@ pub fn fig8() -> Result<Study, Error> {
             .par_iter()
             .map(|deflection| balance(&source, count, *deflection))
             .collect::<Result<Vec<_>, Error>>()?;
+
         let of =
             |torques: &[Torque], part: fn(&Torque) -> f64| torques.iter().map(|t| part(t) * 1e6).collect();
         let parts: [(&str, &str, Vec<f64>); 5] = [
@@ -77,10 +80,12 @@ pub fn fig8() -> Result<Study, Error> {
             ("torque_at_20_deg", "unm", of(&spaced, Torque::sum)),
             ("balance_spacing", "mm", balanced),
         ];
+
         for (name, unit, values) in parts {
             columns.push(Column::new(format!("{name}_{count}_rings_{unit}"), values));
         }
     }
+
     let comparison = comparison(&columns);
     Ok(Study { columns, marks: Vec::new(), comparison })
 }
@@ -142,6 +147,7 @@ fn comparison(columns: &[Column]) -> Vec<Comparison> {
     let values = |name: String| {
         columns.iter().find(|column| column.name == name).map_or(&[][..], |column| column.values.as_slice())
     };
+
     let mut rows = Vec::new();
     for count in COUNTS {
         let won = || {
@@ -163,6 +169,7 @@ fn comparison(columns: &[Column]) -> Vec<Comparison> {
             remark: balance_remark(values(format!("balance_spacing_{count}_rings_mm"))),
         });
     }
+
     let last = |part: &str| values(format!("{part}_torque_2_rings_unm")).last().copied().unwrap_or(f64::NAN);
     rows.push(Comparison {
         quantity: "2 rings, 4 mm, 40 deg: sum of both torques (uN m)".into(),

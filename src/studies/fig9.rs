@@ -68,11 +68,13 @@ fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {
     let both = |row: &Row| row.turns[0].min(row.turns[1]);
     let either = |row: &Row| row.turns[0].max(row.turns[1]);
     let (one_way, both_ways) = (most(either), most(both));
+
     let form = match (one_way >= TURNED, both_ways >= TURNED) {
         (false, _) => "neither J nor S",
         (true, false) => "J, no S",
         (true, true) => "J and S",
     };
+
     let (inside, heading) = walk.rows.last().map_or((0.0, 0.0), |row| (row.inside, row.heading));
     let end = match walk.lost {
         None => "the end of the path".to_owned(),
@@ -80,6 +82,7 @@ fn comparison(case: &Case, walk: &Walk, points: usize) -> Comparison {
             format!("no shape found after {} of {points} steps ({})", walk.rows.len(), outcome.name())
         }
     };
+
     Comparison {
         quantity: format!("the path of {}, {}: tip in", case.device, case.walls()),
         decimals: 0,

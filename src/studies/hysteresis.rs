@@ -30,6 +30,7 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
     let places: Vec<f64> = (0..=STEPS).map(|i| FIRST + step * f64::from(i)).collect();
     let mut branch = Branch::new(manipulator()?, |place| Ok(inputs(place)), LAST - FIRST, step)?;
     progress.more(2 * places.len());
+
     let mut walk = |places: &mut dyn Iterator<Item = &f64>| {
         let at = |&place: &f64| {
             let outputs = branch.to(place)?;
@@ -38,10 +39,12 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
         };
         places.map(at).collect::<Result<(Vec<f64>, Vec<f64>), Error>>()
     };
+
     let forth = walk(&mut places.iter())?;
     let mut back = walk(&mut places.iter().rev())?;
     back.0.reverse();
     back.1.reverse();
+
     let (mut marks, mut comparison) = (Vec::new(), Vec::new());
     for fold in branch.folds() {
         let way = if fold.upwards { "forth" } else { "back" };
@@ -61,6 +64,7 @@ pub fn hysteresis(progress: &dyn Progress) -> Result<Study, Error> {
             ),
         });
     }
+
     Ok(Study {
         columns: vec![
             Column::new("magnet_z_mm", places),

@@ -74,15 +74,18 @@ const SIMPLIFICATIONS: [Simplification; 7] = [
 pub fn omissions(progress: &dyn Progress) -> Result<Vec<Omission>, Error> {
     progress.more(SCENES.len() * SIMPLIFICATIONS.len());
     let mut out = Vec::new();
+
     for (name, segments, field) in SCENES {
         let mut exact = Scene::parse(&format!("{field}\n[design]\nsegments = {segments}"), name)?;
         exact.settings = Settings { interaction: Interaction::Rings, ..exact.settings.as_discretised() };
+
         let mut scenes = Vec::new();
         for (_, simplify) in SIMPLIFICATIONS {
             let mut scene = exact.clone();
             simplify(&mut scene)?;
             scenes.push(scene);
         }
+
         let shown = Walk::new(name, &exact)?.follow(&scenes, &exact, progress)?;
         let whole = shown.first().map_or(f64::NAN, |shown| shown.time);
         out.extend(SIMPLIFICATIONS.iter().zip(shown).map(|(&(what, _), shown)| Omission {

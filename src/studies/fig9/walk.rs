@@ -104,26 +104,33 @@ pub(super) fn walk(case: &Case, places: &[Place], progress: &dyn Progress) -> Re
     let mut device = scene.manipulator(POINTS)?;
     let mut here: Option<Inputs> = None;
     let mut out = Walk { rows: Vec::new(), branches: Vec::new(), snaps: 0, lost: None };
+
     for (number, place) in places.iter().enumerate() {
+        // A free feed: the magnet alone pulls the device on.
         let mut next = Inputs { feed_force: Some(0.0), ..scene.inputs.clone() };
         next.sources[0].pose = magnet(place);
         if let Some(last) = out.rows.last().filter(|_| case.wired) {
             next.guidewire_insertion = last.inside;
         }
+
         if !step(&mut device, [here.as_ref().unwrap_or(&next), &next], HALVINGS)? {
             out.lost = Some(device.outputs().outcome);
             places[number..].iter().for_each(|_| progress.done());
             break;
         }
+
         let outputs = device.outputs();
         out.snaps = outputs.snaps;
         out.rows.push(Row::of(outputs, place));
+
+        // The tip is in the branch in which it lies deepest.
         let clearance = |branch: &Branch| branch.clearance(&outputs.tip.position).value;
         let widest = branches().max_by(|a, b| clearance(a).total_cmp(&clearance(b)));
         let name = widest.map_or("", Branch::name);
         if out.branches.last().is_none_or(|last| last != name) {
             out.branches.push(name.into());
         }
+
         here = Some(next);
         progress.done();
     }

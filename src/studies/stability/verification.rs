@@ -90,17 +90,20 @@ impl FineModel {
         let length = self.length;
         let apart = |known: &Known| distance(&known.rings, rings) / length;
         let nearest = known.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+
         let found =
             |known: &Known| Found { verdict: known.verdict(), distance: apart(known), margin: known.margin };
         if let Some(near) = nearest.filter(|known| apart(known) <= accuracy) {
             return Some(found(near));
         }
+
         let start = self.fine.amplitudes_through(rings)?;
         let polished = self.polished(inputs, &start)?;
         let again = known.iter().find(|known| distance(&known.rings, &polished.rings) <= SAME * length);
         if let Some(known) = again {
             return Some(found(known));
         }
+
         let found = found(&polished);
         known.push(polished);
         Some(found)
