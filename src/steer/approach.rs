@@ -101,6 +101,7 @@ pub(super) fn straight(
     most: usize,
 ) -> Result<(State, Vec<Step>, Option<Limit>), Error> {
     let (mut state, mut way) = (start.clone(), Vec::new());
+
     for _ in 0..most {
         let freedoms = state.freedoms(rules);
         let rest = between(&state.inputs, &freedoms, goal);
@@ -108,7 +109,9 @@ pub(super) fn straight(
         if far < STILL {
             return Ok((state, way, None));
         }
+
         let inputs = moved(&state.inputs, &freedoms, &(rest / far.max(1.0)));
+
         match state.at(rules, inputs)? {
             Ok(next) => {
                 state = next;

@@ -82,9 +82,11 @@ impl Bodies {
                 out.push(Bound { limit, slack, gradient });
             }
         };
+
         let only = |input: Input, freedom: &Freedom, along: Vector3<f64>| {
             if freedom.input == input { freedom.along.dot(&along) } else { 0.0 }
         };
+
         if let (Some([low, high]), Some(magnet)) = (&limits.workspace, self.placed(inputs)) {
             let place = magnet.position;
             for axis in 0..3 {
@@ -93,13 +95,17 @@ impl Bodies {
                 add(Limit::Workspace, high[axis] - place[axis], &|f| only(MAGNET_POSITION, f, -unit));
             }
         }
+
         if let Some((largest, along)) = limits.field.zip(inputs.uniform_field.try_normalize(0.0)) {
             let slack = largest - inputs.uniform_field.norm();
             add(Limit::Field, slack, &|f| only(Input::UniformField, f, -along));
         }
+
         for (slack, way) in [(inputs.insertion, 1.0), (LONGEST - inputs.insertion, -1.0)] {
             add(Limit::Insertion, slack, &|f| only(Input::Insertion, f, Vector3::x() * way));
         }
+
+        // The gap changes with the magnet's travel, its turn about its centre, and the device's own motion.
         if let Some(Nearest { point, gap, away, arm }) = self.nearest(inputs, outputs) {
             add(Limit::Distance, gap - limits.distance, &|freedom| {
                 let by_magnet =
@@ -107,6 +113,7 @@ impl Bodies {
                 by_magnet + freedom.rate(jacobian, Output::ShapePoint(point)).dot(&away)
             });
         }
+
         out
     }
 }

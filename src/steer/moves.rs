@@ -117,6 +117,7 @@ pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<
     let mut out = Vec::new();
     let mut add = |input, along| out.push(Freedom { input, along });
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()];
+
     for each in moves {
         match each {
             Move::MagnetPosition => {
@@ -125,6 +126,7 @@ pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<
                 }
             }
             Move::MagnetOrientation => {
+                // Not the third column: a spin about the magnet's own axis changes nothing.
                 for column in 0..2 {
                     let across = inputs.sources[MAGNET].pose.rotation.column(column).into_owned();
                     add(MAGNET_ROTATION, across * limits.turn);
@@ -142,6 +144,7 @@ pub(super) fn freedoms(moves: &[Move], limits: &Limits, inputs: &Inputs) -> Vec<
             }
         }
     }
+
     out
 }
 

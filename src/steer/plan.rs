@@ -41,18 +41,22 @@ impl Steering {
         shape.map_or(Ok(()), Target::check)?;
         check("number of tries", tries as f64, |v| (1.0..=1e6).contains(&v), "from 1 to 1000000")?;
         goal.check(self.state.inputs.ring_forces.len())?;
+
         let arrived =
             |state: &State| shape.is_none_or(|shape| shape.misfit(state.outputs(), &self.tolerances) <= 1.0);
+
         let (state, way, stopped) = straight(&self.state, goal, &self.rules, STRAIGHT)?;
         if stopped.is_none() && arrived(&state) {
             (self.state, self.linear) = (state, None);
             return Ok(Plan { way, straight: None, tries: 0, limit: None });
         }
+
         let mut tree = Tree::new(&self.state, SEED);
         for tried in 1..=tries {
             let drawn = tree.drawn(&self.rules);
             let from = tree.nearest(&self.rules, &drawn);
             let Some((node, _)) = tree.extend(from, &drawn, &self.rules, APART)? else { continue };
+
             let (state, way, limit) = straight(tree.state(node), goal, &self.rules, STRAIGHT)?;
             if limit.is_none() && arrived(&state) {
                 let mut whole = tree.way(node);
@@ -61,6 +65,7 @@ impl Steering {
                 return Ok(Plan { way: whole, straight: stopped, tries: tried, limit: None });
             }
         }
+
         Ok(Plan { way: Vec::new(), straight: stopped, tries, limit: Some(Limit::NoWay(tries)) })
     }
 }

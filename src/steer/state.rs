@@ -71,18 +71,23 @@ impl State {
         if let Some(limit) = rules.forbids(&inputs) {
             return Ok(Err(limit));
         }
+
         let mut next = Self { manipulator: self.manipulator.clone(), inputs };
         let snaps = self.outputs().snaps;
         let outputs = next.manipulator.solve(&next.inputs)?;
+
         if outputs.status == Status::NotSolved {
             return Ok(Err(Limit::NoShape(outputs.outcome)));
         }
         if outputs.snaps != snaps || outputs.stable == Some(false) {
             return Ok(Err(Limit::Snap));
         }
+
         if rules.bodies.gap(&next.inputs, outputs) < rules.limits.distance {
             return Ok(Err(Limit::Distance));
         }
+
+        // The margin is bounded at every step, and computed only where it may be below its limit.
         let least = rules.limits.margin;
         if least > 0.0 && outputs.stability_margin < NEAR * least {
             let margin = next.manipulator.measure_margin().stability_margin;
@@ -90,6 +95,7 @@ impl State {
                 return Ok(Err(Limit::Margin));
             }
         }
+
         Ok(Ok(next))
     }
 

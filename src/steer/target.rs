@@ -77,11 +77,13 @@ impl Target {
             ("target direction", self.direction),
             ("target force (N)", self.force),
         ];
+
         for (name, vector) in vectors {
             for value in vector.iter().flatten() {
                 check(name, *value, |_| true, "finite")?;
             }
         }
+
         if let Some(direction) = self.direction {
             check("length of the target direction", direction.norm(), |v| v > 0.0, "> 0")?;
         }
@@ -93,14 +95,17 @@ impl Target {
                 "from 0 to pi",
             )?;
         }
+
         if self.direction.is_some() && self.angle.is_some() {
             return Err(Error::Unsupported(
                 "a target has a direction or an angle of the tip, not both".into(),
             ));
         }
+
         if *self == Self::default() {
             return Err(Error::Unsupported("the target asks for nothing".into()));
         }
+
         Ok(())
     }
 

@@ -68,6 +68,7 @@ impl Tree {
         let mut out = self.nodes[0].state.inputs.clone();
         let random = &mut self.random;
         let mut number = || 2.0 * random.random::<f64>() - 1.0;
+
         for each in &rules.moves {
             match each {
                 Move::MagnetPosition => {
@@ -86,6 +87,7 @@ impl Tree {
                 }
                 Move::MagnetStrength => out.sources[MAGNET].strength *= 1.0 + STRENGTH * number(),
                 Move::UniformField => {
+                    // The cube of the components lies within the ball of the largest field.
                     let most = rules.limits.field.unwrap_or(FIELD) / 3.0_f64.sqrt();
                     out.uniform_field = Vector3::from_fn(|_, _| most * number());
                 }
@@ -95,6 +97,7 @@ impl Tree {
                 }
             }
         }
+
         out
     }
 
