@@ -84,6 +84,7 @@ impl Estimate {
             reasons.push(found.as_ref().err().cloned());
             shapes.push(found.ok());
         }
+
         let mut out = Self {
             parameters: start.clone(),
             shapes,
@@ -95,11 +96,13 @@ impl Estimate {
             steps: 0,
             converged: false,
         };
+
         out.descend(problem, settings, stated)?;
         out.regain(problem)?;
         if !out.converged {
             out.descend(problem, settings, stated)?;
         }
+
         Ok(out)
     }
 

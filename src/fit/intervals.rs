@@ -79,15 +79,21 @@ impl Profile<'_> {
     fn grown(&self, index: usize, by: f64) -> Option<f64> {
         let count = self.parameters.len();
         let others: Vec<usize> = (0..count).filter(|&other| other != index).collect();
+
+        // The first guess of the others' answer is the linear one: along the covariance's column.
         let along = self.covariance.column(index) * (by / self.covariance[(index, index)]);
         let mut parameters = self.parameters + along;
         parameters[index] = self.parameters[index] + by;
+
         let mut shapes = self.problem.moved(self.shapes, &parameters).ok()?;
         let mut residuals = self.problem.residuals(&shapes);
         let mut sum = residuals.norm_squared();
+
         if others.is_empty() {
             return Some(sum - self.smallest);
         }
+
+        // Gauss-Newton steps of the others, with the Jacobian at the fit's end throughout.
         let own = self.jacobian.select_columns(&others);
         let solver = Cholesky::new(own.tr_mul(&own))?;
         for _ in 0..CORRECTIONS {
@@ -96,9 +102,11 @@ impl Profile<'_> {
             if gradient.dot(&step) < SMALL * self.threshold {
                 break;
             }
+
             let mut next = parameters.clone();
             others.iter().zip(&step).for_each(|(&other, by)| next[other] -= by);
             let Ok(moved) = self.problem.moved(&shapes, &next) else { break };
+
             let left = self.problem.residuals(&moved);
             if left.norm_squared() >= sum {
                 break;

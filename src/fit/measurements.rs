@@ -62,6 +62,7 @@ impl Measurements {
             Column::of(title, scene)
         });
         let columns = columns.collect::<Result<Vec<_>, _>>()?;
+
         let mut out = Self { keys: Vec::new(), outputs: Vec::new(), rows: Vec::new(), ignored: Vec::new() };
         for (column, title) in columns.iter().zip(titles) {
             match column {
@@ -71,11 +72,13 @@ impl Measurements {
                 Column::Deviation(_) => {}
             }
         }
+
         if out.outputs.is_empty() {
             return Err(Error::Unsupported(
                 "no column is an output that can be measured, such as alpha_deg or tip_y_mm".into(),
             ));
         }
+
         for column in &columns {
             if let Column::Deviation(output) = column
                 && out.place(output.name()).is_none()
@@ -84,6 +87,7 @@ impl Measurements {
                 return Err(Error::Unsupported(format!("column `sd_{name}` without a column `{name}`")));
             }
         }
+
         for (line, cells) in rows {
             let row = out.row(line, &cells, titles, &columns)?;
             out.rows.push(row);
@@ -94,22 +98,26 @@ impl Measurements {
         if out.count() == 0 {
             return Err(Error::Unsupported("no row holds a measured value".into()));
         }
+
         Ok(out)
     }
 
     fn row(&self, line: u64, cells: &[&str], titles: &[&str], columns: &[Column]) -> Result<Row, Error> {
         let at = |reason: String| Error::Syntax { what: format!("line {line}"), reason };
+
         if cells.len() != titles.len() {
             return Err(at(format!("{} cells under {} titles", cells.len(), titles.len())));
         }
         let count = self.outputs.len();
         let mut row =
             Row { line, inputs: Vec::new(), measured: vec![None; count], deviations: vec![None; count] };
+
         for ((cell, title), column) in cells.iter().zip(titles).zip(columns) {
             let number = || {
                 let number = cell.trim().parse().ok().filter(|number: &f64| number.is_finite());
                 number.ok_or_else(|| at(format!("{title} = \"{cell}\" is not a finite number")))
             };
+
             let place = |output: &Measurable| self.place(output.name()).unwrap_or_default();
             match column {
                 Column::Input { factor, .. } => row.inputs.push(number()? * factor),
@@ -123,6 +131,7 @@ impl Measurements {
                 _ => {}
             }
         }
+
         Ok(row)
     }
 

@@ -139,6 +139,8 @@ impl Fit {
         let freedoms = residuals.len() - parameters.len();
         let inside = settings.loss;
         let counted = counted(found, inside);
+
+        // Scale of the residuals: known where all deviations are stated, else estimated from their scatter.
         let sum = residuals.norm_squared();
         let scatter = match (settings.loss, freedoms) {
             (Loss::Squares, 0) => 0.0,
@@ -146,10 +148,12 @@ impl Fit {
             (Loss::Huber, _) => robust_scatter(found, freedoms),
         };
         let scale = if stated && settings.loss == Loss::Squares { 1.0 } else { scatter };
+
         let told = Told::of(&counted, parameters, keys, scale);
         let covariance = &told.covariance * (scale * scale);
         let sure = scale > 0.0 || (freedoms > 0 && !stated);
         let quantile = quantile(stated, freedoms);
+
         let profile = Profile {
             problem,
             parameters,
@@ -159,6 +163,7 @@ impl Fit {
             smallest: sum,
             threshold: (quantile * scale).powi(2),
         };
+
         let mut out = Vec::new();
         for (index, key) in keys.iter().enumerate() {
             let (value, at_limit) = (parameters[index], found.at_limit[index]);
@@ -175,17 +180,20 @@ impl Fit {
             let (key, start) = (key.clone(), start[index]);
             out.push(Parameter { key, start, value, deviation, interval, at_limit });
         }
+
         let experiments = if told.directions.is_empty() {
             Vec::new()
         } else {
             let scale = if scale > 0.0 { scale } else { 1.0 };
             proposed(file, keys, measured, (shapes, jacobian, parameters), scale)?
         };
+
         let rows = measured.rows();
         let reasons = rows.iter().zip(&found.reasons);
         let lost = reasons.filter_map(|(row, reason)| Some((row.line, reason.clone()?))).collect();
         let doubt =
             |(row, shape): (&super::Row, &Option<_>)| doubt(shape.as_ref()?).map(|why| (row.line, why));
+
         Ok(Self {
             correlation: correlation(&covariance, &out),
             parameters: out,

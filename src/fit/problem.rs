@@ -131,6 +131,8 @@ impl<'a> Problem<'a> {
     ) -> Result<DMatrix<f64>, Refused> {
         let device = self.device(parameters).map_err(Refused::Range)?;
         let neighbours = device.neighbours().map_err(Refused::Range)?;
+
+        // One set of neighbouring devices for each thread: every row changes them.
         let part = shapes.len().div_ceil(rayon::current_num_threads()).max(1);
         let parts = shapes.par_chunks(part).enumerate().map(|(number, shapes)| {
             let mut neighbours = neighbours.clone();
@@ -146,6 +148,7 @@ impl<'a> Problem<'a> {
             }
             Ok(rows)
         });
+
         let rows: Vec<DVector<f64>> = parts.collect::<Result<Vec<_>, Refused>>()?.concat();
         Ok(DMatrix::from_fn(rows.len(), parameters.len(), |i, j| rows[i][j]))
     }
