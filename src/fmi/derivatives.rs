@@ -107,6 +107,7 @@ impl Instance {
                 return Err(self.refuse(&format!("there are no derivatives by {}: {reason}", variable.name)));
             }
         }
+
         for &reference in unknowns {
             let variable = self.variable(reference).ok_or(Ending::Error)?;
             if !variable.derivative_role.is_unknown() {
@@ -114,10 +115,14 @@ impl Instance {
                 return Err(self.refuse(&format!("{name} has no derivatives: it is not a continuous output")));
             }
         }
+
         if let Some(value) = seed.iter().find(|value| !value.is_finite()) {
             return Err(self.refuse(&Error::range("seed of a derivative", *value, "finite").to_string()));
         }
+
         self.solve_if_live()?;
+
+        // The derivative along nothing is zero, also at a fold, where there is no other.
         if seed.iter().all(|value| *value == 0.0) {
             return Ok(vec![0.0; unknowns.len()]);
         }

@@ -122,6 +122,7 @@ impl HostValues {
                 scene.method
             )));
         }
+
         let inputs = &scene.inputs;
         let mut sources = placed(&scene);
         let mut magnets = file.magnet_cylinders();
@@ -130,10 +131,12 @@ impl HostValues {
             magnets = usual.magnet_cylinders();
             sources.splice(0..0, placed(&usual.scene()?));
         }
+
         let backbone = match &scene.specification {
             Specification::Segmented(segmented) => segmented.backbone,
             Specification::Cylinder(_) => None,
         };
+
         Ok(Self {
             sources,
             uniform_field: inputs.uniform_field.into(),
@@ -223,6 +226,7 @@ impl HostValues {
             };
             Ok(PlacedSource { pose, strength })
         });
+
         Ok(Inputs {
             sources: sources.collect::<Result<_, Error>>()?,
             uniform_field: self.uniform_field.into(),

@@ -96,6 +96,7 @@ impl Package {
         if !path(SCENE_FILE).exists() && !path(STAMP_FILE).exists() {
             return Ok(None);
         }
+
         let unreadable =
             |path: &Path, reason: String| Error::Syntax { what: path.display().to_string(), reason };
         let text =
@@ -106,11 +107,15 @@ impl Package {
             let grid = DistanceGrid::from_bytes(&bytes);
             grid.map(Lumen::of_grid).map_err(|error| unreadable(&path, error.to_string()))
         };
+
         let stamp_path = path(STAMP_FILE).display().to_string();
         let stamp: Stamp = toml::from_str(&text(path(STAMP_FILE))?)
             .map_err(|error| Error::Syntax { what: stamp_path.clone(), reason: error.message().into() })?;
         let scene = path(SCENE_FILE).display().to_string();
         let file = SceneFile::parse_with(&text(path(SCENE_FILE))?, &scene, lumen)?;
+
+        // The GUID is a digest of scene and vessel: whoever exchanged one of them is told here, not by other
+        // results.
         let package = Self::of(&file, stamp.shape_points)?;
         if package.guid == stamp.guid {
             Ok(Some(package))

@@ -80,8 +80,11 @@ fn write(
         ("license", "MIT; see documentation/licenses"),
         ("generationTool", TOOL),
     ];
+
     attributes.extend(generated.map(|generated| ("generationDateAndTime", generated)));
     attributes.push(("variableNamingConvention", "structured"));
+
+    // The order of the elements is that of the schema fmi2ModelDescription.xsd.
     within(xml, "fmiModelDescription", &attributes, |xml| {
         empty(xml, "ModelExchange", &capabilities(&[]))?;
         empty(xml, "CoSimulation", &capabilities(STEPPING))?;
@@ -156,6 +159,7 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
             empty(xml, "Real", &real)
         })?;
     }
+
     let mut enumerations: Vec<&Enumeration> = Vec::new();
     for variable in table.variables() {
         if let DataType::Enumeration(enumeration) = variable.data_type
@@ -164,6 +168,7 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
             enumerations.push(enumeration);
         }
     }
+
     for enumeration in enumerations {
         let attributes = [("name", enumeration.name), ("description", enumeration.description)];
         within(xml, "SimpleType", &attributes, |xml| {
@@ -220,6 +225,7 @@ fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &HostValu
         ("variability", variability(variable)),
     ];
     attributes.extend(initial(variable).map(|initial| ("initial", initial)));
+
     within(xml, "ScalarVariable", &attributes, |xml| {
         let integral = matches!(variable.data_type, DataType::Integer | DataType::Enumeration(_));
         let bound = |bound: f64| if integral { format!("{bound:.0}") } else { number(bound) };
@@ -229,6 +235,7 @@ fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &HostValu
             Value::Integer(value) => value.to_string(),
             Value::Boolean(value) => value.to_string(),
         });
+
         let (element, mut attributes) = match &variable.data_type {
             DataType::Real(quantity) => {
                 let mut attributes = vec![("declaredType", quantity.name), ("unit", quantity.unit)];
@@ -239,6 +246,7 @@ fn scalar(xml: &mut Xml, reference: usize, variable: &Variable, start: &HostValu
             DataType::Boolean => ("Boolean", vec![]),
             DataType::Enumeration(enumeration) => ("Enumeration", vec![("declaredType", enumeration.name)]),
         };
+
         let optional = [("min", min), ("max", max), ("start", start)];
         attributes.extend(optional.iter().filter_map(|(name, value)| Some((*name, value.as_deref()?))));
         empty(xml, element, &attributes)

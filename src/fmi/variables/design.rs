@@ -133,8 +133,10 @@ impl Rows {
                 }
             },
         };
+
         let data_type = DataType::Enumeration(&SPIRAL);
         self.scalar(Draft::parameter("design.spiral", data_type, SPIRAL.description, spiral));
+
         let start = Access::Real {
             get: |values, index| match &values.specification {
                 Segmented(s) => s.spiral_start.of(index.component),
@@ -146,6 +148,7 @@ impl Rows {
                 }
             },
         };
+
         let description = of::SPIRAL_START_ANGLE.description;
         let draft = Draft::parameter("design.spiral_start", ANGLE, description, start);
         self.array(segments, &draft.min(-TAU).max(TAU));
