@@ -129,16 +129,19 @@ impl Description {
                 .map(|variable| Row::of(variable, variable.host_value(start).and_then(Value::real)))
                 .collect()
         };
+
         let design = start.design()?;
         let sources = start.sources()?;
         let mut sources = start.source_names().zip(sources.list()).map(|((name, drive), source)| {
             let cylinders = source.parts().iter().map(Cylinder::of).collect();
             Source { name, coil: drive == Drive::Current, cylinders }
         });
+
         let walls = start.vessel.as_ref().map(|vessel| Wall {
             branches: vessel.lumen.branches().iter().map(Course::of).collect(),
             triangles: [],
         });
+
         Ok(Self {
             level: start.settings.interaction.name(),
             inputs: rows(|row| row.causality == Causality::Input),

@@ -59,20 +59,25 @@ impl Device {
                 return Err(Error::Count { quantity: "inputs of a way".into(), given, expected });
             }
         }
+
         let names: Vec<&str> = self
             .inputs
             .iter()
             .filter_map(|&at| self.package.table().find(at))
             .map(|row| row.name.as_str())
             .collect();
+
+        // A part of a quaternion has no meaning without the others.
         let group = |name: &str| match name.split_once(".orientation[") {
             Some((body, _)) => format!("{body}.orientation"),
             None => name.to_owned(),
         };
+
         let rows: Vec<&[f64]> = way.chunks_exact(count.max(1)).collect();
         let differs = |index: usize| rows.iter().any(|row| row[index].to_bits() != inputs[index].to_bits());
         let moved: Vec<String> =
             (0..names.len()).filter(|index| differs(*index)).map(|index| group(names[index])).collect();
+
         let row = |row: &&[f64]| {
             let kept = names.iter().zip(*row).filter(|(name, _)| moved.contains(&group(name)));
             kept.map(|(name, value)| ((*name).to_owned(), *value)).collect()
