@@ -107,6 +107,7 @@ impl Field {
         let name = self.at.display();
         let mut table = open_table(&self.at)?;
         let header = table.headers().map_err(|error| bad_table(&self.at, &error))?.clone();
+
         let mut columns = [0; 3];
         for (column, wanted) in columns.iter_mut().zip(POINT) {
             *column = header.iter().position(|title| title == wanted).ok_or_else(|| {
@@ -114,6 +115,7 @@ impl Field {
                 Failure(format!("{name} has no column {wanted}; it has {}", titles.join(", ")))
             })?;
         }
+
         let mut points = Vec::new();
         for record in table.records() {
             let record = record.map_err(|error| bad_table(&self.at, &error))?;
@@ -127,6 +129,7 @@ impl Field {
             }
             points.push((line, point));
         }
+
         Ok(points)
     }
 }

@@ -50,12 +50,15 @@ impl Follow {
         let file = read_scene(&self.scene)?;
         let package = Package::of(&file, SHAPE_POINTS)?;
         let path = self.path(&package)?;
+
         let mut table = Table::at(&self.out)?;
         let columns = Columns::of(&file.scene()?);
         table.header(columns.header(path.titles.iter().map(String::as_str)))?;
+
         let mut manipulator = package.start().manipulator(SHAPE_POINTS)?;
         let bar = progress_bar(path.points.len() as u64, "points");
         let mut lost = Vec::new();
+
         for (cells, values) in path.points {
             let outputs = manipulator.solve(&values.inputs()?)?;
             let row = Row::new(columns, cells, Way::Forth, outputs, None);
@@ -65,10 +68,12 @@ impl Follow {
             }
             bar.inc(1);
         }
+
         bar.finish_and_clear();
         table.complete()?;
         let snaps = manipulator.outputs().snaps;
         print(format!("{}: {} rows, snaps: {snaps}\n", self.out.display(), bar.position()))?;
+
         let Some(first) = lost.first() else { return Ok(ExitCode::SUCCESS) };
         let (count, key, value, reason) = (lost.len(), &path.titles[0], first.value(), first.reason());
         warn(&format!(
@@ -84,9 +89,11 @@ impl Follow {
             (!known).then(|| unknown(package, title))
         };
         let Numbers { titles, rows } = Numbers::read(&self.inputs, fault)?;
+
         let inputs: Vec<Option<&Variable>> = titles.iter().map(|title| input(package, title)).collect();
         let time = titles.iter().position(|title| title == TIME);
         let mut points: Vec<(Vec<f64>, HostValues)> = Vec::new();
+
         for row in rows {
             let mut values = package.start().clone();
             for (number, input) in row.cells.iter().zip(&inputs) {
@@ -102,6 +109,7 @@ impl Follow {
             }
             points.push((row.cells, values));
         }
+
         Ok(Path { titles, points })
     }
 }

@@ -32,6 +32,7 @@ impl Numbers {
         let mut table = open_table(path)?;
         let header = table.headers().map_err(|error| bad_table(path, &error))?.clone();
         let titles: Vec<String> = header.iter().map(str::to_owned).collect();
+
         for (number, title) in titles.iter().enumerate() {
             if titles[..number].contains(title) {
                 return Err(Failure(format!("{name} has two columns {title}")));
@@ -40,6 +41,7 @@ impl Numbers {
                 return Err(Failure(format!("{name}: {fault}")));
             }
         }
+
         let mut rows = Vec::new();
         for record in table.records() {
             let record = record.map_err(|error| bad_table(path, &error))?;
@@ -52,6 +54,7 @@ impl Numbers {
             }
             rows.push(row);
         }
+
         if rows.is_empty() {
             return Err(Failure(format!("{name} has no rows")));
         }

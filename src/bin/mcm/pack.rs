@@ -54,10 +54,12 @@ impl Pack {
         let read = self.scene.iter().chain(&self.library).chain(self.binary.iter().map(Binary::library));
         refuse_same(&read.map(PathBuf::as_path).collect::<Vec<_>>(), &[&self.out])?;
         let out = Output::at(&self.out)?;
+
         let package = match &self.scene {
             Some(path) => Package::of(&read_scene(path)?, self.shape_points)?,
             None => Package::new(DEFAULT_SCENE, "default scene", self.shape_points)?,
         };
+
         let mut files: Vec<(String, Vec<u8>)> = vec![
             ("modelDescription.xml".into(), package.model_description(Some(&now()?))?.into()),
             ("model.png".into(), ICON.into()),
@@ -66,14 +68,17 @@ impl Pack {
             ("documentation/licenses/fmi-headers.txt".into(), HEADERS_LICENSE.into()),
             ("documentation/licenses/crates.txt".into(), CRATES_LICENSES.into()),
         ];
+
         if !self.no_terminals {
             files.push(("terminalsAndIcons/terminalsAndIcons.xml".into(), package.terminals()?.into()));
             files.push(("terminalsAndIcons/icon.png".into(), ICON.into()));
         }
+
         files.extend(binary::entries(self.library.as_deref(), &self.binary)?);
         for (name, content) in package.resources()? {
             files.push((format!("resources/{name}"), content));
         }
+
         let bytes = archive(&files).map_err(|reason| Failure::writing(self.out.display(), reason))?;
         out.fill(&bytes)?;
         print(format!("{} {}\n", self.out.display(), package.guid()))?;

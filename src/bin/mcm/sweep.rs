@@ -163,6 +163,7 @@ impl Sweep {
         let folds: usize = walks.iter().map(|walk| walk.folds.len()).sum();
         let told: String = walks.iter().map(|walk| summary::describe(&keys, walk)).collect();
         print(format!("{}: {} rows, folds met: {folds}\n{told}", self.out.display(), rows().count()))?;
+
         let noted = rows().filter(|row| row.converged() && row.is_noted());
         if let Some(first) = noted.clone().next() {
             let (count, value) = (noted.count(), first.value());
@@ -173,6 +174,7 @@ impl Sweep {
                 first.reason()
             ));
         }
+
         let lost = rows().filter(|row| !row.converged());
         let Some(first) = lost.clone().next() else { return Ok(ExitCode::SUCCESS) };
         warn(&format!(

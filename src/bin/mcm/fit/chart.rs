@@ -18,6 +18,7 @@ pub(super) fn of(fit: &Fit) -> Chart {
         .map(|output| (output, cells_of(output)))
         .filter(|(_, cells)| !cells.is_empty())
         .collect();
+
     let count = outputs.len();
     let points = |number: usize, name: &str, points: Vec<(f64, f64)>| Curve {
         name: name.into(),
@@ -25,6 +26,7 @@ pub(super) fn of(fit: &Fit) -> Chart {
         runs: vec![Run { stroke: Stroke::Points, points }],
         snaps: Vec::new(),
     };
+
     let compared = outputs.iter().enumerate().take(OUTPUTS).map(|(number, (output, cells))| {
         let computed = cells.iter().map(|cell| cell.computed);
         let (least, most) =
@@ -43,10 +45,12 @@ pub(super) fn of(fit: &Fit) -> Chart {
         }
     });
     let mut panels: Vec<Panel> = compared.collect();
+
     let residuals = outputs.iter().enumerate().map(|(number, (output, cells))| {
         let name = if count > 1 { output.name() } else { "" };
         points(number, name, cells.iter().map(|cell| (cell.line as f64, cell.residual)).collect())
     });
+
     let width = 2.0 * if fit.stated { 1.0 } else { fit.scatter };
     panels.push(Panel {
         labels: ["line of the table", if fit.stated { "residual (sd)" } else { "residual" }]
@@ -54,5 +58,6 @@ pub(super) fn of(fit: &Fit) -> Chart {
         curves: residuals.collect(),
         band: Some(("two sd".into(), [-width, width])),
     });
+
     Chart { title: "Fit: what was measured, and what is computed".into(), one_abscissa: false, panels }
 }

@@ -78,6 +78,7 @@ impl Fit {
         let written: Vec<&Path> =
             [Some(&self.out), self.picture.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
         refuse_over(&[&self.scene, &self.measured], &written)?;
+
         if !is_scene(&self.out) {
             return Err(Failure(format!("--out {} must end in .toml: it is a scene", self.out.display())));
         }
@@ -86,21 +87,28 @@ impl Fit {
                 "--vary takes a key alone here, --vary {key}: the fit starts at the scene's value"
             )));
         }
+
         let picture = self.picture.as_deref().map(|path| SvgFile::at("--picture", path)).transpose()?;
+
+        // All files are opened before the fit, which may take minutes.
         let file = read_scene(&self.scene)?;
         let measured = self.measurements(&file)?;
         let out = Output::at(&self.out)?;
+
         let doing = Doing::now(format!("fitting {} rows", measured.rows().len()));
         let loss = if self.robust { Loss::Huber } else { Loss::Squares };
         let settings = Settings { loss, ..Settings::default() };
         let fit = mcm::fit::Fit::new(&file, &self.vary, &measured, &settings)?;
+
         if let Some(picture) = picture {
             doing.then("drawing");
             picture.fill(&chart::of(&fit).draw())?;
         }
+
         drop(doing);
         out.fill(fit.scene()?.to_toml()?.as_bytes())?;
         print(report::of(&fit))?;
+
         let ignored = measured.ignored();
         if !ignored.is_empty() {
             print(format!("\ncolumns that are neither inputs nor measured: {}\n", ignored.join(", ")))?;
@@ -114,6 +122,7 @@ impl Fit {
         if !fit.converged {
             warn("the fit did not come to an end: its values are the best so far");
         }
+
         let complete = fit.converged && fit.lost.is_empty();
         Ok(if complete { ExitCode::SUCCESS } else { NOT_CONVERGED.into() })
     }

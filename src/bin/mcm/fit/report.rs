@@ -16,12 +16,14 @@ pub(super) fn of(fit: &Fit) -> String {
         out.push(residuals(output, &cells));
     }
     out.push(scatter(fit));
+
     let light = fit.cells.iter().filter(|cell| cell.weight < 0.5).collect::<Vec<_>>();
     if !light.is_empty() {
         let lines: Vec<String> =
             light.iter().map(|cell| format!("{} ({})", cell.line, cell.output)).collect();
         out.push(format!("values that count less than half, by line: {}\n", lines.join(", ")));
     }
+
     for direction in &fit.directions {
         let changes = direction.keys.iter().zip(&direction.changes);
         let changes: Vec<String> = changes.map(|(key, change)| format!("{change:+.3} {key}")).collect();
@@ -32,12 +34,14 @@ pub(super) fn of(fit: &Fit) -> String {
             changes.join(" ")
         ));
     }
+
     if !fit.experiments.is_empty() {
         out.push("what would help most, of what was tried:\n".into());
     }
     for experiment in &fit.experiments {
         out.push(format!("    {}\n", experiment.words()));
     }
+
     out.concat()
 }
 
@@ -46,6 +50,7 @@ fn parameters(fit: &Fit) -> String {
     let head =
         format!("{:width$} {:>12} {:>12} {:>12}   95 % interval\n", "parameter", "start", "fitted", "sd");
     let mut out = vec![head];
+
     for Parameter { key, start, value, deviation, interval, at_limit } in &fit.parameters {
         let deviation = deviation.map_or("unknown".into(), |deviation| format!("{deviation:.2e}"));
         let [low, high] = interval.map(|end| end.map_or("open".into(), digits));
@@ -57,6 +62,7 @@ fn parameters(fit: &Fit) -> String {
             digits(*value)
         ));
     }
+
     for (i, first) in fit.parameters.iter().enumerate() {
         for (j, second) in fit.parameters.iter().enumerate().skip(i + 1) {
             let value = fit.correlation[(i, j)];
@@ -65,6 +71,7 @@ fn parameters(fit: &Fit) -> String {
             }
         }
     }
+
     out.concat()
 }
 

@@ -17,10 +17,12 @@ pub(super) fn completed(template: &str) -> Result<String, Failure> {
     let mut table = String::new();
     let mut told = BTreeSet::new();
     let mut out = String::new();
+
     for line in template.lines() {
         let start = if line.starts_with('#') { line.find(' ').map_or(0, |space| space + 1) } else { 0 };
         let (mark, rest) = line.split_at(start);
         let (key, value) = rest.split_once(" = ").map_or((rest, None), |(key, value)| (key, Some(value)));
+
         let path = match key.strip_prefix('[') {
             Some(header) => {
                 header.trim_matches(['[', ']']).clone_into(&mut table);
@@ -28,15 +30,18 @@ pub(super) fn completed(template: &str) -> Result<String, Failure> {
             }
             None => format!("{table}.{key}"),
         };
+
         let Some(entry) = Entry::at(&schema, &path) else {
             out += line;
             out.push('\n');
             continue;
         };
+
         let stated = match value {
             None if key == rest && !key.starts_with('[') => format!("{mark}{key} = {}", entry.default()?),
             _ => line.to_owned(),
         };
+
         if told.insert(path) {
             out += &entry.remarked(&stated, if mark.is_empty() { "" } else { "#" });
         } else {

@@ -139,6 +139,7 @@ pub(super) fn entries(own: Option<&Path>, given: &[Binary]) -> Result<Vec<(Strin
         ("macos", "x86_64") => "darwin64",
         _ => "",
     });
+
     let mut binaries = given.to_vec();
     match (here, own) {
         (Some(platform), Some(own)) => binaries.push(Binary { platform, library: own.into() }),
@@ -151,10 +152,12 @@ pub(super) fn entries(own: Option<&Path>, given: &[Binary]) -> Result<Vec<(Strin
         }
         _ => {}
     }
+
     binaries.sort_by_key(|binary| binary.platform.name);
     if let Some(pair) = binaries.windows(2).find(|pair| pair[0].platform.name == pair[1].platform.name) {
         return Err(Failure(format!("there are two libraries for {}", pair[0].platform.name)));
     }
+
     binaries.iter().map(Binary::entry).collect()
 }
 

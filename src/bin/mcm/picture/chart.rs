@@ -161,14 +161,17 @@ impl Panel {
                 .set("class", "band");
             inside = inside.add(band);
         }
+
         for curve in &self.curves {
             inside = inside.add(curve.draw(frame));
         }
+
         let [x, y] = &self.labels;
         let out = Group::new().add(inside).add(frame.axes(numbers.then_some(x.as_str()), y));
         if !named {
             return out;
         }
+
         let ends = self.curves.iter().filter(|curve| !curve.name.is_empty()).filter_map(|curve| {
             Some(Name { words: &curve.name, colour: &curve.colour, end: frame.at(curve.end()?) })
         });
@@ -177,6 +180,7 @@ impl Panel {
             colour: GREY,
             end: frame.at((frame.x[1], 0.5 * (low + high))),
         });
+
         out.add(beside(ends.chain(band).collect(), frame.right(), [frame.top, frame.bottom()]))
     }
 }

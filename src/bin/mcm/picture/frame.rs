@@ -70,6 +70,7 @@ impl Frame {
             .set("height", pixels(self.height))
             .set("fill", "none")
             .set("stroke", INK);
+
         let mut out = Group::new().add(border);
         let [x, y] = self.numbers();
         for (number, at) in x {
@@ -79,15 +80,18 @@ impl Frame {
                 out = out.add(number);
             }
         }
+
         for (number, at) in y {
             out = out.add(line([(self.left - TICK, at), (self.left, at)], INK, 1.0));
             let number = text(&number, (self.left - NUMBERS[1], at), "end").set("class", "y");
             out = out.add(number.set("dominant-baseline", "central"));
         }
+
         if let Some(label) = x_label {
             let middle = self.left + 0.5 * self.width;
             out = out.add(text(label, (middle, self.bottom() + LABELS[0]), "middle"));
         }
+
         let (x, y) = (pixels(self.left - LABELS[1]), pixels(self.top + 0.5 * self.height));
         out.add(text(y_label, (x, y), "middle").set("transform", format!("rotate(-90 {x} {y})")))
     }

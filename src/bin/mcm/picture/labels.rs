@@ -65,6 +65,7 @@ pub(super) fn above<'a>(
         if x > left && x + wide > right {
             (x, y) = (left, y + APART + 4.0);
         }
+
         let sample = Rectangle::new()
             .set("x", x)
             .set("y", y)
@@ -74,6 +75,7 @@ pub(super) fn above<'a>(
         let name = text(words, (x + SAMPLE + 6.0, y + 0.5 * SAMPLE), "start")
             .set("dominant-baseline", "central")
             .set("class", "name");
+
         out = out.add(sample).add(name);
         x += wide + AFTER;
     }

@@ -20,13 +20,16 @@ impl Sheet {
         let mut table = open_table(path)?;
         let bad = |error: csv::Error| bad_table(path, &error);
         let titles: Vec<String> = table.headers().map_err(bad)?.iter().map(str::to_owned).collect();
+
         let mut rows = Vec::new();
         for record in table.records() {
             let record = record.map_err(bad)?;
             let line = record.position().map_or(0, csv::Position::line);
             rows.push((line, record.iter().map(str::to_owned).collect()));
         }
+
         let sheet = Self { name: path.display().to_string(), titles, rows };
+
         let twice =
             (1..sheet.titles.len()).find(|number| sheet.titles[..*number].contains(&sheet.titles[*number]));
         if let Some(number) = twice {
@@ -35,11 +38,13 @@ impl Sheet {
         if sheet.rows.is_empty() {
             return Err(sheet.failure("there are no rows"));
         }
+
         let has_numbers =
             |column| sheet.numbers(column).is_ok_and(|numbers| numbers.iter().any(Option::is_some));
         if !(0..sheet.titles.len()).any(has_numbers) {
             return Err(sheet.failure("there is no column of numbers under a title"));
         }
+
         Ok(sheet)
     }
 

@@ -14,6 +14,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
         outputs.residual,
         outputs.interaction.name()
     );
+
     let Some(stability) = verdict::stability(outputs) else {
         return format!(
             "not converged; {search}\n{}{}",
@@ -25,6 +26,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
             )
         );
     };
+
     let status = match (outputs.status, stability) {
         (Status::NearFold, "stable") => "solved, close to a fold: a little more load and the shape snaps",
         (Status::Snapped, _) => "solved, after a snap to another branch",
@@ -35,6 +37,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
         "unknown" => "stability unknown: this method does not compute it",
         known => known,
     };
+
     let mut out = format!("{status}; {stable}; {search}\n");
     let bands = told.map(Told::of_table);
     for (index, quantity) in quantities(outputs).iter().enumerate() {
@@ -49,6 +52,7 @@ pub(super) fn as_table(outputs: &Outputs, told: Option<&Told>) -> String {
             quantity.components.iter().map(|number| format!("{number:>12.4}")).collect();
         out += &row(&quantity.name, &numbers.concat(), &unit);
     }
+
     if let Some(wall) = &outputs.wall {
         out += &row("contacts with the wall", &wall.count.to_string(), "");
     }

@@ -67,10 +67,12 @@ impl Told {
             .zip(&stated.deviations)
             .map(|(key, deviation)| format!("{key} \u{b1} {deviation}"))
             .collect();
+
         let mut lines = vec![format!(
             "\n\u{b1}: half the width of the 95 % band, first order, from standard deviations of {}\n",
             numbers.join(", ")
         )];
+
         if let Some(distance) = self.bands.distance_of_fold() {
             let told = if self.bands.near_fold() {
                 ": near a fold the distribution is no ellipse and these bands do not hold; only samples show it (--samples 1000)"
@@ -79,6 +81,7 @@ impl Told {
             };
             lines.push(format!("a fold is {distance:.1} standard deviations away{told}\n"));
         }
+
         if let Some(samples) = &self.samples {
             let (on, refused) = (samples.outputs().len(), samples.refused());
             let snaps = 100.0 * samples.snap_probability();
@@ -91,6 +94,7 @@ impl Told {
                 ));
             }
         }
+
         lines.concat()
     }
 
@@ -99,6 +103,7 @@ impl Told {
         let stated = self.bands.uncertainty();
         let deviations: Map<String, Value> =
             stated.keys.iter().cloned().zip(stated.deviations.iter().map(|value| json!(value))).collect();
+
         let (mut bands, mut sensitivities) = (Map::new(), vec![Map::new(); stated.keys.len()]);
         for (key, row) in of_shape().filter(|(_, row)| self.is_known(row)) {
             let sides = self.sides(|outputs| value(row, outputs).unwrap_or(Value::Null));
@@ -109,6 +114,7 @@ impl Told {
         }
         let sensitivities: Map<String, Value> =
             stated.keys.iter().cloned().zip(sensitivities.into_iter().map(Value::Object)).collect();
+
         json!({
             "deviations": deviations,
             "band_95": bands,

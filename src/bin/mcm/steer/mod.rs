@@ -119,17 +119,21 @@ impl Steer {
         let read: Vec<_> = read.into_iter().map(PathBuf::as_path).collect();
         let written: Vec<_> = self.out.iter().map(PathBuf::as_path).collect();
         refuse_same(&read, &written)?;
+
         let scene = read_scene(&self.scene)?.scene()?;
         let moves =
             self.moves.iter().map(|name| Move::named(name, &scene)).collect::<Result<Vec<_>, _>>()?.concat();
+
         let mut table = self.out.as_deref().map(Table::at).transpose()?;
         let columns = Columns::of(&scene);
         if let Some(table) = &mut table {
             table.header(columns.header(keys(&moves).iter().map(String::as_str)))?;
         }
+
         let tolerances = Tolerances { position: self.tolerance_um / 1e6, ..Tolerances::default() };
         let mut steering = Steering::new(&scene, &moves, self.limits()?)?.with_tolerances(tolerances)?;
         let start = Step { inputs: steering.inputs().clone(), outputs: steering.outputs().clone() };
+
         let found = self.found(&mut steering, &moves)?;
         if let Some(mut table) = table {
             for step in [start].iter().chain(&found.way) {
@@ -138,7 +142,9 @@ impl Steer {
             }
             table.complete()?;
         }
+
         print(format!("{}\n{} steps, none snaps\n{}", found.note, found.way.len(), here(&moves, &steering)))?;
+
         let Some(limit) = found.limit else { return Ok(ExitCode::SUCCESS) };
         let off = found.off.map_or_else(String::new, |off| format!("; {off}"));
         warn(&format!("not reached: {limit}{off}"));

@@ -26,8 +26,10 @@ pub(super) fn targets(path: &Path) -> Result<Vec<Target>, Failure> {
         let known = COLUMNS.contains(&title);
         (!known).then(|| format!("{title} is no column of a table of targets{suggested}"))
     })?;
+
     let place = |column: &str| table.titles.iter().position(|title| title == column);
     let mut out = Vec::new();
+
     for line in &table.rows {
         let number = |column: &str| place(column).map(|place| line.cells[place]);
         let vector =
@@ -36,6 +38,7 @@ pub(super) fn targets(path: &Path) -> Result<Vec<Target>, Failure> {
                 [None, None, None] => Ok(None),
                 _ => Err(line.failure(format_args!("not all of {}", columns.join(", ")))),
             };
+
         let target = Target {
             position: vector(&COLUMNS[..3])?.map(|position| position / 1e3),
             direction: vector(&COLUMNS[3..6])?,

@@ -81,6 +81,7 @@ impl Journal {
         let name = path.display();
         let foreign =
             || Failure(format!("{name} is of no sweep, or damaged: delete it, or choose another --out"));
+
         let old = match fs::read(path) {
             Ok(bytes) => {
                 Some(String::from_utf8(bytes).map_err(|_| foreign())?).filter(|text| !text.is_empty())
@@ -88,14 +89,19 @@ impl Journal {
             Err(error) if error.kind() == ErrorKind::NotFound => None,
             Err(error) => return Err(Failure(format!("cannot read {name}: {error}"))),
         };
+
         if old.as_ref().is_some_and(|text| !text.starts_with(TITLE)) {
             return Err(foreign());
         }
+
         let failure = |error| Failure::writing(path.display(), error);
+
+        // Locked before anything is read from it: two sweeps would mix their rows.
         let file = File::options().create(true).append(true).open(path).map_err(failure)?;
         if file.try_lock().is_err() {
             return Err(Failure(format!("{name} is being written by another sweep")));
         }
+
         if old.is_some() && !resume {
             return Err(Failure(format!(
                 "{name} holds the rows of an unfinished sweep: go on with --resume, or delete it"
@@ -104,17 +110,21 @@ impl Journal {
         if old.is_none() && resume {
             warn(&format!("there is no unfinished sweep {name}: this one starts at its first row"));
         }
+
         let (length, kept) = match &old {
             Some(text) => sweep.read(text).ok_or_else(|| {
                 Failure(format!("{name} is of another sweep or version: delete it, or choose another --out"))
             })?,
             None => (0, Kept::nothing(sweep.walks)),
         };
+
+        // A row that was being written when the sweep was stopped is cut off.
         file.set_len(length).map_err(failure)?;
         let journal = Self { path: path.to_owned(), file: Mutex::new(file) };
         if length == 0 {
             journal.add(format!("{}\nrow,{}\n", sweep.title(), sweep.header.join(",")).as_bytes())?;
         }
+
         Ok((journal, kept))
     }
 

@@ -159,6 +159,7 @@ impl Row {
     ) -> Self {
         let numbers =
             columns.rows().flat_map(|(row, Spelling { unit, .. })| row.read(outputs, 0, unit)).collect();
+
         Self {
             columns,
             varied,

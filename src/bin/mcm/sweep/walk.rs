@@ -54,6 +54,7 @@ impl<'a> Plan<'a> {
         let combinations = super::range::grid(others);
         let columns = Columns::of(&file.scene()?);
         let mut plan = Self { file, along, others, combinations, back, same_device: true, columns };
+
         let same = |combination: &Vec<f64>| {
             let varied = plan.with(combination)?;
             let mut first: Option<Scene> = None;
@@ -65,14 +66,17 @@ impl<'a> Plan<'a> {
             }
             Ok(same)
         };
+
         let same = plan.combinations.par_iter().map(same).collect::<Result<Vec<_>, Failure>>()?;
         plan.same_device = same.into_iter().all(|same| same);
+
         if back && !plan.same_device {
             return Err(Failure(format!(
                 "--back does not apply to {}: each of its values is a separate device, which starts unloaded",
                 along.key
             )));
         }
+
         Ok(plan)
     }
 
@@ -209,6 +213,7 @@ impl Steps<'_> {
         let along = self.plan.along;
         let others = &self.plan.combinations[self.number];
         let file = self.plan.with(others)?;
+
         let solve = |(index, (value, known)): (usize, (&f64, Option<Row>))| {
             if let Some(row) = known {
                 self.bar.inc(1);
@@ -230,6 +235,7 @@ impl Steps<'_> {
             self.keep(index, &row)?;
             Ok(Some(row))
         };
+
         let known = in_order(kept.rows, along.values.len());
         let rows = along.values.par_iter().zip(known).enumerate().map(solve);
         let rows = rows.collect::<Result<Option<Vec<_>>, Failure>>()?;

@@ -102,7 +102,10 @@ impl Picture {
                 .set("stroke", edge)
                 .set("stroke-width", 1.2)
         };
+
         let mut out = frame.inside();
+
+        // From the back to the front: what is drawn later covers what lies behind.
         if !self.vessel.is_empty() {
             out = out.add(area("vessel", &self.vessel.iter().collect::<Vec<_>>(), LUMEN, VESSEL));
         }
@@ -115,6 +118,7 @@ impl Picture {
         for shaft in &self.shaft {
             out = out.add(area("shaft", &[shaft], SHAFT, GREY));
         }
+
         let [body, core] = &self.device;
         out = out.add(area("device", &[body], BODY, DEVICE));
         if !self.rings.is_empty() {

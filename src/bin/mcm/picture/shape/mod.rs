@@ -96,12 +96,16 @@ impl Picture {
         let inputs = &scene.inputs;
         let placed = scene.sources.list().iter().zip(inputs.sources.iter().copied());
         let on: Vec<(&Source, PlacedSource)> = placed.filter(|(_, placed)| placed.strength != 0.0).collect();
+
         let lumen = scene.vessel.as_ref().map(|vessel| &vessel.lumen);
         let field = inputs.uniform_field;
         let beside =
             on.first().map(|(_, placed)| placed.pose.position).or((field != Vector3::zeros())
                 .then(|| outputs.tip.position + field.normalize() * design.length()));
+
         let view = View::of(plane, &outputs.shape, lumen, beside, &inputs.base.axis());
+
+        // Points up to the inserted length lie on the shaft, those behind it on the device.
         let inserted = outputs.feed_length.unwrap_or(0.0);
         let first = outputs.shape_arc_length.iter().position(|s| *s >= inserted).unwrap_or(0);
         let (pushed, device) = (&outputs.shape[..=first], &outputs.shape[first..]);
@@ -109,14 +113,17 @@ impl Picture {
             let outside = [inputs.base.advanced(-OUTSIDE).position, inputs.base.position];
             [&outside[..], pushed].map(|points| outline::of_rod(&view, points, shaft.outer_radius)).into()
         });
+
         let (radius, core, ring) = match &scene.specification {
             Specification::Segmented(own) => (own.helix.radius, own.helix.core_outer_radius, own.ring.length),
             Specification::Cylinder(own) => (own.radius, 0.0, 0.0),
         };
+
         let driven = |drive| {
             let own = on.iter().filter(move |(source, _)| source.drive() == drive);
             own.flat_map(|(source, placed)| source.parts().iter().map(move |part| (part, placed)))
         };
+
         let magnet = driven(Drive::Factor).map(|(part, PlacedSource { pose, strength })| {
             let ends = ends(part);
             let north = if part.remanence.z * strength > 0.0 { ends[1] } else { ends[0] };
@@ -131,18 +138,21 @@ impl Picture {
                 front: usize::from(behind > ahead),
             }
         });
+
         let middle = outputs.shape.iter().sum::<Vector3<f64>>() / outputs.shape.len() as f64;
         let remarks =
             on.iter().filter_map(|(source, placed)| Remark::of(&view, &middle, source, &placed.pose));
         let coils = driven(Drive::Current).map(|(part, placed)| {
             outline::of_cylinder(&view, &placed.pose, ends(part), part.outline.outer_radius())
         });
+
         let body = |pose: &Pose| outline::of_cylinder(&view, pose, [-0.5 * ring, 0.5 * ring], radius);
         let walls = outputs.wall.iter().flat_map(|wall| &wall.places);
         let flat = |force: &Vector3<f64>| {
             let (x, y) = view.at(force);
             (1e-3 * x, 1e-3 * y)
         };
+
         let mut out = Self {
             title: format!("{name}: tip angle {:.2} deg", outputs.tip_angle.to_degrees()),
             corners: [(0.0, 0.0); 2],
@@ -158,10 +168,13 @@ impl Picture {
             field: (field != Vector3::zeros()).then(|| (view.at(&field), 1e3 * field.norm())),
             view,
         };
+
+        // Arrows are scaled by the largest force, unless that is tiny beside the loads on the whole.
         let whole = [outputs.base_reaction_force, outputs.magnetic_force, inputs.tip_force];
         let whole = whole.into_iter().map(|force| force.norm()).fold(0.0, f64::max);
         out.full_force = out.largest_force().max(FORCE_SHARE * whole).max(LEAST_FORCE);
         out.corners = out.corners_around(lumen.is_some());
+
         if let Some(lumen) = lumen {
             let Grid { first, step, columns, values } =
                 outline::depth_in_lumen(lumen, &out.view, out.corners);
@@ -169,6 +182,7 @@ impl Picture {
             let lines = closed_lines(&values, columns).into_iter();
             out.vessel = lines.map(|line| line.into_iter().map(place).collect()).collect();
         }
+
         Ok(out)
     }
 
