@@ -120,25 +120,31 @@ impl fmt::Display for Interval {
         if let Self { low: Included(low), high: Included(high), other: Unbounded } = self {
             return write!(out, "from {} to {}", Limit(*low), Limit(*high));
         }
+
         let mut conditions = Vec::new();
+
         match self.low {
             Included(low) => conditions.push(format!(">= {}", Limit(low))),
             Excluded(low) => conditions.push(format!("> {}", Limit(low))),
             Unbounded => {}
         }
+
         match self.high {
             Included(high) => conditions.push(format!("<= {}", Limit(high))),
             Excluded(high) => conditions.push(format!("< {}", Limit(high))),
             Unbounded => {}
         }
+
         match self.other {
             Included(other) => conditions.push(format!("<= {other}")),
             Excluded(other) => conditions.push(format!("< {other}")),
             Unbounded => {}
         }
+
         if conditions.is_empty() {
             conditions.push("finite".into());
         }
+
         out.write_str(&conditions.join(" and "))
     }
 }
