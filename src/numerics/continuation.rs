@@ -16,7 +16,7 @@ const CORRECTIONS: u32 = 8;
 const CONTRACTION: f64 = 0.5;
 
 /// Norm of a correction at which the corrector has converged: the remaining error is its square.
-const SETTLED: f64 = 1e-8;
+const CONVERGED: f64 = 1e-8;
 
 /// Rotation of the tangent (rad) per step below which steps grow, and above which they shrink.
 const TURN: f64 = 0.1;
@@ -219,13 +219,13 @@ fn correct(
         // Newton's method converges quadratically near the branch; corrections that shrink slowly come from
         // elsewhere.
         let length = step.norm();
-        if length.is_nan() || length > CONTRACTION * previous && length > SETTLED {
+        if length.is_nan() || length > CONTRACTION * previous && length > CONVERGED {
             return Ok(None);
         }
         place += step;
         previous = length;
 
-        if length <= SETTLED {
+        if length <= CONVERGED {
             return Ok(finish(family, &place, normal)?.map(|point| (point, corrections)));
         }
     }

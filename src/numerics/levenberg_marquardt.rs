@@ -88,16 +88,23 @@ pub fn solve(
         if let Some(next) = next.filter(|_| ratio > RATIOS[0]) {
             (*x, residual, jacobian) = (trial, next, None);
         }
-        if ratio < RATIOS[1] {
-            damping *= FACTOR;
-        } else if ratio > RATIOS[2] {
-            damping = BOUNDS[0].max(damping / FACTOR);
-        }
+        damping = adapted(damping, ratio);
     }
 
     end.residual = residual.norm();
     end.converged = end.residual <= tolerance;
     end
+}
+
+/// The damping after a step with this ratio of actual to predicted decrease.
+fn adapted(damping: f64, ratio: f64) -> f64 {
+    if ratio < RATIOS[1] {
+        damping * FACTOR
+    } else if ratio > RATIOS[2] {
+        BOUNDS[0].max(damping / FACTOR)
+    } else {
+        damping
+    }
 }
 
 fn step(

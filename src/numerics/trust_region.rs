@@ -286,11 +286,11 @@ fn along_negative_curvature(
     let size = norm(&metric, &direction);
     let along =
         metric.iter().zip(&direction).zip(step.iter()).map(|((k, z), s)| k * z * s).sum::<f64>() / size;
-    let reach = (along * along + radius * radius - length * length).max(0.0).sqrt();
+    let root = (along * along + radius * radius - length * length).max(0.0).sqrt();
     let decrease = |tau: f64| tau * shift * along - 0.5 * tau * tau * lambda;
     // A tie is broken towards a positive sum of the components, for repeatability.
     let sign = if direction.iter().sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
-    let (one, other) = (sign * reach - along, -sign * reach - along);
+    let (one, other) = (sign * root - along, -sign * root - along);
     let tau = if decrease(one) >= decrease(other) { one } else { other };
     for (s, z) in step.iter_mut().zip(&direction) {
         *s += tau * z / size;
