@@ -185,11 +185,11 @@ impl Modes {
         let (nodes, weights) = gauss_legendre(self.degree / 2 + 2);
         let mut sum = vec![0.0; self.count()];
         for (other, part) in self.parts.iter().enumerate().take(index + 1) {
-            let reach = if other == index { s - part.start } else { part.length };
+            let length = if other == index { s - part.start } else { part.length };
             for (node, weight) in nodes.iter().zip(&weights) {
-                let values = self.values(other, part.start + 0.5 * reach * (1.0 + node));
+                let values = self.values(other, part.start + 0.5 * length * (1.0 + node));
                 for (total, value) in sum.iter_mut().zip(values) {
-                    *total += 0.5 * reach * weight * value;
+                    *total += 0.5 * length * weight * value;
                 }
             }
         }

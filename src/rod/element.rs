@@ -124,14 +124,7 @@ impl Element {
         let numbered: [(usize, &Modes); COMPONENTS] = core::array::from_fn(|c| (c, &modes[c]));
         let component: Vec<usize> = order(numbered.map(|(c, mode)| vec![c; mode.count()]));
 
-        // Neighbours of one component make a run, so that the loops of the derivatives meet adjacent entries.
-        let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
-        for (i, c) in component.iter().enumerate() {
-            match runs.last_mut() {
-                Some((last, run)) if last == c => run.end = i + 1,
-                _ => runs.push((*c, i..i + 1)),
-            }
-        }
+        let runs = runs(&component);
         let metric = component.iter().map(|c| modes[*c].stiffness()).collect();
 
         // A piece that bends as a core does is resolved as one.
@@ -300,4 +293,16 @@ fn order<T>(tables: [Vec<T>; COMPONENTS]) -> Vec<T> {
         out.extend(column);
     }
     out
+}
+
+/// Neighbouring degrees of freedom of one component: the loops of the derivatives run over adjacent entries.
+fn runs(component: &[usize]) -> Vec<(usize, Range<usize>)> {
+    let mut runs: Vec<(usize, Range<usize>)> = Vec::new();
+    for (i, c) in component.iter().enumerate() {
+        match runs.last_mut() {
+            Some((last, run)) if last == c => run.end = i + 1,
+            _ => runs.push((*c, i..i + 1)),
+        }
+    }
+    runs
 }

@@ -38,6 +38,42 @@ pub struct ElementLoads<'a> {
     pub end: (Vector3<f64>, Vector3<f64>),
 }
 
+/// What all loads together do to the start node, with which the element moves as a rigid body.
+struct StartLoad {
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    /// Derivative of the energy by the matrix that turns the element: couples, and forces times positions.
+    whole: Matrix3<f64>,
+}
+
+impl StartLoad {
+    fn of(configuration: &Configuration, loads: &ElementLoads<'_>) -> Self {
+        let (end_force, end_moment) = &loads.end;
+        let mut whole = end_force * configuration.end.position.transpose();
+        let mut force = *end_force;
+        let mut moment = configuration.end.position.cross(end_force) + end_moment;
+        let stations = configuration.stations.iter().map(|state| &state.position).zip(loads.stations);
+        let placed = loads.placed.iter().map(|placed| (&placed.frame.pose.position, &placed.load));
+        for (position, load) in stations.chain(placed) {
+            whole += load.couple + load.force * position.transpose();
+            force += load.force;
+            moment += position.cross(&load.force) + load.moment();
+        }
+        Self { force, moment, whole }
+    }
+}
+
+/// A station, and what acts on it and beyond it.
+struct LoadedStation<'a> {
+    index: usize,
+    state: &'a StationState,
+    /// Length of the element relative to the one of its tables.
+    growth: f64,
+    load: &'a Load,
+    /// Force of everything beyond the station on its tangent.
+    beyond: Vector3<f64>,
+}
+
 /// First and second derivatives of one element's contribution to the Lagrangian.
 #[derive(Debug, Clone)]
 pub struct ElementDerivatives {
@@ -91,16 +127,8 @@ impl ElementDerivatives {
             self.end_position.fill(Vector3::zeros());
             self.fill_tangents(element, configuration);
         }
-        let mut whole = end_force * configuration.end.position.transpose();
-        let mut start_force = *end_force;
-        let mut start_moment = configuration.end.position.cross(end_force) + end_moment;
-        let stations = configuration.stations.iter().map(|state| &state.position).zip(loads.stations);
-        let placed = loads.placed.iter().map(|placed| (&placed.frame.pose.position, &placed.load));
-        for (position, load) in stations.chain(placed) {
-            whole += load.couple + load.force * position.transpose();
-            start_force += load.force;
-            start_moment += position.cross(&load.force) + load.moment();
-        }
+
+        let start = StartLoad::of(configuration, loads);
         for (index, (state, load)) in configuration.stations.iter().zip(loads.stations).enumerate() {
             // Force of everything beyond this station on its tangent.
             let mut beyond = end_force * element.stations[index].weight;
@@ -110,24 +138,28 @@ impl ElementDerivatives {
             for placed in loads.placed {
                 beyond += placed.load.force * placed.row.position[index];
             }
+            let station = LoadedStation { index, state, growth: configuration.growth, load, beyond };
             if second {
-                self.add_station(element, index, (state, configuration.growth), load, &beyond);
+                self.add_station(element, &station);
                 if load.stiff {
                     self.station_motion(element, index, state);
                     self.add_stiffness(load);
                 }
             } else {
-                self.add_station_gradient(element, index, (state, configuration.growth), load, &beyond);
+                self.add_station_gradient(element, &station);
             }
         }
+
         for placed in loads.placed {
             self.add_placed(element, placed, second);
         }
         self.add_end(configuration, end_moment, second);
         for i in 0..3 {
-            self.gradient[i] = start_force[i];
-            self.gradient[3 + i] = start_moment[i];
+            self.gradient[i] = start.force[i];
+            self.gradient[3 + i] = start.moment[i];
         }
+
+        // The rotational strains' energy is in the stations; that of shear and stretch is diagonal in the amplitudes.
         for (((row, stiffness), amplitude), component) in
             (START..).zip(&element.metric).zip(amplitudes).zip(&element.component)
         {
@@ -139,7 +171,7 @@ impl ElementDerivatives {
             for coupling in loads.couplings {
                 self.add_coupling(element, loads.placed, coupling);
             }
-            self.complete(element, configuration.growth, &whole);
+            self.complete(element, configuration.growth, &start.whole);
         }
     }
 
@@ -185,14 +217,8 @@ impl ElementDerivatives {
     }
 
     /// Adds the contribution of a station to the gradient alone.
-    fn add_station_gradient(
-        &mut self,
-        element: &Element,
-        index: usize,
-        (state, growth): (&StationState, f64),
-        load: &Load,
-        beyond: &Vector3<f64>,
-    ) {
+    fn add_station_gradient(&mut self, element: &Element, at: &LoadedStation<'_>) {
+        let &LoadedStation { index, state, growth, load, ref beyond } = at;
         let station = &element.stations[index];
         let (bend, rate) =
             bending::gradient(state, &station.stiffness.lined(state.lining), station.weight / growth);
@@ -208,14 +234,8 @@ impl ElementDerivatives {
     }
 
     /// Adds the elastic bending of a station and the second variation of its directors and tangent.
-    fn add_station(
-        &mut self,
-        element: &Element,
-        index: usize,
-        (state, growth): (&StationState, f64),
-        load: &Load,
-        beyond: &Vector3<f64>,
-    ) {
+    fn add_station(&mut self, element: &Element, at: &LoadedStation<'_>) {
+        let &LoadedStation { index, state, growth, load, ref beyond } = at;
         let station = &element.stations[index];
         let bend = Bending::new(state, &station.stiffness.lined(state.lining), station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
@@ -258,11 +278,18 @@ impl ElementDerivatives {
                 }
             }
         }
+        self.add_station_turn(element, at);
+    }
+
+    /// Adds the mixed derivatives of a station's load with respect to the start node's rotation and the amplitudes.
+    fn add_station_turn(&mut self, element: &Element, at: &LoadedStation<'_>) {
+        let &LoadedStation { index, state, load, ref beyond, .. } = at;
         let turn = load.couple.transpose() - Matrix3::identity() * load.couple.trace();
         let turn_left = turn * state.left;
-        let freedoms = element.freedoms();
+
+        let (freedoms, size) = (element.freedoms(), self.size);
         let rows = &self.tangents[3 * index * freedoms..][..3 * freedoms];
-        for (i, phi_i) in phi.iter().enumerate() {
+        for (i, phi_i) in element.stations[index].row.integral.iter().enumerate() {
             let column = Vector3::new(rows[i], rows[freedoms + i], rows[2 * freedoms + i]);
             let mut cross = column.cross(beyond);
             let c = element.component[i];
