@@ -106,6 +106,12 @@ impl Surface {
             }
         }
 
+        self.check_edges(&open, &crowded, flat)?;
+        Ok(neighbours)
+    }
+
+    /// That there are triangles, and that two share each edge; `flat` are the numbers of triangles without area, left out.
+    fn check_edges(&self, open: &[Edge], crowded: &[Edge], flat: &[usize]) -> Result<(), Error> {
         let aside = flat.first().map_or(String::new(), |first| {
             format!(" (leaving out {} without area, first triangle {first})", flat.len())
         });
@@ -125,8 +131,7 @@ impl Surface {
                 "at least 4",
             ));
         }
-
-        Ok(neighbours)
+        Ok(())
     }
 
     /// Turns triangles so that neighbours agree and the normals point outwards.

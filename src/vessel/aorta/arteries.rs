@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::anatomy::{Aorta, Iliac, SideArtery};
-use super::course::{Bend, Course, Place};
+use super::course::{Bend, CentrelinePoint, Course};
 use crate::error::{Error, check};
 use crate::numerics::bisection::bisect;
 use crate::numerics::onset::smooth_step;
@@ -67,7 +67,7 @@ pub(super) struct SideCourse {
     /// Where its straight beginning leaves the aorta's centreline, as a length along that, m.
     pub(super) start: f64,
     /// The middle of its mouth, with its direction there, and its length up to there, m.
-    pub(super) mouth: Place,
+    pub(super) mouth: CentrelinePoint,
     pub(super) to_mouth: f64,
 }
 
@@ -222,7 +222,12 @@ impl Aorta {
                 Bend::straight((1.0 - SIDE_BEND) * rest),
             ],
         };
-        Ok(SideCourse { course, start: start_at, mouth: Place { point: mouth, direction }, to_mouth })
+        Ok(SideCourse {
+            course,
+            start: start_at,
+            mouth: CentrelinePoint { point: mouth, direction },
+            to_mouth,
+        })
     }
 
     fn check(&self) -> Result<(), Error> {

@@ -46,7 +46,7 @@ pub(super) struct Course {
 
 /// A point of a centreline.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct CentrelinePoint {
     /// Position, m.
     pub(super) point: Vector3<f64>,
     /// Direction in which the centreline goes on.
@@ -60,7 +60,7 @@ impl Course {
     }
 
     /// The place at this length (m) from its beginning; straight on beyond its end.
-    pub(super) fn place(&self, station: f64) -> Place {
+    pub(super) fn place(&self, station: f64) -> CentrelinePoint {
         let (nodes, weights) = gauss_legendre(POINTS);
         let (mut point, mut heading, mut left) = (self.origin, self.heading, station);
         for bend in &self.bends {
@@ -75,7 +75,7 @@ impl Course {
             left -= length;
         }
         let direction = self.direction(heading);
-        Place { point: point + direction * left, direction }
+        CentrelinePoint { point: point + direction * left, direction }
     }
 
     /// Lengths (m) from its beginning at which its points are, both ends and those of each part among them.
