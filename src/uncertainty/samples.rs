@@ -82,7 +82,10 @@ impl Samples {
             })
         };
 
-        let drawn = deviates.par_iter().map(device).collect::<Result<Vec<_>, Error>>()?;
+        Ok(Self::of(deviates.par_iter().map(device).collect::<Result<Vec<_>, Error>>()?))
+    }
+
+    fn of(drawn: Vec<Drawn>) -> Self {
         let mut out = Self { outputs: Vec::new(), snapped: 0, lost: 0, refused: 0 };
         for each in drawn {
             match each {
@@ -92,7 +95,7 @@ impl Samples {
                 Drawn::Refused => out.refused += 1,
             }
         }
-        Ok(out)
+        out
     }
 
     /// The outputs of the devices that hold the shape.
