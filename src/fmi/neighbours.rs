@@ -22,10 +22,10 @@ const STENCILS: [&[(f64, f64)]; 3] = [
     &[(0.0, 1.5), (-1.0, -2.0), (-2.0, 0.5)],
 ];
 
-/// The outputs of two devices beside the solved one, and by how much they are apart.
+/// The outputs of two devices beside the solved one, and by how much their inputs or parameter differ.
 pub(super) struct Neighbours {
     sides: [Outputs; 2],
-    apart: f64,
+    difference: f64,
 }
 
 impl Neighbours {
@@ -49,12 +49,12 @@ impl Neighbours {
             value = span.ok_or_else(unknown)?.density;
         }
         let number = Number { value, usual: quantity.nominal };
-        let (sides, apart) = manipulator.outputs_beside(number, |value| {
+        let (sides, difference) = manipulator.outputs_beside(number, |value| {
             let mut varied = values.clone();
             parameter.set(&mut varied, Value::Real(value))?;
             varied.variant()
         })?;
-        Ok(Self { sides, apart })
+        Ok(Self { sides, difference })
     }
 
     /// Those at inputs a little before and after along a direction, given by the derivatives of inputs.
@@ -67,15 +67,15 @@ impl Neighbours {
         direction: &[(&Variable, f64)],
     ) -> Result<Self, Error> {
         let number = Number { value: 0.0, usual: usual(direction) };
-        let (sides, apart) =
+        let (sides, difference) =
             manipulator.outputs_beside(number, |way| moved(values, direction, way)?.variant())?;
-        Ok(Self { sides, apart })
+        Ok(Self { sides, difference })
     }
 
     /// The derivative of an output; `None` for what is no Real.
     pub(super) fn derivative(&self, output: &Variable) -> Option<f64> {
         let [before, after] = self.sides.each_ref().map(|side| output.output(side)?.real());
-        Some((after? - before?) / self.apart)
+        Some((after? - before?) / self.difference)
     }
 }
 

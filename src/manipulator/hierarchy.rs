@@ -216,10 +216,10 @@ impl Hierarchy {
                 models.adopt(level, from, &shape, &before);
                 let model = models.at_mut(level);
                 model.recall_friction(&friction);
-                let settled = model.solve_before(deadline, &before)?;
+                let there = model.solve_before(deadline, &before)?;
                 let report = model.solve_before(deadline, inputs)?;
                 // What another model corrects of a shape is no snap of the device.
-                Ok(Report { iterations: settled.iterations + report.iterations, ..report })
+                Ok(Report { iterations: there.iterations + report.iterations, ..report })
             });
         }
         if changed && from >= richest && !self.is_accurate(inputs, deadline)? {
@@ -293,8 +293,8 @@ impl Hierarchy {
     fn descend(&mut self, inputs: &Inputs, report: Report, deadline: &Deadline) -> Result<Report, Error> {
         let from = self.present;
         // One step of the cheaper model tells of most that are rejected, before any is solved.
-        let apart = self.models.deviation(from - 1, from);
-        if apart.is_none_or(|apart| self.allowed(inputs).room(&apart, DESCEND) < 1.0) {
+        let deviation = self.models.deviation(from - 1, from);
+        if deviation.is_none_or(|deviation| self.allowed(inputs).room(&deviation, DESCEND) < 1.0) {
             self.wait = self.wait.longer();
             return Ok(report);
         }

@@ -178,26 +178,26 @@ impl Models {
             return self.error_of_coarse(number);
         }
 
-        let mut apart = TipDeviation::NONE;
+        let mut of_model = TipDeviation::NONE;
         if number < richest {
             let (cheaper, richest) = self.whole.split_at_mut(richest);
             let Some(deviation) = richest[0].deviation_of(&cheaper[number]) else { return Ok(None) };
             if !is_allowed(&deviation) {
                 return Ok(Some(ModelError::of_model(deviation)));
             }
-            apart = deviation;
+            of_model = deviation;
         }
 
         self.make(number.max(richest) + 1)?;
         let number = number.max(richest);
 
         if self.at(number).is_soft() {
-            return Ok(self.error_of_soft(number)?.map(|error| error.beside(apart)));
+            return Ok(self.error_of_soft(number)?.map(|error| error.beside(of_model)));
         }
 
         let (below, above) = self.finer.split_at_mut(number - richest);
         let model = below.last_mut().map_or(&mut self.whole[richest], |finer| &mut finer.model);
-        Ok(above[0].error_of(model).map(|error| ModelError::of_discretisation(&error).beside(apart)))
+        Ok(above[0].error_of(model).map(|error| ModelError::of_discretisation(&error).beside(of_model)))
     }
 }
 

@@ -125,14 +125,14 @@ impl Neighbours {
             return Err(Error::NoDerivatives("the last inputs are not solved".into()));
         }
         let mut here = manipulator.model().linearised()?;
-        let (mut sides, mut apart) = (Vec::new(), Vec::new());
+        let (mut sides, mut differences) = (Vec::new(), Vec::new());
         for (key, variation) in self.keys.iter().zip(&mut self.variations) {
             let at = |value| with(&self.file, key, value);
             let outputs = variation.outputs(manipulator, &mut here, at, &inputs_of)?;
             sides.push(outputs.ok_or_else(not_smooth)?);
-            apart.push(variation.apart());
+            differences.push(variation.difference());
         }
-        Ok(Sensitivities::new(self.keys.clone(), sides, apart))
+        Ok(Sensitivities::new(self.keys.clone(), sides, differences))
     }
 
     /// Derivatives of the stability margin by the numbers, at the shape of the last sensitivities; `None` before the first, and where a

@@ -12,7 +12,7 @@ use crate::error::Error;
 const STRIDE: f64 = 5e-3;
 
 /// Change of the length within which it counts as found, m.
-const SETTLED: f64 = 1e-12;
+const FOUND: f64 = 1e-12;
 
 /// Difference of two pushes that counts as none, N.
 const BALANCED: f64 = 1e-12;
@@ -132,7 +132,7 @@ impl Balance {
         };
 
         let [low, high] = self.between;
-        if high - low <= SETTLED || step.abs() <= SETTLED {
+        if high - low <= FOUND || step.abs() <= FOUND {
             return None;
         }
 

@@ -14,12 +14,12 @@ use super::Outputs;
 pub struct Sensitivities {
     keys: Vec<String>,
     sides: Vec<[Outputs; 2]>,
-    apart: Vec<f64>,
+    differences: Vec<f64>,
 }
 
 impl Sensitivities {
-    pub(super) fn new(keys: Vec<String>, sides: Vec<[Outputs; 2]>, apart: Vec<f64>) -> Self {
-        Self { keys, sides, apart }
+    pub(super) fn new(keys: Vec<String>, sides: Vec<[Outputs; 2]>, differences: Vec<f64>) -> Self {
+        Self { keys, sides, differences }
     }
 
     /// The keys of the numbers.
@@ -31,16 +31,16 @@ impl Sensitivities {
     /// Derivatives of what `read` reads from the outputs, one for each key.
     #[must_use]
     pub fn of(&self, read: impl Fn(&Outputs) -> f64) -> DVector<f64> {
-        let each = self.sides.iter().zip(&self.apart);
+        let each = self.sides.iter().zip(&self.differences);
         DVector::from_iterator(
             self.keys.len(),
-            each.map(|([before, after], apart)| (read(after) - read(before)) / apart),
+            each.map(|([before, after], difference)| (read(after) - read(before)) / difference),
         )
     }
 
     /// The outputs of the two neighbouring devices of key number `index`, and by how much its number differs between them.
     #[must_use]
     pub fn sides(&self, index: usize) -> Option<(&[Outputs; 2], f64)> {
-        Some((self.sides.get(index)?, *self.apart.get(index)?))
+        Some((self.sides.get(index)?, *self.differences.get(index)?))
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Variation {
     number: Number,
     sides: [Variant; 2],
     /// By how much it is smaller and larger; 0 where it is at its limit.
-    apart: [f64; 2],
+    steps: [f64; 2],
     /// Models of both devices, and their settings.
     models: Option<([Equilibrium; 2], Settings)>,
 }
@@ -63,23 +63,23 @@ impl Variation {
     fn shrunk(number: Number, by: f64, at: impl Fn(f64) -> Result<Variant, Error>) -> Result<Self, Error> {
         let Number { value, usual } = number;
         let step = by * STEP * value.abs().max(SMALL * usual);
-        let mut apart = [step; 2];
+        let mut steps = [step; 2];
         let sides = match (at(value - step), at(value + step)) {
             (Ok(before), Ok(after)) => [before, after],
             (Err(_), Err(error)) => return Err(error),
             (before, _) => {
                 // At a limit of its range.
-                apart = [0.0; 2];
-                apart[usize::from(before.is_err())] = ONE_SIDED * step;
-                [at(value - apart[0])?, at(value + apart[1])?]
+                steps = [0.0; 2];
+                steps[usize::from(before.is_err())] = ONE_SIDED * step;
+                [at(value - steps[0])?, at(value + steps[1])?]
             }
         };
-        Ok(Self { number, sides, apart, models: None })
+        Ok(Self { number, sides, steps, models: None })
     }
 
     /// By how much the number differs between the two devices.
-    pub(crate) fn apart(&self) -> f64 {
-        self.apart[0] + self.apart[1]
+    pub(crate) fn difference(&self) -> f64 {
+        self.steps[0] + self.steps[1]
     }
 
     /// Outputs of both devices, each in equilibrium to first order, at the last solved shape of `manipulator`. Where they do not differ
@@ -130,7 +130,7 @@ impl Variation {
             }
         }
         let mut lead = |before: &mut Equilibrium, after: &mut Equilibrium, inputs: &[Inputs; 2]| {
-            here.lead([(before, &inputs[0]), (after, &inputs[1])], self.apart) == Neighbourhood::Smooth
+            here.lead([(before, &inputs[0]), (after, &inputs[1])], self.steps) == Neighbourhood::Smooth
         };
         if !lead(before, after, &inputs) {
             return Ok(None);
@@ -154,7 +154,7 @@ impl Variation {
     /// Rate of the stability margin by the number, at the shape of the last outputs; `None` where a device has none.
     pub(crate) fn margin_rate(&self) -> Option<f64> {
         let ([before, after], _) = self.models.as_ref()?;
-        Some((after.margin()? - before.margin()?) / self.apart())
+        Some((after.margin()? - before.margin()?) / self.difference())
     }
 }
 
@@ -217,7 +217,7 @@ impl Manipulator {
         let mut here = self.model().linearised()?;
         let mut variation = Variation::new(number, &at)?;
         let found = variation.outputs(self, &mut here, at, Inputs::clone)?;
-        found.map(|outputs| (outputs, variation.apart())).ok_or_else(not_smooth)
+        found.map(|outputs| (outputs, variation.difference())).ok_or_else(not_smooth)
     }
 }
 

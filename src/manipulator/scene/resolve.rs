@@ -139,8 +139,8 @@ impl SceneFile {
         }
 
         if let Some(wire) = &self.guidewire {
-            let reach = GUIDEWIRE_INSERTION.check("guidewire.insertion_mm", wire.insertion_mm)?;
-            inputs.guidewire_insertion = reach / MM_PER_M;
+            let insertion = GUIDEWIRE_INSERTION.check("guidewire.insertion_mm", wire.insertion_mm)?;
+            inputs.guidewire_insertion = insertion / MM_PER_M;
         }
 
         inputs.tip_force = self.load.tip_force_n.into();
