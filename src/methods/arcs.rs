@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix2, Matrix3, Matrix6, Vector2, Vector3, Vector6};
 
 use super::arc::{Arc, Bent};
-use super::line::{Line, Place};
+use super::line::{Line, MaterialPoint};
 use super::shape::Shape;
 use super::strong_form::Rates;
 use super::surroundings::{Surroundings, column, derivative, gradient};
@@ -99,7 +99,7 @@ impl Arcs {
                         turning,
                         wrench: Vector6::zeros(),
                     });
-                    let at = Place { element, piece, s: link as f64 * length };
+                    let at = MaterialPoint { element, piece, s: link as f64 * length };
                     trace.add(&at, length, [&pose, &end], &rates);
                     pose = end;
                 }

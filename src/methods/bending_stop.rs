@@ -7,13 +7,14 @@
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
 
+use super::line::SpanIndex;
 use super::strong_form::{Matrix12, State};
 use super::surroundings::{Surroundings, derivative};
 use crate::geometry::Pose;
 use crate::rod::BendingStop;
 
 /// Limit of the remaining moment, relative to that which bends an element by one radian.
-const SETTLED: f64 = 1e-13;
+const CONVERGED: f64 = 1e-13;
 
 /// Largest number of Newton steps. The residual is concave in the moment, so that they converge from any start.
 const STEPS: u32 = 60;
@@ -57,7 +58,7 @@ impl Surroundings<'_> {
     }
 
     /// The bending stop of a span; `None` for a disc, too.
-    fn stop_of(&self, (element, piece): (usize, usize)) -> Option<&BendingStop> {
+    fn stop_of(&self, SpanIndex { element, piece }: SpanIndex) -> Option<&BendingStop> {
         let own = self.line.core(element) == piece;
         self.terms.stops.of(&self.line.chain.elements[element]).filter(|_| own)
     }
@@ -65,7 +66,7 @@ impl Surroundings<'_> {
     /// The moment carried by the windings of a span that starts in the state `start`; arguments as of [`Self::crossed`].
     pub(super) fn relief(
         &self,
-        span: (usize, usize),
+        span: SpanIndex,
         start: &State,
         across: impl Fn(&State) -> Option<(State, Matrix12)>,
     ) -> Option<Vector3<f64>> {
@@ -75,13 +76,13 @@ impl Surroundings<'_> {
         }
     }
 
-    /// Crosses a span, given by its element and piece, from the state `start`.
+    /// Crosses a span from the state `start`.
     ///
     /// `across` integrates the span alone, with its derivative. `None` where it does, and where no moment of the windings
     /// is found.
     pub(super) fn crossed(
         &self,
-        span: (usize, usize),
+        span: SpanIndex,
         start: &State,
         across: impl Fn(&State) -> Option<(State, Matrix12)>,
     ) -> Option<Crossed> {
@@ -89,7 +90,8 @@ impl Surroundings<'_> {
         let mut moment = self.stop_of(span).map_or(open, |stop| self.first_guess(stop, span, start));
         for _ in 0..STEPS {
             let (end, own) = across(&start.relieved(&moment))?;
-            let touching = self.stop_of(span).and(self.winding_moment(span.0, [&start.pose, &end.pose]));
+            let touching =
+                self.stop_of(span).and(self.winding_moment(span.element, [&start.pose, &end.pose]));
 
             // Open under a relief that is not zero decides nothing: try again without.
             let Some(carried) = touching else {
@@ -106,7 +108,7 @@ impl Surroundings<'_> {
             let inverse = rate.try_inverse()?;
             let excess = moment - carried.moment;
 
-            if excess.norm() <= SETTLED * self.line.moment {
+            if excess.norm() <= CONVERGED * self.line.moment {
                 // By the implicit function theorem, at the moment that solves the equation.
                 let mut by_state = by_far * turned;
                 let mut by_near_end = by_state.fixed_columns_mut::<3>(3);
@@ -121,8 +123,8 @@ impl Surroundings<'_> {
     }
 
     /// The moment carried by the windings if the moment at the core's start acted all along it.
-    fn first_guess(&self, stop: &BendingStop, span: (usize, usize), start: &State) -> Vector3<f64> {
-        let span = &self.line.spans[span.0][span.1];
+    fn first_guess(&self, stop: &BendingStop, span: SpanIndex, start: &State) -> Vector3<f64> {
+        let span = &self.line.spans[span.element][span.piece];
         let axis = start.pose.axis();
         let across = start.moment() - axis * axis.dot(&start.moment());
         let flexibility = span.length / span.stiffness.bending;

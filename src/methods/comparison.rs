@@ -53,12 +53,12 @@ pub struct Comparison {
     sources: Sources,
     arc_lengths: Arc<Vec<f64>>,
     rules: PairQuadrature,
-    state: State,
+    state: SolvedState,
 }
 
 /// The part of the state that a solve changes.
 #[derive(Debug, Clone)]
-struct State {
+struct SolvedState {
     engine: Engine,
     inputs: Option<Inputs>,
     shape: Shape,
@@ -99,7 +99,7 @@ impl Comparison {
         }
 
         let line = Line::new(design, &model)?;
-        let state = State::straight(&line, &settings)?;
+        let state = SolvedState::straight(&line, &settings)?;
         Ok(Self {
             rules: PairQuadrature::new(&line.chain, &model),
             sources: sources.into(),
@@ -113,7 +113,7 @@ impl Comparison {
 
     /// Resets to the straight shape at the origin; the last solution is discarded.
     pub fn reset(&mut self) {
-        if let Ok(state) = State::straight(&self.line, &self.settings) {
+        if let Ok(state) = SolvedState::straight(&self.line, &self.settings) {
             self.state = state;
         }
     }
@@ -276,7 +276,7 @@ impl Solution for Comparison {
     }
 }
 
-impl State {
+impl SolvedState {
     fn straight(line: &Line, settings: &Settings) -> Result<Self, Error> {
         let engine = Engine::new(line, settings).ok_or_else(|| {
             Error::Unsupported("the potential method is not one of the other methods".into())

@@ -4,9 +4,18 @@ use crate::design::{Design, Span, SpanKind};
 use crate::equilibrium::{Chain, Interaction, Settings};
 use crate::error::Error;
 
+/// A span of the chain by its numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct SpanIndex {
+    /// Index of the element.
+    pub(super) element: usize,
+    /// Index of the span in the element.
+    pub(super) piece: usize,
+}
+
 /// A place on the deformable part of the chain.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct MaterialPoint {
     /// Index of the element.
     pub(super) element: usize,
     /// Index of the span in the element.

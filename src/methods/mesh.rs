@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::line::{Line, Place};
+use super::line::{Line, MaterialPoint};
 use super::strong_form::{State, Vector12};
 use super::surroundings::Surroundings;
 use crate::design::SpanKind;
@@ -26,7 +26,7 @@ pub(super) struct Tableau {
 /// Part of a span on which the rates of the local coordinates are a polynomial.
 #[derive(Debug, Clone)]
 pub(super) struct Interval {
-    pub(super) place: Place,
+    pub(super) place: MaterialPoint,
     pub(super) length: f64,
     /// Rates at the Gauss nodes, in local coordinates relative to the interval's start.
     pub(super) rates: Vec<Vector12>,
@@ -74,7 +74,7 @@ impl Interval {
             let count = if span.kind == SpanKind::Disc { 1 } else { intervals };
             let length = span.length / count as f64;
             out.extend((0..count).map(|i| Self {
-                place: Place { element, piece, s: i as f64 * length },
+                place: MaterialPoint { element, piece, s: i as f64 * length },
                 length,
                 rates: vec![rate; stages],
             }));
@@ -92,13 +92,13 @@ impl Interval {
     }
 
     /// Place of stage `j`.
-    pub(super) fn stage(&self, tableau: &Tableau, j: usize) -> Place {
+    pub(super) fn stage(&self, tableau: &Tableau, j: usize) -> MaterialPoint {
         self.at(tableau.nodes[j])
     }
 
     /// Place at the fraction `x`.
-    pub(super) fn at(&self, x: f64) -> Place {
-        Place { s: self.place.s + x * self.length, ..self.place }
+    pub(super) fn at(&self, x: f64) -> MaterialPoint {
+        MaterialPoint { s: self.place.s + x * self.length, ..self.place }
     }
 
     /// Local coordinates at the fraction `x`.

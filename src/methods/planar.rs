@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix6, SMatrix, SVector, Vector3, Vector6};
 
-use super::line::Place;
+use super::line::{MaterialPoint, SpanIndex};
 use super::multiple_shooting::Crossing;
 use super::node_shape::{Basis, NodeShape};
 use super::node_system::Link;
@@ -61,7 +61,7 @@ impl<'a, 'b> InPlane<'a, 'b> {
         State { pose: self.plane.pose(position, y[2]), wrench: self.axes * y.fixed_rows::<3>(3) }
     }
 
-    fn rates(&self, place: &Place, y: &Vector6<f64>, order: Order) -> Option<Linear> {
+    fn rates(&self, place: &MaterialPoint, y: &Vector6<f64>, order: Order) -> Option<Linear> {
         let span = &self.around.line.spans[place.element][place.piece];
         let material = SectionMaterial::section(span, place.s).axisymmetric();
         let load = self.around.external(&material, &self.state(y).pose, order)?;
@@ -100,21 +100,21 @@ impl<'a, 'b> InPlane<'a, 'b> {
         Some((rates, by))
     }
 
-    fn step(&self, place: &Place, length: f64, start: &Vector6<f64>) -> Option<Vector6<f64>> {
+    fn step(&self, place: &MaterialPoint, length: f64, start: &Vector6<f64>) -> Option<Vector6<f64>> {
         let (mut end, mut rate) = (*start, Vector6::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
-            let at = Place { s: place.s + node * length, ..*place };
+            let at = MaterialPoint { s: place.s + node * length, ..*place };
             rate = self.rates(&at, &(start + rate * (node * length)), Order::Gradient)?.0;
             end += rate * (weight * length);
         }
         Some(end)
     }
 
-    fn step_linear(&self, place: &Place, length: f64, start: &Vector6<f64>) -> Option<Linear> {
+    fn step_linear(&self, place: &MaterialPoint, length: f64, start: &Vector6<f64>) -> Option<Linear> {
         let (mut end, mut rate) = (*start, Vector6::zeros());
         let (mut by_start, mut columns) = (Matrix6::identity(), Matrix6::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
-            let at = Place { s: place.s + node * length, ..*place };
+            let at = MaterialPoint { s: place.s + node * length, ..*place };
             let here = Matrix6::identity() + columns * (node * length);
             let (next, by) = self.rates(&at, &(start + rate * (node * length)), Order::Hessian)?;
             (rate, columns) = (next, by * here);
@@ -129,7 +129,7 @@ impl<'a, 'b> InPlane<'a, 'b> {
         let (mut y, mut own) = (self.coordinates(state), Matrix6::identity());
         let (count, length) = self.around.steps(element, piece, self.steps);
         for index in 0..count {
-            let place = Place { element, piece, s: index as f64 * length };
+            let place = MaterialPoint { element, piece, s: index as f64 * length };
             let (next, by_start) = self.step_linear(&place, length, &y)?;
             (y, own) = (next, by_start * own);
         }
@@ -142,7 +142,7 @@ impl<'a, 'b> InPlane<'a, 'b> {
     }
 
     /// The rates in the form of those of a rod in space.
-    fn spatial(&self, place: &Place, y: &Vector6<f64>) -> Option<Rates> {
+    fn spatial(&self, place: &MaterialPoint, y: &Vector6<f64>) -> Option<Rates> {
         let (rates, _) = self.rates(place, y, Order::Gradient)?;
         let pose = self.axes * rates.fixed_rows::<3>(0);
         let (tangent, turning) = (pose.fixed_rows::<3>(0).into_owned(), pose.fixed_rows::<3>(3).into_owned());
@@ -159,16 +159,16 @@ impl Crossing<3> for InPlane<'_, '_> {
         let mut y = self.coordinates(&self.around.offset(element, state, trace.as_deref_mut()));
         for piece in 0..self.around.line.spans[element].len() {
             let (count, length) = self.around.steps(element, piece, self.steps);
-            let relief = self
-                .around
-                .relief((element, piece), &self.state(&y), |state| self.span(element, piece, state))?;
+            let relief = self.around.relief(SpanIndex { element, piece }, &self.state(&y), |state| {
+                self.span(element, piece, state)
+            })?;
             let carried = self.plane.normal.dot(&relief);
             y[5] -= carried;
             for index in 0..count {
-                let place = Place { element, piece, s: index as f64 * length };
+                let place = MaterialPoint { element, piece, s: index as f64 * length };
                 let next = self.step(&place, length, &y)?;
                 if let Some(trace) = trace.as_deref_mut() {
-                    let end = Place { s: place.s + length, ..place };
+                    let end = MaterialPoint { s: place.s + length, ..place };
                     let rates = [self.spatial(&place, &y)?, self.spatial(&end, &next)?];
                     trace.add(&place, length, [&self.state(&y).pose, &self.state(&next).pose], &rates);
                 }
@@ -184,7 +184,7 @@ impl Crossing<3> for InPlane<'_, '_> {
         let mut state = self.around.offset(element, state, None);
         for piece in 0..self.around.line.spans[element].len() {
             let across = |state: &State| self.span(element, piece, state);
-            let span = self.around.crossed((element, piece), &state, across)?;
+            let span = self.around.crossed(SpanIndex { element, piece }, &state, across)?;
             (state, own) = (span.end, span.own * own);
         }
         state.is_finite().then(|| (state, self.basis.link(&own)))

@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method along an element, and its exact derivative.
 
-use super::line::Place;
+use super::line::{MaterialPoint, SpanIndex};
 use super::strong_form::{Matrix12, State, Vector12, join, split};
 use super::surroundings::Surroundings;
 use super::trace::Trace;
@@ -17,7 +17,7 @@ const DISC_SHARE: usize = 4;
 
 /// One step: its place, start and length.
 pub(super) struct Step {
-    pub(super) place: Place,
+    pub(super) place: MaterialPoint,
     pub(super) start: State,
     pub(super) length: f64,
 }
@@ -45,15 +45,15 @@ impl Surroundings<'_> {
             let (count, length) = self.steps(element, piece, steps);
 
             // The windings of a closed core carry a part of its moment, so that its material carries less.
-            let relief = self
-                .relief((element, piece), &state, |state| self.span_linear((element, piece), state, steps))?;
+            let span = SpanIndex { element, piece };
+            let relief = self.relief(span, &state, |state| self.span_linear(span, state, steps))?;
             state = state.relieved(&relief);
 
             for index in 0..count {
-                let place = Place { element, piece, s: index as f64 * length };
+                let place = MaterialPoint { element, piece, s: index as f64 * length };
                 let next = self.step(&Step { place, start: state, length })?;
                 if let Some(trace) = trace.as_deref_mut() {
-                    let end = Place { s: place.s + length, ..place };
+                    let end = MaterialPoint { s: place.s + length, ..place };
                     let ends = [self.rates(&place, &state)?, self.rates(&end, &next)?];
                     trace.add(&place, length, [&state.pose, &next.pose], &ends);
                 }
@@ -77,7 +77,7 @@ impl Surroundings<'_> {
     fn step(&self, step: &Step) -> Option<State> {
         let (mut end, mut rate) = (Vector12::zeros(), Vector12::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
-            let place = Place { s: step.place.s + node * step.length, ..step.place };
+            let place = MaterialPoint { s: step.place.s + node * step.length, ..step.place };
             rate = self.local_rate(&place, &step.start, &(rate * (node * step.length)))?;
             end += rate * (weight * step.length);
         }
@@ -94,9 +94,9 @@ impl Surroundings<'_> {
         let mut own = state.advance_derivative(self.line.chain.elements[element].offset);
         let mut state = self.offset(element, state, None);
         for piece in 0..self.line.spans[element].len() {
-            let across = |state: &State| self.span_linear((element, piece), state, steps);
-            let span = self.crossed((element, piece), &state, across)?;
-            (state, own) = (span.end, span.own * own);
+            let span = SpanIndex { element, piece };
+            let crossed = self.crossed(span, &state, |state| self.span_linear(span, state, steps))?;
+            (state, own) = (crossed.end, crossed.own * own);
         }
         state.is_finite().then_some((state, own))
     }
@@ -104,14 +104,14 @@ impl Surroundings<'_> {
     /// Integrates `state` along one span, with the derivative with respect to displacement and wrench.
     fn span_linear(
         &self,
-        (element, piece): (usize, usize),
+        SpanIndex { element, piece }: SpanIndex,
         state: &State,
         steps: usize,
     ) -> Option<(State, Matrix12)> {
         let (mut state, mut own) = (*state, Matrix12::identity());
         let (count, length) = self.steps(element, piece, steps);
         for index in 0..count {
-            let place = Place { element, piece, s: index as f64 * length };
+            let place = MaterialPoint { element, piece, s: index as f64 * length };
             (state, own) = self.step_linear(&Step { place, start: state, length }, &own)?;
         }
         Some((state, own))
@@ -123,7 +123,7 @@ impl Surroundings<'_> {
         let (mut end, mut rate) = (Vector12::zeros(), Vector12::zeros());
         let (mut sum, mut rates) = (local, Matrix12::zeros());
         for (node, weight) in NODES.iter().zip(WEIGHTS) {
-            let place = Place { s: step.place.s + node * step.length, ..step.place };
+            let place = MaterialPoint { s: step.place.s + node * step.length, ..step.place };
             let here = local + rates * (node * step.length);
             let stage = self.stage(&place, &step.start, &(rate * (node * step.length)))?;
             (rate, rates) = (stage.rate, stage.by_local * here + stage.by_start * turned);

@@ -15,7 +15,7 @@
 
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3, Vector6};
 
-use super::line::Place;
+use super::line::MaterialPoint;
 use super::surroundings::{Surroundings, column, derivative};
 use crate::design::Stiffness;
 use crate::geometry::{Pose, RotationVector, hat};
@@ -87,39 +87,46 @@ impl State {
     }
 }
 
-/// Compliances `R K^-1 R^T` in fixed axes, to force and to moment.
-fn compliances(rotation: &Matrix3<f64>, k: &Stiffness) -> [Matrix3<f64>; 2] {
+/// Compliances `R K^-1 R^T` of a section in fixed axes.
+struct Compliances {
+    /// Strain by force, 1/N.
+    force: Matrix3<f64>,
+    /// Curvature by moment, 1/(N m2).
+    moment: Matrix3<f64>,
+}
+
+fn compliances(rotation: &Matrix3<f64>, k: &Stiffness) -> Compliances {
     let turned = |across: f64, along: f64| {
         let axis = rotation.column(2);
         Matrix3::identity() * (1.0 / across) + axis * axis.transpose() * (1.0 / along - 1.0 / across)
     };
-    [turned(k.shear, k.axial), turned(k.bending, k.torsion)]
+    Compliances { force: turned(k.shear, k.axial), moment: turned(k.bending, k.torsion) }
 }
 
 /// The right-hand sides of the rod equations for a load per length.
-fn rates(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load) -> Rates {
+fn rates(state: &State, compliances: &Compliances, load: &Load) -> Rates {
     let force = state.force();
-    let tangent = state.pose.axis() + compliances[0] * force;
-    let turning = compliances[1] * state.moment();
+    let tangent = state.pose.axis() + compliances.force * force;
+    let turning = compliances.moment * state.moment();
     let wrench = column(&load.force, &(load.moment() - tangent.cross(&force)));
     Rates { tangent, turning, wrench }
 }
 
 /// Derivative of the right-hand sides with respect to displacement (position, rotation) and wrench.
-fn rates_derivative(state: &State, compliances: &[Matrix3<f64>; 2], load: &Load, rates: &Rates) -> Matrix12 {
+fn rates_derivative(state: &State, compliances: &Compliances, load: &Load, rates: &Rates) -> Matrix12 {
     let (force, moment) = (hat(&state.force()), hat(&state.moment()));
-    let by_turn = compliances[0] * force - hat(&rates.tangent);
+    let by_turn = compliances.force * force - hat(&rates.tangent);
     let mut out = Matrix12::zeros();
     out.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_turn);
-    out.fixed_view_mut::<3, 3>(0, 6).copy_from(&compliances[0]);
+    out.fixed_view_mut::<3, 3>(0, 6).copy_from(&compliances.force);
     // Derivative of `w` itself; its rotation with the frame is part of the local coordinates' derivative.
-    out.fixed_view_mut::<3, 3>(3, 3).copy_from(&(compliances[1] * moment - hat(&rates.turning)));
-    out.fixed_view_mut::<3, 3>(3, 9).copy_from(&compliances[1]);
+    out.fixed_view_mut::<3, 3>(3, 3).copy_from(&(compliances.moment * moment - hat(&rates.turning)));
+    out.fixed_view_mut::<3, 3>(3, 9).copy_from(&compliances.moment);
     let mut loads = out.fixed_view_mut::<6, 6>(6, 0);
     loads += derivative(load);
     let mut turn = out.fixed_view_mut::<3, 3>(9, 3);
     turn += force * by_turn;
-    let by_force = force * compliances[0] - hat(&rates.tangent);
+    let by_force = force * compliances.force - hat(&rates.tangent);
     out.fixed_view_mut::<3, 3>(9, 6).copy_from(&by_force);
     out
 }
@@ -137,14 +144,19 @@ pub(super) struct Stage {
 
 impl Surroundings<'_> {
     /// The rates of a state.
-    pub(super) fn rates(&self, place: &Place, state: &State) -> Option<Rates> {
+    pub(super) fn rates(&self, place: &MaterialPoint, state: &State) -> Option<Rates> {
         let load = self.along(place, &state.pose, Order::Gradient)?;
         let span = &self.line.spans[place.element][place.piece];
         Some(rates(state, &compliances(&state.pose.rotation, &span.stiffness), &load))
     }
 
     /// The rate of the local coordinates at `local` in an interval that starts at `start`.
-    pub(super) fn local_rate(&self, place: &Place, start: &State, local: &Vector12) -> Option<Vector12> {
+    pub(super) fn local_rate(
+        &self,
+        place: &MaterialPoint,
+        start: &State,
+        local: &Vector12,
+    ) -> Option<Vector12> {
         let rates = self.rates(place, &start.displaced(local))?;
         let theta = RotationVector::new(local.fixed_rows::<3>(3).into_owned());
         let rate = theta.left_jacobian_inverse()? * rates.turning;
@@ -152,7 +164,7 @@ impl Surroundings<'_> {
     }
 
     /// The rate of the local coordinates with its derivatives.
-    pub(super) fn stage(&self, place: &Place, start: &State, local: &Vector12) -> Option<Stage> {
+    pub(super) fn stage(&self, place: &MaterialPoint, start: &State, local: &Vector12) -> Option<Stage> {
         let state = start.displaced(local);
         let load = self.along(place, &state.pose, Order::Hessian)?;
         let span = &self.line.spans[place.element][place.piece];

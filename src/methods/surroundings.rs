@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use super::line::{Line, Place};
+use super::line::{Line, MaterialPoint};
 use crate::equilibrium::{Frame, Inputs, TermWrenches, Terms, blocks};
 use crate::geometry::{Pose, hat};
 use crate::magnetics::Sources;
@@ -76,7 +76,7 @@ impl Surroundings<'_> {
     }
 
     /// Load per length in fixed axes on the section at a place with the pose `pose`.
-    pub(super) fn along(&self, place: &Place, pose: &Pose, order: Order) -> Option<Load> {
+    pub(super) fn along(&self, place: &MaterialPoint, pose: &Pose, order: Order) -> Option<Load> {
         let span = &self.line.spans[place.element][place.piece];
         self.external(&SectionMaterial::section(span, place.s), pose, order)
     }

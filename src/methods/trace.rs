@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
-use super::line::{Line, Place};
+use super::line::{Line, MaterialPoint};
 use super::strong_form::Rates;
 use super::surroundings::Surroundings;
 use crate::equilibrium::{Frame, TermWrenches};
@@ -21,8 +21,8 @@ const AT_JOINT: f64 = 1e-10;
 /// Interpolated by cubics (Hermite) in position and rotation vector.
 #[derive(Debug, Clone)]
 struct Link {
-    /// Place on the chain; `None` on a rigid part.
-    place: Option<Place>,
+    /// Its start on the chain; `None` on a rigid part.
+    place: Option<MaterialPoint>,
     /// Unstrained arc length from the base to its start, and its length, m.
     from: f64,
     length: f64,
@@ -83,7 +83,7 @@ impl Trace {
                 let end = pose.advanced(span.length);
                 let rates =
                     Rates { tangent: pose.axis(), turning: Vector3::zeros(), wrench: Vector6::zeros() };
-                trace.add(&Place { element, piece, s: 0.0 }, span.length, [&pose, &end], &[rates; 2]);
+                trace.add(&MaterialPoint { element, piece, s: 0.0 }, span.length, [&pose, &end], &[rates; 2]);
                 pose = end;
             }
             nodes.push(pose);
@@ -92,18 +92,19 @@ impl Trace {
         (trace, nodes)
     }
 
-    fn reach(&self) -> f64 {
+    /// Unstrained length of all links so far, m.
+    fn length(&self) -> f64 {
         self.links.last().map_or(0.0, |link| link.from + link.length)
     }
 
     /// Appends a link on a span.
-    pub(super) fn add(&mut self, place: &Place, length: f64, ends: [&Pose; 2], rates: &[Rates; 2]) {
+    pub(super) fn add(&mut self, place: &MaterialPoint, length: f64, ends: [&Pose; 2], rates: &[Rates; 2]) {
         let turn = rotation_log(&(ends[1].rotation * ends[0].rotation.transpose()));
         let inverse = RotationVector::new(turn).left_jacobian_inverse().unwrap_or_default();
         let rate = |side: usize| rates[side].turning * length;
         self.links.push(Link {
             place: Some(*place),
-            from: self.reach(),
+            from: self.length(),
             length,
             start: *ends[0],
             whole: [ends[1].position - ends[0].position, turn],
@@ -117,7 +118,7 @@ impl Trace {
         let rates = [along, Vector3::zeros()];
         self.links.push(Link {
             place: None,
-            from: self.reach(),
+            from: self.length(),
             length,
             start: *start,
             whole: rates,
@@ -136,7 +137,7 @@ impl Trace {
     /// Directors and curvature (1/m, material frame) at unstrained arc length `s` from the base; at a joint those of the part towards
     /// the tip.
     pub(super) fn strain(&self, s: f64) -> (Matrix3<f64>, Vector3<f64>) {
-        let slack = AT_JOINT * self.reach();
+        let slack = AT_JOINT * self.length();
         let begun = |link: &&Link| link.from <= s + slack && link.length > slack;
         let Some(link) = self.links.iter().rfind(begun) else {
             return (Matrix3::identity(), Vector3::zeros());
@@ -179,7 +180,7 @@ impl Trace {
             for (point, weight) in points.iter().zip(&weights) {
                 let x = 0.5 * (1.0 + point);
                 let weight = 0.5 * weight * link.length;
-                let place = Place { s: from.s + x * link.length, ..from };
+                let place = MaterialPoint { s: from.s + x * link.length, ..from };
                 let (pose, tangent, turning) = link.at(x);
 
                 // Strains in the material frame: rates along the unstrained arc length.
