@@ -26,7 +26,7 @@ const SAME: f64 = 1e-7;
 const DISTANCE: f64 = 0.14;
 
 /// Travel of the demonstration's magnet to each side of the manipulator's middle, and position of that middle, m.
-const REACH: f64 = 0.18;
+const TRAVEL: f64 = 0.18;
 const MIDDLE: f64 = 0.023;
 
 /// A path of the magnet.
@@ -182,7 +182,7 @@ fn demonstration(part: f64) -> Inputs {
         share * share * (3.0 - 2.0 * share)
     };
     let passed = 2.0 * eased(2.0 * part) - 1.0 - eased(6.0 * part - 3.0);
-    beside(Vector3::new(0.0, -DISTANCE, REACH * passed), FRAC_PI_4 * eased(3.0 * part - 2.0))
+    beside(Vector3::new(0.0, -DISTANCE, TRAVEL * passed), FRAC_PI_4 * eased(3.0 * part - 2.0))
 }
 
 /// Half an orbit around the manipulator's axis.

@@ -29,7 +29,7 @@ const HALVINGS: u32 = 4;
 const POINTS: usize = 121;
 
 /// A place of the magnet: x, z (mm), heading (deg), distance beneath (mm).
-pub(super) type Place = [f64; 4];
+pub(super) type MagnetPose = [f64; 4];
 
 /// What is recorded of a device at a communication point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,17 +65,17 @@ pub(super) struct Walk {
 ///
 /// # Errors
 /// None for the way above.
-pub(super) fn places() -> Result<Vec<Place>, Error> {
+pub(super) fn places() -> Result<Vec<MagnetPose>, Error> {
     let corner = |line: &str| {
         let numbers: Vec<f64> = line.split(',').filter_map(|entry| entry.parse().ok()).collect();
-        Place::try_from(numbers).map_err(|numbers| Error::Count {
+        MagnetPose::try_from(numbers).map_err(|numbers| Error::Count {
             quantity: "numbers in a line of the magnet's way".into(),
             given: numbers.len(),
             expected: "4".into(),
         })
     };
     let corners = WAY.lines().skip(1).map(corner).collect::<Result<Vec<_>, _>>()?;
-    let mut out: Vec<Place> = corners.first().copied().into_iter().collect();
+    let mut out: Vec<MagnetPose> = corners.first().copied().into_iter().collect();
     for ends in corners.windows(2) {
         let [dx, dz, turn, deeper] = core::array::from_fn(|k| ends[1][k] - ends[0][k]);
         let length = Vector3::new(dx, dz, deeper).norm().max(TURN * turn.abs());
@@ -98,7 +98,7 @@ pub(super) fn time(number: usize) -> f64 {
 ///
 /// # Errors
 /// None for the paper's designs.
-pub(super) fn walk(case: &Case, places: &[Place], progress: &dyn Progress) -> Result<Walk, Error> {
+pub(super) fn walk(case: &Case, places: &[MagnetPose], progress: &dyn Progress) -> Result<Walk, Error> {
     let scene = case.scene()?;
     let branches = || scene.vessel.iter().flat_map(|vessel| vessel.lumen.branches());
     let mut device = scene.manipulator(POINTS)?;
@@ -150,7 +150,7 @@ fn step(device: &mut Manipulator, [from, to]: [&Inputs; 2], halvings: u32) -> Re
 }
 
 /// The magnet's pose: its axis points against the heading, so that its field at the vessels points along it.
-fn magnet(&[x, z, heading, beneath]: &Place) -> Pose {
+fn magnet(&[x, z, heading, beneath]: &MagnetPose) -> Pose {
     let against = -along(heading);
     let across = Vector3::y().cross(&against);
     Pose {
@@ -166,7 +166,7 @@ fn along(heading: f64) -> Vector3<f64> {
 }
 
 impl Row {
-    fn of(outputs: &Outputs, place: &Place) -> Self {
+    fn of(outputs: &Outputs, place: &MagnetPose) -> Self {
         let direction = |axis: &Vector3<f64>| axis.x.atan2(axis.z);
         let inside = outputs.feed_length.unwrap_or(0.0);
         let device = outputs.shape_arc_length.iter().zip(&outputs.shape).filter(|(s, _)| **s >= inside);
