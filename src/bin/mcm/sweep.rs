@@ -63,6 +63,12 @@ pub(crate) struct Sweep {
     resume: bool,
 }
 
+/// The files that a sweep fills at its end.
+struct Tables {
+    rows: Table,
+    folds: Option<Table>,
+}
+
 impl Sweep {
     /// Runs the command.
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
@@ -73,16 +79,17 @@ impl Sweep {
         let file = read_scene(&self.scene)?;
         self.warn_of_values(&file)?;
         let checking = progress_bar(total, "values checked");
-        let plan = Plan::new(file, self.vary.split_at(1), self.back, || checking.inc(1))?;
+        let plan = Plan::new(file, &self.vary, self.back, || checking.inc(1))?;
         checking.finish_and_clear();
         // All outputs are tried before the first solve.
-        let outputs = (Table::at(&self.out)?, self.folds.as_deref().map(Table::at).transpose()?);
+        let tables =
+            Tables { rows: Table::at(&self.out)?, folds: self.folds.as_deref().map(Table::at).transpose()? };
         let (journal, kept) = match &part {
             Some(part) => plan.journal(part, self.resume).map(|(journal, kept)| (Some(journal), kept))?,
             None => (None, plan.nothing_kept()),
         };
         interrupt::ask();
-        let filled = self.fill(&plan, outputs, journal.as_ref(), kept);
+        let filled = self.fill(&plan, tables, journal.as_ref(), kept);
         let left = journal.as_ref().map_or_else(String::new, |journal| {
             format!("; the rows so far are in {}, and --resume goes on", journal.path().display())
         });
@@ -103,10 +110,11 @@ impl Sweep {
     fn fill(
         &self,
         plan: &Plan,
-        (mut table, folds): (Table, Option<Table>),
+        tables: Tables,
         journal: Option<&Journal>,
         kept: Vec<Kept>,
     ) -> Result<Option<Vec<Walk>>, Failure> {
+        let Tables { rows: mut table, folds } = tables;
         let [_, rows] = plan.rows();
         let bar = progress_bar(rows as u64, "rows");
         let walks = plan.run(journal, kept, &bar)?;

@@ -43,13 +43,14 @@ pub(super) struct Plan<'a> {
 }
 
 impl<'a> Plan<'a> {
-    /// Checks every key and every value; `checked` is called after each.
+    /// Checks every key and every value of the ranges, of which the first is walked along; `checked` is called after each.
     pub(super) fn new(
         file: SceneFile,
-        (along, others): (&'a [Range], &'a [Range]),
+        vary: &'a [Range],
         back: bool,
         checked: impl Fn() + Sync,
     ) -> Result<Self, Failure> {
+        let (along, others) = vary.split_at(1);
         let along = &along[0];
         let combinations = super::range::grid(others);
         let columns = Columns::of(&file.scene()?);
