@@ -1,19 +1,7 @@
 //! What the rows tell of the parameters: covariance, and directions in which they tell nothing.
 
+use super::constants::{FLAT, MEMBER, TOUCHED, UNKNOWN};
 use nalgebra::{DMatrix, DVector};
-
-/// Singular value of the Jacobian with columns of length 1, relative to the largest, below which there is no effect: the error of
-/// the sensitivities is 1e-7.
-const FLAT: f64 = 1e-5;
-
-/// Relative standard deviation of a combination of parameters from which it counts as unknown.
-const UNKNOWN: f64 = 0.5;
-
-/// Part of a direction from which a parameter belongs to it.
-const MEMBER: f64 = 0.2;
-
-/// Part of a flat direction from which a parameter's deviation is unknown.
-const TOUCHED: f64 = 1e-3;
 
 /// Parameters that the rows cannot tell apart: a change of all of them together, in these proportions, is not seen.
 #[derive(Debug, Clone, PartialEq)]

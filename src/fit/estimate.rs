@@ -10,30 +10,13 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::constants::{
+    AT_LIMIT, DAMPING_DECREASE, DAMPING_INCREASE, FIRST_DAMPING, LARGEST_DAMPING, LEAST_GAIN, NO_DAMPING,
+    SCALE_CHANGE, SOLVER_NOISE,
+};
 use super::loss::{Loss, spread};
 use super::problem::{Problem, Refused, Shapes};
 use crate::error::Error;
-
-/// First damping, and its factors after a step that is taken and one that is not.
-const FIRST: f64 = 1e-3;
-const FEWER: f64 = 0.1;
-const MORE: f64 = 8.0;
-
-/// Damping below which there is none, and above which nothing is gained any more.
-const NONE: f64 = 1e-9;
-const TOO_MUCH: f64 = 1e12;
-
-/// Expected part of the loss that a step gains, at which the loop ends: a step of a ten thousandth of a standard deviation.
-const GAIN: f64 = 1e-10;
-
-/// Expected part of the loss that a step gains, at which a step that fails ends the loop.
-const NOISE: f64 = 1e-7;
-
-/// Relative distance from a limit of a parameter's range that counts as the limit.
-const AT_LIMIT: f64 = 1e-6;
-
-/// Change of the scale of a robust loss at which it stays.
-const SCALE: f64 = 1e-6;
 
 /// How the parameters are found.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,22 +108,22 @@ impl Estimate {
     fn descend(&mut self, problem: &Problem, settings: &Settings, stated: bool) -> Result<(), Error> {
         self.linearise(problem)?;
         self.rescale(settings.loss, stated);
-        let (mut damping, mut settled) = (FIRST, false);
+        let (mut damping, mut settled) = (FIRST_DAMPING, false);
         while self.steps < settings.steps {
             let (gradient, matrix) = self.normal_equations(settings.loss);
             self.at_limit = self.limits(problem, &gradient);
             let Some((step, gain)) = self.step(&gradient, &matrix, damping) else {
-                damping = (damping * MORE).max(FIRST);
-                if damping > TOO_MUCH {
+                damping = (damping * DAMPING_INCREASE).max(FIRST_DAMPING);
+                if damping > LARGEST_DAMPING {
                     break;
                 }
                 continue;
             };
             let loss = self.loss(settings.loss, &self.residuals);
-            if settled || gain <= GAIN * loss + f64::MIN_POSITIVE || damping > TOO_MUCH {
+            if settled || gain <= LEAST_GAIN * loss + f64::MIN_POSITIVE || damping > LARGEST_DAMPING {
                 settled = false;
                 if self.rescale(settings.loss, stated) {
-                    self.converged = damping <= TOO_MUCH;
+                    self.converged = damping <= LARGEST_DAMPING;
                     break;
                 }
                 continue;
@@ -161,11 +144,11 @@ impl Estimate {
                     settled = parameters.iter().zip(&step).all(small);
                     (self.parameters, self.shapes) = (parameters, shapes);
                     (self.residuals, self.jacobian) = (residuals, jacobian);
-                    damping = if damping < NONE { 0.0 } else { damping * FEWER };
+                    damping = if damping < NO_DAMPING { 0.0 } else { damping * DAMPING_DECREASE };
                 }
                 // What is to be gained lies within the tolerance of the solves.
-                None if gain <= NOISE * loss => settled = true,
-                None => damping = (damping * MORE).max(FIRST),
+                None if gain <= SOLVER_NOISE * loss => settled = true,
+                None => damping = (damping * DAMPING_INCREASE).max(FIRST_DAMPING),
             }
         }
         Ok(())
@@ -206,7 +189,7 @@ impl Estimate {
         // Of exact measurements nothing is left; an outlier among them is still one.
         let scale = spread(self.residuals.as_slice(), self.parameters.len()).max(1e-9 * root);
         self.scale = if scale > 0.0 { scale } else { 1.0 };
-        (self.scale - before).abs() <= SCALE * before
+        (self.scale - before).abs() <= SCALE_CHANGE * before
     }
 
     fn loss(&self, loss: Loss, residuals: &DVector<f64>) -> f64 {

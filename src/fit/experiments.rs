@@ -1,22 +1,15 @@
 //! Which further rows would tell apart what these rows cannot: candidates are solved, and their effect on the weakest direction compared.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
+use super::constants::{PROPOSED, REPEATED, WORTH};
 use super::directions::weakest;
+use super::estimate::Estimate;
 use super::measurements::{Measurements, Row};
 use super::problem::{Problem, Refused, Shapes};
 use crate::error::Error;
 use crate::manipulator::SceneFile;
-
-/// Most rows that are repeated under a candidate.
-const REPEATED: usize = 4;
-
-/// Most experiments that are proposed.
-const PROPOSED: usize = 3;
-
-/// Least factor on the strength of the weakest direction that is worth a row.
-const WORTH: f64 = 1.5;
 
 /// Candidates: a table's key, its values, and whether these are added to what acts already.
 const CANDIDATES: [(&str, &[f64], bool); 4] = [
@@ -62,7 +55,7 @@ impl Experiment {
     }
 }
 
-/// The best candidates at these parameters, best first; the residuals have standard deviation `scale`.
+/// The best candidates at the parameters that were found, best first; the residuals have standard deviation `scale`.
 ///
 /// # Errors
 /// Those of a scene that cannot hold the fitted values.
@@ -70,13 +63,14 @@ pub(super) fn proposed(
     file: &SceneFile,
     keys: &[String],
     measured: &Measurements,
-    (shapes, jacobian, parameters): (&Shapes, &DMatrix<f64>, &DVector<f64>),
+    found: &Estimate,
     scale: f64,
 ) -> Result<Vec<Experiment>, Error> {
+    let Estimate { shapes, jacobian, parameters, .. } = found;
     let kept: Vec<&Row> =
         measured.rows().iter().zip(shapes).filter(|(_, shape)| shape.is_some()).map(|(row, _)| row).collect();
-    let apart = kept.len().div_ceil(REPEATED).max(1);
-    let chosen: Vec<&Row> = kept.into_iter().rev().step_by(apart).collect();
+    let spacing = kept.len().div_ceil(REPEATED).max(1);
+    let chosen: Vec<&Row> = kept.into_iter().rev().step_by(spacing).collect();
     let before = weakest(jacobian, parameters) / scale;
     let mut candidates = Vec::new();
     for (name, values, added) in CANDIDATES {

@@ -7,18 +7,9 @@
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::constants::{CLOSE, PROFILE_CORRECTIONS, PROFILE_VALUES, SMALL_CORRECTION};
 use super::problem::Problem;
 use super::problem::Shapes;
-
-/// Part of the threshold to which the end of an interval is found.
-const CLOSE: f64 = 2e-3;
-
-/// Most values of the parameter that are tried on a side, and corrections of the others at each.
-const VALUES: usize = 8;
-const CORRECTIONS: usize = 5;
-
-/// Gain of a correction, in parts of the threshold, that no longer counts.
-const SMALL: f64 = 1e-4;
 
 /// The best parameters, and what is needed to go away from them.
 #[derive(Debug)]
@@ -46,7 +37,7 @@ impl Profile<'_> {
         let first = side * (self.threshold * self.covariance[(index, index)]).sqrt();
         let (mut below, mut above): ([f64; 2], Option<[f64; 2]>) = ([0.0, 0.0], None);
         let mut by = first;
-        for _ in 0..VALUES {
+        for _ in 0..PROFILE_VALUES {
             let Some(grown) = self.grown(index, by) else {
                 // Beyond what is allowed: the end may lie before it.
                 above = Some([by, f64::INFINITY]);
@@ -96,10 +87,10 @@ impl Profile<'_> {
         // Gauss-Newton steps of the others, with the Jacobian at the fit's end throughout.
         let own = self.jacobian.select_columns(&others);
         let solver = Cholesky::new(own.tr_mul(&own))?;
-        for _ in 0..CORRECTIONS {
+        for _ in 0..PROFILE_CORRECTIONS {
             let gradient = own.tr_mul(&residuals);
             let step = solver.solve(&gradient);
-            if gradient.dot(&step) < SMALL * self.threshold {
+            if gradient.dot(&step) < SMALL_CORRECTION * self.threshold {
                 break;
             }
 

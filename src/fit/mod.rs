@@ -4,6 +4,7 @@
 //! tell apart, and which further rows would.
 
 mod columns;
+mod constants;
 mod devices;
 mod directions;
 mod estimate;
@@ -14,6 +15,7 @@ mod measurable;
 mod measurements;
 mod outcome;
 mod problem;
+mod scatter;
 
 pub use directions::Direction;
 pub use estimate::Settings;

@@ -1,7 +1,6 @@
 //! What a fit found.
 
 use nalgebra::{DMatrix, DVector};
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal, StudentsT};
 
 use super::devices::with;
 use super::directions::{Direction, Told};
@@ -11,11 +10,9 @@ use super::intervals::Profile;
 use super::loss::Loss;
 use super::measurements::Measurements;
 use super::problem::Problem;
+use super::scatter::Scatter;
 use crate::error::Error;
 use crate::manipulator::{SceneFile, Status, Uncertainty};
-
-/// Upper end of the intervals as a probability: 95 % lie between the ends.
-const UPPER: f64 = 0.975;
 
 /// A fitted parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,69 +120,23 @@ impl Fit {
         crate::manipulator::Neighbours::new(file, &keys)?;
         let problem = Problem::new(file, &keys, measured)?;
         let found = Estimate::of(&problem, &start, settings, stated)?;
-        Self::told(file, &keys, measured, settings, &problem, (&start, &found))
+        let task = Task { file, keys: &keys, start: &start, measured, settings, problem: &problem };
+        Self::told(&task, &found)
     }
 
-    fn told(
-        file: &SceneFile,
-        keys: &[String],
-        measured: &Measurements,
-        settings: &Settings,
-        problem: &Problem,
-        (start, found): (&DVector<f64>, &Estimate),
-    ) -> Result<Self, Error> {
-        let stated = measured.stated()?;
-        let Estimate { parameters, shapes, residuals, jacobian, .. } = found;
-        let freedoms = residuals.len() - parameters.len();
-        let inside = settings.loss;
-        let counted = counted(found, inside);
-
-        // Scale of the residuals: known where all deviations are stated, else estimated from their scatter.
-        let sum = residuals.norm_squared();
-        let scatter = match (settings.loss, freedoms) {
-            (Loss::Squares, 0) => 0.0,
-            (Loss::Squares, _) => (sum / freedoms as f64).sqrt(),
-            (Loss::Huber, _) => robust_scatter(found, freedoms),
-        };
-        let scale = if stated && settings.loss == Loss::Squares { 1.0 } else { scatter };
-
-        let told = Told::of(&counted, parameters, keys, scale);
-        let covariance = &told.covariance * (scale * scale);
-        let sure = scale > 0.0 || (freedoms > 0 && !stated);
-        let quantile = quantile(stated, freedoms);
-
-        let profile = Profile {
-            problem,
-            parameters,
-            shapes,
-            jacobian,
-            covariance: &told.covariance,
-            smallest: sum,
-            threshold: (quantile * scale).powi(2),
-        };
-
-        let mut out = Vec::new();
-        for (index, key) in keys.iter().enumerate() {
-            let (value, at_limit) = (parameters[index], found.at_limit[index]);
-            let known = told.known[index] && sure && !at_limit;
-            let deviation = known.then(|| covariance[(index, index)].sqrt());
-            let profiles = settings.profiles && settings.loss == Loss::Squares && told.directions.is_empty();
-            let interval = match deviation {
-                Some(deviation) if !profiles || profile.threshold == 0.0 => {
-                    [-1.0, 1.0].map(|side| Some(value + side * quantile * deviation))
-                }
-                Some(_) => profile.interval(index),
-                None => [None; 2],
-            };
-            let (key, start) = (key.clone(), start[index]);
-            out.push(Parameter { key, start, value, deviation, interval, at_limit });
-        }
+    fn told(task: &Task<'_>, found: &Estimate) -> Result<Self, Error> {
+        let &Task { file, keys, measured, settings, problem, .. } = task;
+        let Estimate { parameters, shapes, .. } = found;
+        let scatter = Scatter::of(found, settings.loss, measured.stated()?);
+        let told = Told::of(&counted(found, settings.loss), parameters, keys, scatter.scale);
+        let covariance = &told.covariance * (scatter.scale * scatter.scale);
+        let out = task.parameters(found, &told, &covariance, &scatter);
 
         let experiments = if told.directions.is_empty() {
             Vec::new()
         } else {
-            let scale = if scale > 0.0 { scale } else { 1.0 };
-            proposed(file, keys, measured, (shapes, jacobian, parameters), scale)?
+            let scale = if scatter.scale > 0.0 { scatter.scale } else { 1.0 };
+            proposed(file, keys, measured, found, scale)?
         };
 
         let rows = measured.rows();
@@ -197,10 +148,10 @@ impl Fit {
         Ok(Self {
             correlation: correlation(&covariance, &out),
             parameters: out,
-            scatter,
-            stated,
-            probability: probability(stated && settings.loss == Loss::Squares, sum, freedoms),
-            freedoms,
+            scatter: scatter.residuals,
+            stated: scatter.stated,
+            probability: scatter.probability(settings.loss),
+            freedoms: scatter.freedoms,
             cells: cells(problem, found, measured, settings.loss),
             lost,
             doubtful: rows.iter().zip(shapes).filter_map(doubt).collect(),
@@ -231,6 +182,60 @@ impl Fit {
     }
 }
 
+/// What is fitted to what.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    file: &'a SceneFile,
+    keys: &'a [String],
+    /// Values of the scene at these keys.
+    start: &'a DVector<f64>,
+    measured: &'a Measurements,
+    settings: &'a Settings,
+    problem: &'a Problem<'a>,
+}
+
+impl Task<'_> {
+    /// The parameters that were found, with deviations and intervals; `covariance` is that of residuals with this scatter.
+    fn parameters(
+        &self,
+        found: &Estimate,
+        told: &Told,
+        covariance: &DMatrix<f64>,
+        scatter: &Scatter,
+    ) -> Vec<Parameter> {
+        let quantile = scatter.quantile();
+        let profile = Profile {
+            problem: self.problem,
+            parameters: &found.parameters,
+            shapes: &found.shapes,
+            jacobian: &found.jacobian,
+            covariance: &told.covariance,
+            smallest: scatter.sum,
+            threshold: (quantile * scatter.scale).powi(2),
+        };
+        // Profiles follow the sum of squares: other losses, and directions that nothing determines, have none.
+        let Settings { loss, profiles, .. } = self.settings;
+        let profiles = *profiles && *loss == Loss::Squares && told.directions.is_empty();
+
+        let mut out = Vec::new();
+        for (index, key) in self.keys.iter().enumerate() {
+            let (value, at_limit) = (found.parameters[index], found.at_limit[index]);
+            let known = told.known[index] && scatter.is_known() && !at_limit;
+            let deviation = known.then(|| covariance[(index, index)].sqrt());
+            let interval = match deviation {
+                Some(deviation) if !profiles || profile.threshold == 0.0 => {
+                    [-1.0, 1.0].map(|side| Some(value + side * quantile * deviation))
+                }
+                Some(_) => profile.interval(index),
+                None => [None; 2],
+            };
+            let (key, start) = (key.clone(), self.start[index]);
+            out.push(Parameter { key, start, value, deviation, interval, at_limit });
+        }
+        out
+    }
+}
+
 fn checked(keys: &[String], measured: &Measurements) -> Result<(), Error> {
     if keys.is_empty() {
         return Err(Error::Unsupported("nothing to fit: no key is named".into()));
@@ -256,35 +261,6 @@ fn counted(found: &Estimate, loss: Loss) -> DMatrix<f64> {
         }
     }
     out
-}
-
-/// Scatter from which the covariance of the Huber loss follows as `scatter^2 (J^T D J)^-1`, `D` being 1 for residuals that count in full
-/// (P. J. Huber, Robust Statistics, 1981, equation 7.6.11).
-fn robust_scatter(found: &Estimate, freedoms: usize) -> f64 {
-    let (count, scale) = (found.residuals.len() as f64, found.scale);
-    let scaled = || found.residuals.iter().map(|residual| residual / scale);
-    let squares: f64 = scaled().map(|residual| (Loss::Huber.weight(residual) * residual).powi(2)).sum();
-    let inside = scaled().filter(|residual| Loss::Huber.is_inside(*residual)).count() as f64 / count;
-    if freedoms == 0 || inside == 0.0 {
-        return 0.0;
-    }
-    let parameters = found.parameters.len() as f64;
-    let correction = 1.0 + parameters / count * (1.0 - inside) / inside;
-    correction * scale * (squares / freedoms as f64 / inside).sqrt()
-}
-
-/// Half the width of an interval of 95 %, in standard deviations.
-fn quantile(stated: bool, freedoms: usize) -> f64 {
-    if stated {
-        return Normal::standard().inverse_cdf(UPPER);
-    }
-    StudentsT::new(0.0, 1.0, freedoms.max(1) as f64).map_or(f64::NAN, |student| student.inverse_cdf(UPPER))
-}
-
-fn probability(stated: bool, sum: f64, freedoms: usize) -> Option<f64> {
-    let known = stated && freedoms > 0;
-    let distribution = ChiSquared::new(freedoms as f64).ok().filter(|_| known)?;
-    Some(distribution.sf(sum))
 }
 
 fn correlation(covariance: &DMatrix<f64>, parameters: &[Parameter]) -> DMatrix<f64> {
