@@ -2,17 +2,13 @@
 
 use nalgebra::{DVector, Vector3};
 
+use super::constants::GAP_DIFFERENCE;
 use super::limits::{Limit, Limits};
 use super::moves::{Freedom, MAGNET, MAGNET_POSITION, MAGNET_ROTATION};
+use crate::equilibrium::LONGEST_INSERTION;
 use crate::geometry::Pose;
 use crate::magnetics::Source;
 use crate::manipulator::{Input, Inputs, Jacobian, Output, Outputs};
-
-/// Step of the differences that give the direction of the shortest distance, m.
-const STEP: f64 = 1e-7;
-
-/// Longest shaft inside its port, m.
-const LONGEST: f64 = 1.0;
 
 /// A limit as `slack + gradient . step >= 0`.
 #[derive(Debug, Clone)]
@@ -59,8 +55,8 @@ impl Bodies {
         let (point, distance) = distances.enumerate().min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         let place = local(&outputs.shape[point]);
         let away = Vector3::from_fn(|axis, _| {
-            let by = Vector3::ith(axis, STEP);
-            (magnet.distance(&(place + by)) - magnet.distance(&(place - by))) / (2.0 * STEP)
+            let by = Vector3::ith(axis, GAP_DIFFERENCE);
+            (magnet.distance(&(place + by)) - magnet.distance(&(place - by))) / (2.0 * GAP_DIFFERENCE)
         });
         let (gap, arm) = (distance - self.radius, outputs.shape[point] - pose.position);
         Some(Nearest { point, gap, away: pose.rotation * away, arm })
@@ -101,7 +97,7 @@ impl Bodies {
             add(Limit::Field, slack, &|f| only(Input::UniformField, f, -along));
         }
 
-        for (slack, way) in [(inputs.insertion, 1.0), (LONGEST - inputs.insertion, -1.0)] {
+        for (slack, way) in [(inputs.insertion, 1.0), (LONGEST_INSERTION - inputs.insertion, -1.0)] {
             add(Limit::Insertion, slack, &|f| only(Input::Insertion, f, Vector3::x() * way));
         }
 

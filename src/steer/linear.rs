@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::aim::Aim;
 use super::bounds::Bound;
+use super::constants::RANK;
 use super::moves::Freedom;
 use super::state::State;
 use super::target::Target;
@@ -47,10 +48,8 @@ impl Linear {
 
     /// The part of a direction of the freedoms that changes none of the target's errors; `None` where nothing of it is left.
     pub(super) fn free(&self, direction: &DVector<f64>) -> Option<DVector<f64>> {
-        /// Singular values and lengths below this part of the largest count as zero.
-        const NOTHING: f64 = 1e-6;
         let decomposed = self.rates.clone().svd(false, true);
-        let least = NOTHING * decomposed.singular_values.max();
+        let least = RANK * decomposed.singular_values.max();
         let mut out = direction.clone();
         for (value, row) in decomposed.singular_values.iter().zip(decomposed.v_t?.row_iter()) {
             if *value > least {
@@ -58,7 +57,7 @@ impl Linear {
                 out -= &along * along.dot(direction);
             }
         }
-        (out.norm() > NOTHING * direction.norm()).then_some(out)
+        (out.norm() > RANK * direction.norm()).then_some(out)
     }
 
     /// Takes note of what a step has brought (Broyden 1965, doi 10.1090/S0025-5718-1965-0198670-6).

@@ -4,23 +4,24 @@
 //! device, keeps to [`Limits`], and says which of them stops it.
 
 mod aim;
-mod approach;
 mod bounds;
+mod constants;
 mod limits;
 mod linear;
 mod moves;
 mod plan;
-mod quadratic;
+mod quadratic_program;
+mod rapidly_exploring_random_tree;
+mod sequential_quadratic_programming;
 mod state;
 mod steering;
 mod stride;
 mod target;
 mod track;
-mod tree;
 
-pub use approach::Step;
 pub use limits::{Limit, Limits};
 pub use moves::Move;
 pub use plan::Plan;
+pub use sequential_quadratic_programming::Step;
 pub use steering::{Answer, Steering};
 pub use target::{Residual, Target, Tolerances};

@@ -2,6 +2,7 @@
 
 use nalgebra::{DVector, Vector3};
 
+use super::constants::{CURRENT_STEP, FIELD_STEP, INSERTION_STEP, STRENGTH_STEP};
 use super::limits::Limits;
 use crate::error::Error;
 use crate::geometry::{Pose, RotationVector};
@@ -48,18 +49,6 @@ const NAMES: [(&str, Move); 5] = [
     ("field.uniform", Move::UniformField),
     ("feed.insertion", Move::Insertion),
 ];
-
-/// Longest step of the magnet's strength, 1.
-const STRENGTH_STEP: f64 = 0.05;
-
-/// Longest step of a current, A.
-const CURRENT_STEP: f64 = 0.2;
-
-/// Longest step of the uniform field, T.
-const FIELD_STEP: f64 = 1e-3;
-
-/// Longest step of the inserted length, m.
-const INSERTION_STEP: f64 = 2e-3;
 
 impl Move {
     /// The moves with this name in a scene: `magnet.position`, `magnet.orientation`, `magnet.strength`, `field.uniform`,

@@ -1,19 +1,14 @@
 //! Ways from pose to pose past folds.
 
-use super::approach::{Step, straight};
+use super::constants::{EXTENSION, SEED, STRAIGHT_STEPS};
 use super::limits::Limit;
+use super::rapidly_exploring_random_tree::Tree;
+use super::sequential_quadratic_programming::{Step, straight};
 use super::state::State;
-use super::steering::{SEED, Steering};
+use super::steering::Steering;
 use super::target::Target;
-use super::tree::Tree;
 use crate::error::{Error, check};
 use crate::manipulator::Inputs;
-
-/// Most steps of a straight way.
-const STRAIGHT: usize = 2000;
-
-/// Most steps from one state of the tree to a random one.
-const APART: usize = 12;
 
 /// A way between two poses.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +40,7 @@ impl Steering {
         let arrived =
             |state: &State| shape.is_none_or(|shape| shape.misfit(state.outputs(), &self.tolerances) <= 1.0);
 
-        let (state, way, stopped) = straight(&self.state, goal, &self.rules, STRAIGHT)?;
+        let (state, way, stopped) = straight(&self.state, goal, &self.rules, STRAIGHT_STEPS)?;
         if stopped.is_none() && arrived(&state) {
             (self.state, self.linear) = (state, None);
             return Ok(Plan { way, straight: None, tries: 0, limit: None });
@@ -55,9 +50,9 @@ impl Steering {
         for tried in 1..=tries {
             let drawn = tree.drawn(&self.rules);
             let from = tree.nearest(&self.rules, &drawn);
-            let Some((node, _)) = tree.extend(from, &drawn, &self.rules, APART)? else { continue };
+            let Some((node, _)) = tree.extend(from, &drawn, &self.rules, EXTENSION)? else { continue };
 
-            let (state, way, limit) = straight(tree.state(node), goal, &self.rules, STRAIGHT)?;
+            let (state, way, limit) = straight(tree.state(node), goal, &self.rules, STRAIGHT_STEPS)?;
             if limit.is_none() && arrived(&state) {
                 let mut whole = tree.way(node);
                 whole.extend(way);

@@ -3,19 +3,11 @@
 use nalgebra::DVector;
 
 use super::bounds::{Bodies, Bound};
+use super::constants::{FACE_ROUNDING, MARGIN_DIFFERENCE, NEAR_MARGIN};
 use super::limits::{Limit, Limits};
 use super::moves::{Freedom, MAGNET, Move, freedoms, moved};
 use crate::error::Error;
 use crate::manipulator::{Inputs, Manipulator, Outputs, Status};
-
-/// Stability margin, in least margins, below which it is computed at every step, not only bounded.
-const NEAR: f64 = 2.0;
-
-/// Step of the differences that give the gradient of the margin, in longest steps.
-const STEP: f64 = 0.02;
-
-/// How far beyond a face of the workspace the solver of quadratic problems may end, m.
-const ROUNDING: f64 = 1e-7;
 
 /// What stays the same on all ways.
 #[derive(Debug, Clone)]
@@ -54,9 +46,9 @@ impl State {
             // A step that ends on a face of the box ends there to rounding.
             let place = &mut magnet.pose.position;
             *place = place.zip_zip_map(low, high, |at, low, high| {
-                if at < low && low - at < ROUNDING {
+                if at < low && low - at < FACE_ROUNDING {
                     low
-                } else if at > high && at - high < ROUNDING {
+                } else if at > high && at - high < FACE_ROUNDING {
                     high
                 } else {
                     at
@@ -89,7 +81,7 @@ impl State {
 
         // The margin is bounded at every step, and computed only where it may be below its limit.
         let least = rules.limits.margin;
-        if least > 0.0 && outputs.stability_margin < NEAR * least {
+        if least > 0.0 && outputs.stability_margin < NEAR_MARGIN * least {
             let margin = next.manipulator.measure_margin().stability_margin;
             if margin < least {
                 return Ok(Err(Limit::Margin));
@@ -106,7 +98,7 @@ impl State {
         let mut gradient = DVector::zeros(freedoms.len());
         for (index, rate) in gradient.iter_mut().enumerate() {
             let mut margins = [0.0; 2];
-            for (margin, by) in margins.iter_mut().zip([-STEP, STEP]) {
+            for (margin, by) in margins.iter_mut().zip([-MARGIN_DIFFERENCE, MARGIN_DIFFERENCE]) {
                 let mut step = DVector::zeros(freedoms.len());
                 step[index] = by;
                 let mut beside = self.manipulator.clone();
@@ -116,7 +108,7 @@ impl State {
                 }
                 *margin = beside.measure_margin().stability_margin;
             }
-            *rate = (margins[1] - margins[0]) / (2.0 * STEP);
+            *rate = (margins[1] - margins[0]) / (2.0 * MARGIN_DIFFERENCE);
         }
         Ok(Some(gradient))
     }
@@ -124,7 +116,7 @@ impl State {
     /// The least margin as a bound, where it is near.
     pub(super) fn margin_bound(&self, rules: &Rules, freedoms: &[Freedom]) -> Result<Option<Bound>, Error> {
         let (least, margin) = (rules.limits.margin, self.outputs().stability_margin);
-        if least <= 0.0 || margin >= NEAR * least {
+        if least <= 0.0 || margin >= NEAR_MARGIN * least {
             return Ok(None);
         }
         let gradient = self.margin_gradient(freedoms)?;

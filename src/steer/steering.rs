@@ -1,26 +1,17 @@
 //! A device that is steered.
 
 use super::aim::Aim;
-use super::approach::{Attempt, Step, approach};
 use super::bounds::Bodies;
+use super::constants::{EXTENSION, SEED, STARTS, TREE_STATES};
 use super::limits::{Limit, Limits};
 use super::linear::Linear;
 use super::moves::{Move, coils, freedoms};
+use super::rapidly_exploring_random_tree::Tree;
+use super::sequential_quadratic_programming::{Attempt, Step, approach};
 use super::state::{Rules, State};
 use super::target::{Residual, Target, Tolerances};
-use super::tree::Tree;
 use crate::error::Error;
 use crate::manipulator::{Inputs, Outputs, Scene, Status};
-
-/// Number of states of the map from which a target is tried that cannot be reached directly, and how many of them are tried.
-const MAP: usize = 48;
-const STARTS: usize = 8;
-
-/// Most steps between two states of the map.
-const APART: usize = 12;
-
-/// Seed of all random draws: the same question has the same answer.
-pub(super) const SEED: u64 = 1;
 
 /// The answer to a target: the inputs, and the way to them.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,30 +57,9 @@ impl Steering {
     /// they have no shape; those of the limits and of the scene.
     pub fn new(scene: &Scene, moves: &[Move], limits: Limits) -> Result<Self, Error> {
         limits.check()?;
+        check_moves(scene, moves)?;
         let refuse = |reason: String| Err(Error::Unsupported(reason));
-        if moves.is_empty() {
-            return refuse("nothing may move".into());
-        }
-        for (number, each) in moves.iter().enumerate() {
-            let name = each.name();
-            if moves[..number].contains(each) {
-                return refuse(format!("`{name}` is named twice"));
-            }
-            let (known, what) = match each {
-                Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
-                Move::UniformField => (true, ""),
-                Move::CoilCurrent { .. } => {
-                    (coils(&scene.sources).any(|own| own == *each), "the scene has no such coil")
-                }
-                _ => (scene.sources.magnet().is_some(), "the scene has no magnet"),
-            };
-            if !known {
-                return refuse(format!("`{name}` cannot be moved: {what}"));
-            }
-            if *each == Move::Insertion && scene.inputs.feed_force.is_some() {
-                return refuse(format!("`{name}` cannot be moved: the push on the shaft is given"));
-            }
-        }
+
         let design = scene.design()?;
         let bodies = Bodies { magnet: scene.sources.magnet().cloned(), radius: design.largest_radius() };
         // Two points a segment: the device between them is as near to the magnet to a tenth of a millimetre.
@@ -152,7 +122,7 @@ impl Steering {
         target.check()?;
         let direct = self.approach(target)?;
         let found = if direct.limit.is_none() { direct } else { self.detour(target, direct)? };
-        Ok(self.settle(target, found))
+        Ok(self.accept(target, found))
     }
 
     /// What a walk to this target is after.
@@ -171,10 +141,10 @@ impl Steering {
     /// The best of the walks by way of other states, and of the direct one.
     fn detour(&self, target: &Target, direct: Attempt) -> Result<Attempt, Error> {
         let mut tree = Tree::new(&self.state, SEED);
-        for _ in 0..MAP {
+        for _ in 0..TREE_STATES {
             let goal = tree.drawn(&self.rules);
             let from = tree.nearest(&self.rules, &goal);
-            tree.extend(from, &goal, &self.rules, APART)?;
+            tree.extend(from, &goal, &self.rules, EXTENSION)?;
         }
         let aim = self.aim(target);
         let mut starts: Vec<(usize, f64)> =
@@ -200,8 +170,8 @@ impl Steering {
         Ok(best)
     }
 
-    /// Stays where a walk has ended.
-    pub(super) fn settle(&mut self, target: &Target, found: Attempt) -> Answer {
+    /// Stays where a walk has ended, and tells how it went.
+    pub(super) fn accept(&mut self, target: &Target, found: Attempt) -> Answer {
         let Attempt { state, way, limit, .. } = found;
         if limit.is_some() {
             self.linear = None;
@@ -209,4 +179,33 @@ impl Steering {
         self.state = state;
         Answer { reached: limit.is_none(), residual: target.residual(self.outputs()), limit, way }
     }
+}
+
+/// That something may move, nothing twice, and only what the scene has.
+fn check_moves(scene: &Scene, moves: &[Move]) -> Result<(), Error> {
+    let refuse = |reason: String| Err(Error::Unsupported(reason));
+    if moves.is_empty() {
+        return refuse("nothing may move".into());
+    }
+    for (number, each) in moves.iter().enumerate() {
+        let name = each.name();
+        if moves[..number].contains(each) {
+            return refuse(format!("`{name}` is named twice"));
+        }
+        let (known, what) = match each {
+            Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
+            Move::UniformField => (true, ""),
+            Move::CoilCurrent { .. } => {
+                (coils(&scene.sources).any(|own| own == *each), "the scene has no such coil")
+            }
+            _ => (scene.sources.magnet().is_some(), "the scene has no magnet"),
+        };
+        if !known {
+            return refuse(format!("`{name}` cannot be moved: {what}"));
+        }
+        if *each == Move::Insertion && scene.inputs.feed_force.is_some() {
+            return refuse(format!("`{name}` cannot be moved: the push on the shaft is given"));
+        }
+    }
+    Ok(())
 }

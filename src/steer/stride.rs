@@ -3,29 +3,12 @@
 use nalgebra::DVector;
 
 use super::aim::Aim;
+use super::constants::{CORRECTIONS, FAITHFUL, GAIN, SHORTEST_PART, SHRINKS, STILL};
 use super::limits::Limit;
 use super::linear::Linear;
-use super::quadratic;
+use super::quadratic_program;
 use super::state::State;
 use crate::error::Error;
-
-/// Shortest part of a step that is tried.
-const SHORTEST: f64 = 1.0 / 1024.0;
-
-/// Part of the predicted gain that a step must bring.
-const GAIN: f64 = 1e-3;
-
-/// Difference between predicted and found errors, relative to the errors before, up to which a Jacobian is kept and corrected.
-const FAITHFUL: f64 = 0.5;
-
-/// Step, in longest steps, below which nothing moves.
-pub(super) const STILL: f64 = 1e-7;
-
-/// Most corrections of one step. In 200 random targets (the example `reachable`) most steps that needed any took one or two.
-const CORRECTIONS: usize = 4;
-
-/// Factor by which a correction must shrink what a step has missed, for another one to be tried.
-const SHRINKS: f64 = 0.5;
 
 /// A step that has been taken.
 pub(super) struct Stride {
@@ -43,7 +26,7 @@ pub(super) fn stride(
     linear: &mut Linear,
 ) -> Result<Result<Stride, Limit>, Error> {
     let errors = aim.errors(state);
-    let Some(found) = quadratic::solve(&linear.rates, &errors, &linear.bounds) else {
+    let Some(found) = quadratic_program::solve(&linear.rates, &errors, &linear.bounds) else {
         return Ok(Err(Limit::Nearest));
     };
     let met = found.met.first().copied();
@@ -54,7 +37,7 @@ pub(super) fn stride(
     let before = errors.norm();
     let whole = linear.left(&errors, &found.step).norm();
     let (mut part, mut refused) = (1.0, None);
-    while part >= SHORTEST {
+    while part >= SHORTEST_PART {
         let most = before - GAIN * part * (before - whole);
         let first = &found.step * part;
         match (Trial { state, errors: &errors, most }).corrected(aim, linear, &first)? {
@@ -110,7 +93,7 @@ impl Trial<'_> {
                 break;
             }
             last = missed.norm();
-            match quadratic::correct(&linear.rates, &missed, &linear.bounds, &step) {
+            match quadratic_program::correct(&linear.rates, &missed, &linear.bounds, &step) {
                 Some(again) => step = again,
                 None => break,
             }

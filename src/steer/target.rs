@@ -2,12 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, Vector3};
 
+use super::constants::STRAIGHT_ANGLE;
 use super::moves::{Freedom, turn};
 use crate::error::{Error, check};
 use crate::manipulator::{Jacobian, Output, Outputs};
-
-/// Tip angle below which the direction of bending decides how it grows, rad: the angle itself has a corner there.
-const STRAIGHT: f64 = 1e-4;
 
 /// What is asked of the tip; what is `None` may be anything.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -170,7 +168,7 @@ impl Target {
             }
             if self.angle.is_some() {
                 let mut rate = freedom.rate(jacobian, Output::TipAngle).x;
-                if outputs.tip_angle < STRAIGHT {
+                if outputs.tip_angle < STRAIGHT_ANGLE {
                     // Bends first about the tip's own `d1`.
                     rate = rotation.dot(&outputs.tip.rotation.column(0));
                 }

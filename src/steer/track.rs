@@ -1,17 +1,12 @@
 //! Targets one after the other.
 
-use super::approach::{Attempt, Step, approach};
+use super::constants::{COMFORTABLE_MARGIN, MARGIN_STEP};
 use super::linear::Linear;
+use super::sequential_quadratic_programming::{Attempt, Step, approach};
 use super::state::State;
 use super::steering::{Answer, Steering};
 use super::target::Target;
 use crate::error::Error;
-
-/// Stability margin below which what is free of the target is used to raise it.
-const COMFORTABLE: f64 = 0.25;
-
-/// Length of the steps that raise it, in longest steps.
-const ASIDE: f64 = 0.5;
 
 impl Steering {
     /// Follows targets by continuation: each is approached from the one before, and where more may move than the target needs, the
@@ -29,7 +24,7 @@ impl Steering {
             if found.limit.is_none() {
                 found = self.aside(target, found)?;
             }
-            let answer = self.settle(target, found);
+            let answer = self.accept(target, found);
             let reached = answer.reached;
             answers.push(answer);
             if !reached {
@@ -41,19 +36,20 @@ impl Steering {
 
     /// This target with a larger margin, where that is small and there is a way.
     fn aside(&self, target: &Target, found: Attempt) -> Result<Attempt, Error> {
-        if found.state.outputs().stability_margin >= COMFORTABLE {
+        if found.state.outputs().stability_margin >= COMFORTABLE_MARGIN {
             return Ok(found);
         }
         let mut measured = found.state.clone();
         let margin = measured.manipulator.measure_margin().stability_margin;
         let freedoms = measured.freedoms(&self.rules);
-        let Some(gradient) = measured.margin_gradient(&freedoms)?.filter(|_| margin < COMFORTABLE) else {
+        let Some(gradient) = measured.margin_gradient(&freedoms)?.filter(|_| margin < COMFORTABLE_MARGIN)
+        else {
             return Ok(found);
         };
         let aim = self.aim(target);
         let linear = Linear::at(&measured, &aim)?;
         let Some(direction) = linear.free(&gradient) else { return Ok(found) };
-        let step = &direction * (ASIDE / direction.amax());
+        let step = &direction * (MARGIN_STEP / direction.amax());
         let Ok(moved) = measured.stepped(&self.rules, &freedoms, &step)? else { return Ok(found) };
         let back = approach(&moved, &aim, &mut Some(linear))?;
         if back.limit.is_some() || margin_of(&back.state) <= margin {

@@ -1,19 +1,14 @@
-//! The walk from a state to a target: sequential quadratic steps.
+//! The walk from a state to a target by sequential quadratic programming.
 
 use super::aim::Aim;
+use super::constants::{MOST_STEPS, PACE, STILL};
 use super::limits::Limit;
 use super::linear::Linear;
 use super::moves::{between, moved};
 use super::state::{Rules, State};
-use super::stride::{STILL, stride};
+use super::stride::stride;
 use crate::error::Error;
 use crate::manipulator::{Inputs, Outputs};
-
-/// Most steps of one walk.
-const STEPS: usize = 400;
-
-/// Number of steps over which the pace of a walk is measured.
-const PACE: usize = 24;
 
 /// One step of a way: the inputs to set and the device's answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +39,7 @@ pub(super) struct Attempt {
 /// Walks from a state as near to the target as it can without a snap. `linear` holds the derivatives of an earlier walk that may
 /// still serve, and those of this one when it has ended.
 ///
-/// It ends at the target, where nothing brings the tip nearer, and where it comes nearer so slowly that at this pace [`STEPS`] more
+/// It ends at the target, where nothing brings the tip nearer, and where it comes nearer so slowly that at this pace [`MOST_STEPS`] more
 /// steps would not reach the target.
 pub(super) fn approach(start: &State, aim: &Aim<'_>, linear: &mut Option<Linear>) -> Result<Attempt, Error> {
     let mut state = start.clone();
@@ -52,7 +47,7 @@ pub(super) fn approach(start: &State, aim: &Aim<'_>, linear: &mut Option<Linear>
     let mut known = linear.take().filter(|linear| linear.is_of(aim.target));
     let mut stopped = Some(Limit::Slow);
     let mut misfits: Vec<f64> = Vec::new();
-    for _ in 0..STEPS {
+    for _ in 0..MOST_STEPS {
         let misfit = aim.misfit(&state);
         if misfit <= 1.0 {
             stopped = None;
@@ -87,10 +82,10 @@ pub(super) fn approach(start: &State, aim: &Aim<'_>, linear: &mut Option<Linear>
     Ok(Attempt { state, way, misfit, limit: stopped })
 }
 
-/// Whether the target would not be reached within [`STEPS`] more steps that each gain as much as the last ones.
+/// Whether the target would not be reached within [`MOST_STEPS`] more steps that each gain as much as the last ones.
 fn is_slow(misfits: &[f64], now: f64) -> bool {
     let Some(before) = misfits.len().checked_sub(PACE).map(|at| misfits[at]) else { return false };
-    (before - now) / PACE as f64 * STEPS as f64 <= now
+    (before - now) / PACE as f64 * MOST_STEPS as f64 <= now
 }
 
 /// Walks straight towards other inputs, in the longest steps allowed; ends there, or before what forbids the next step.

@@ -1,17 +1,12 @@
-//! The quadratic problem of one step.
+//! The quadratic program of one step.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::bounds::Bound;
+use super::constants::{LENGTH_WEIGHT, MET};
 use super::limits::Limit;
-
-/// Weight of the step's own length, relative to the largest stiffness: it chooses the shortest of many steps.
-const SHORTEST: f64 = 1e-10;
-
-/// Slack, relative to what a whole step can take, up to which a limit counts as met.
-const MET: f64 = 1e-6;
 
 /// The step that takes away most of the errors, and the limits that it meets.
 #[derive(Debug, Clone)]
@@ -25,7 +20,7 @@ pub(super) struct Found {
 pub(super) fn solve(rates: &DMatrix<f64>, errors: &DVector<f64>, bounds: &[Bound]) -> Option<Found> {
     let count = rates.ncols();
     let matrix = rates.tr_mul(rates);
-    let weight = SHORTEST * matrix.diagonal().max();
+    let weight = LENGTH_WEIGHT * matrix.diagonal().max();
     if weight.is_nan() || weight <= 0.0 {
         return Some(Found { step: DVector::zeros(count), met: Vec::new() });
     }
@@ -84,13 +79,13 @@ fn constrained(matrix: &DMatrix<f64>, slope: &DVector<f64>, bounds: &[Bound]) ->
         }
     }
     for bound in bounds {
-        let reach = reach(bound);
+        let largest = largest_change(bound);
         for (column, rate) in bound.gradient.iter().enumerate() {
             rows.push(sides.len());
             columns.push(column);
-            values.push(-rate / reach);
+            values.push(-rate / largest);
         }
-        sides.push((bound.slack / reach).max(0.0));
+        sides.push((bound.slack / largest).max(0.0));
     }
     let inequalities = CscMatrix::new_from_triplets(sides.len(), count, rows, columns, values);
     let cones = [NonnegativeConeT(sides.len())];
@@ -101,12 +96,12 @@ fn constrained(matrix: &DMatrix<f64>, slope: &DVector<f64>, bounds: &[Bound]) ->
         return None;
     }
     let step = DVector::from_column_slice(&solver.solution.x);
-    let is_met = |bound: &&Bound| bound.slack + bound.gradient.dot(&step) <= MET * reach(bound);
+    let is_met = |bound: &&Bound| bound.slack + bound.gradient.dot(&step) <= MET * largest_change(bound);
     let met = bounds.iter().filter(is_met).map(|bound| bound.limit).collect();
     step.iter().all(|entry| entry.is_finite()).then_some(Found { step, met })
 }
 
 /// By how much a whole step of all freedoms can change what is bounded.
-fn reach(bound: &Bound) -> f64 {
+fn largest_change(bound: &Bound) -> f64 {
     bound.gradient.iter().map(|rate| rate.abs()).sum()
 }

@@ -1,27 +1,15 @@
-//! A tree of equilibria that were reached from one of them without a snap: a map of where the tip can be brought.
+//! A rapidly exploring random tree of equilibria that were reached from one of them without a snap: a map of where the tip can be brought.
 
 use nalgebra::{DVector, UnitQuaternion, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::approach::{Step, straight};
+use super::constants::{DRAWN_CURRENT, DRAWN_FIELD, DRAWN_INSERTION, DRAWN_STRENGTH, DRAWN_TRAVEL};
 use super::moves::{MAGNET, Move, between};
+use super::sequential_quadratic_programming::{Step, straight};
 use super::state::{Rules, State};
 use crate::error::Error;
 use crate::manipulator::Inputs;
-
-/// How far from its place the magnet is looked for where no workspace is given, m.
-const AROUND: f64 = 0.06;
-
-/// Largest uniform field that is tried where none is given, T.
-const FIELD: f64 = 0.02;
-
-/// Largest change of a coil's current that is tried, A.
-const CURRENT: f64 = 5.0;
-
-/// How far the shaft is moved, m, and the strength is changed.
-const INSERTION: f64 = 0.02;
-const STRENGTH: f64 = 0.5;
 
 /// A state, and the way that led to it from another one.
 #[derive(Debug, Clone)]
@@ -74,7 +62,7 @@ impl Tree {
                 Move::MagnetPosition => {
                     let place = &mut out.sources[MAGNET].pose.position;
                     let centre = *place;
-                    let around = Vector3::repeat(AROUND);
+                    let around = Vector3::repeat(DRAWN_TRAVEL);
                     let [low, high] = rules.limits.workspace.unwrap_or([centre - around, centre + around]);
                     *place = (low + high) * 0.5 + (high - low).map(|side| 0.5 * side * number());
                 }
@@ -85,15 +73,15 @@ impl Tree {
                         pose.rotation = turn.to_rotation_matrix().matrix() * pose.rotation;
                     }
                 }
-                Move::MagnetStrength => out.sources[MAGNET].strength *= 1.0 + STRENGTH * number(),
+                Move::MagnetStrength => out.sources[MAGNET].strength *= 1.0 + DRAWN_STRENGTH * number(),
                 Move::UniformField => {
                     // The cube of the components lies within the ball of the largest field.
-                    let most = rules.limits.field.unwrap_or(FIELD) / 3.0_f64.sqrt();
+                    let most = rules.limits.field.unwrap_or(DRAWN_FIELD) / 3.0_f64.sqrt();
                     out.uniform_field = Vector3::from_fn(|_, _| most * number());
                 }
-                Move::CoilCurrent { source, .. } => out.sources[*source].strength += CURRENT * number(),
+                Move::CoilCurrent { source, .. } => out.sources[*source].strength += DRAWN_CURRENT * number(),
                 Move::Insertion => {
-                    out.insertion = (out.insertion + INSERTION * number()).clamp(0.0, 1.0);
+                    out.insertion = (out.insertion + DRAWN_INSERTION * number()).clamp(0.0, 1.0);
                 }
             }
         }
