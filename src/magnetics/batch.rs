@@ -133,6 +133,7 @@ impl AxialSource {
         let lanes = |far| Waiting { far, count: 0, numbers: [0; WIDTH], at, rho: rows, z: rows };
         let (mut near, mut far) = (lanes(false), lanes(true));
         let farthest2 = FARTHEST * FARTHEST * self.outer_radius().powi(2);
+
         for (number, point) in points.iter().enumerate() {
             let rho2 = point.x * point.x + point.y * point.y;
             let z = point.z - height;
@@ -146,6 +147,7 @@ impl AxialSource {
                 put(number, &at, &components);
                 continue;
             };
+
             let (lane, at) = (waiting.count, Meridian::of(point.x, point.y));
             (waiting.numbers[lane], waiting.at[lane]) = (number, at);
             (waiting.rho[lane], waiting.z[lane]) = (at.rho, z);
@@ -154,6 +156,7 @@ impl AxialSource {
                 self.flush::<ORDER>(waiting, height, points, &mut put)?;
             }
         }
+
         self.flush::<ORDER>(&mut near, height, points, &mut put)?;
         self.flush::<ORDER>(&mut far, height, points, &mut put)
     }
@@ -179,6 +182,7 @@ impl AxialSource {
                 self.with_edges(|edges| kernel(&Origin::Edges { edges, rough: false }, rho, z, &mut rows))
             }
         };
+
         for (lane, (number, at)) in numbers.iter().zip(at).enumerate().take(count) {
             if !together {
                 let point = points[*number] - Vector3::new(0.0, 0.0, height);
@@ -187,6 +191,7 @@ impl AxialSource {
                 put(*number, &at, &components);
                 continue;
             }
+
             let [radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist] =
                 rows.each_ref().map(|row| row[lane]);
             let components = Components { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist };

@@ -69,6 +69,7 @@ impl<const N: usize> Edges<N> {
         if place.is_on_edge() {
             return None;
         }
+
         let integrals = Integrals::new(place.parameter(), place.complement(), place.ratio());
         let parts = place.components::<ORDER, false>(&integrals);
         let weights = &self.strength;
@@ -77,11 +78,13 @@ impl<const N: usize> Edges<N> {
             axial: parts.axial.weighted_sum(weights),
             ..Components::default()
         };
+
         let potential = if POTENTIAL {
             place.potential(&integrals, parts.radial, parts.axial).weighted_sum(weights)
         } else {
             0.0
         };
+
         if ORDER >= GRADIENT {
             sum.radial_dz = parts.radial_dz.weighted_sum(weights);
             sum.axial_dz = parts.axial_dz.weighted_sum(weights);
@@ -91,6 +94,7 @@ impl<const N: usize> Edges<N> {
             sum.axial_dzz = parts.axial_dzz.weighted_sum(weights);
             sum.twist = parts.twist.weighted_sum(weights);
         }
+
         Some((potential, sum))
     }
 }
@@ -201,6 +205,7 @@ impl<const N: usize> Place<N> {
         integrals: &Integrals<N>,
     ) -> Parts<N> {
         let zero = Lanes::all(0.0);
+
         let (radial, axial) = self.field(integrals);
         let mut parts = Parts {
             radial,
@@ -214,16 +219,19 @@ impl<const N: usize> Place<N> {
         if ORDER == FIELD {
             return parts;
         }
+
         let m = self.parameter();
         let close = |i: usize| m.0[i] > NEAR_EDGE;
         let any_close = if BATCH { ORDER >= HESSIAN } else { (0..N).any(close) };
         let inverse_rho2 = || 1.0 / self.rho2.max(1e-3 * self.a2);
         (parts.radial_dz, parts.axial_dz) = self.gradient(integrals);
+
         if any_close {
             let (radial_dz, axial_dz) = self.gradient_near_edge(integrals, inverse_rho2());
             parts.radial_dz = Lanes::select(close, radial_dz, parts.radial_dz);
             parts.axial_dz = Lanes::select(close, axial_dz, parts.axial_dz);
         }
+
         if ORDER >= HESSIAN {
             [parts.radial_dzz, parts.axial_dzz, parts.twist] = self.hessian(integrals);
             if any_close {
@@ -234,6 +242,7 @@ impl<const N: usize> Place<N> {
                 parts.twist = Lanes::select(close, (parts.axial_dz + 2.0 * radial) * inverse, parts.twist);
             }
         }
+
         parts
     }
 

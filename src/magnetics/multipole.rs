@@ -106,8 +106,10 @@ fn series<const ORDER: u8, const N: usize>(
     let (along, last) = (z * inverse2, last + 1 + usize::from(ORDER));
     let zonal = solid::<0, N>(inverse3 * r2, along, inverse2, last);
     let first = solid::<1, N>(inverse3, along, inverse2, last);
+
     let (mut radial, mut axial) = (zero, zero);
     let (mut radial_dz, mut axial_dz, mut radial_dzz, mut axial_dzz) = (zero, zero, zero, zero);
+
     for (l, beta) in multipoles.clone() {
         let degree = l as f64;
         axial = axial + beta * zonal[l + 1];
@@ -121,6 +123,7 @@ fn series<const ORDER: u8, const N: usize>(
             radial_dzz = radial_dzz + beta * (degree + 2.0) * first[l + 3];
         }
     }
+
     let mut twist = zero;
     if ORDER >= HESSIAN {
         let second = solid::<2, N>(3.0 * inverse3 * inverse2, along, inverse2, last);
@@ -128,6 +131,7 @@ fn series<const ORDER: u8, const N: usize>(
             twist = twist + beta / (l as f64 + 1.0) * second[l + 2];
         }
     }
+
     Parts { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist }
 }
 

@@ -148,11 +148,14 @@ fn on_faces(
     let (nodes, weights) = gauss_legendre(along);
     let (inner2, outer2) = (body.inner_radius().powi(2), body.outer_radius().powi(2));
     let charge = body.remanence() / VACUUM_PERMEABILITY;
+
     let mut wrench = Wrench { force: Vector3::zeros(), torque: Vector3::zeros() };
     let mut size = 0.0;
+
     for (node, weight) in nodes.iter().zip(&weights) {
         let rho = (0.5 * (outer2 + inner2) + 0.5 * (outer2 - inner2) * node).sqrt();
         let area = 0.25 * (outer2 - inner2) * weight * 2.0 * PI / around as f64;
+
         for step in 0..around {
             let (sine, cosine) = (2.0 * PI * (step as f64 + 0.5) / around as f64).sin_cos();
             for side in [-1.0, 1.0] {
@@ -164,5 +167,6 @@ fn on_faces(
             }
         }
     }
+
     Ok((wrench, size))
 }

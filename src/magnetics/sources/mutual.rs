@@ -114,6 +114,7 @@ impl Sources {
                 if strength == 0.0 {
                     continue;
                 }
+
                 let seen = there.seen_from(&here);
                 let by = |accuracy| first.wrench_on_source(second, &seen, accuracy);
                 let [finest, coarser, coarsest] = ACCURACIES;
@@ -122,6 +123,7 @@ impl Sources {
                     let (one, other) = (self.name(before), self.name(number));
                     Error::Unsupported(format!("{one} and {other}: {error}"))
                 })?;
+
                 for (of, own) in [(number, wrench), (before, wrench.reaction(&seen.position))] {
                     out[of].force += here.rotation * own.force * strength;
                     out[of].torque += here.rotation * own.torque * strength;
