@@ -181,9 +181,11 @@ impl Design {
 /// The base ring and the segments of a chain of rings and helices.
 fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
     limits::segmented(chain)?;
+
     let helix = &chain.helix;
     let geometry = helix.geometry()?;
     let tube = chain.backbone.as_ref().map(Tube::of).unwrap_or_default();
+
     let ring = Ring {
         inner_radius: helix.core_inner_radius,
         outer_radius: helix.radius,
@@ -192,6 +194,7 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         mass: (chain.ring.density * annulus_area(helix.core_inner_radius, helix.radius) + tube.line_density)
             * chain.ring.length,
     };
+
     let moduli = Moduli::composite(helix.shore_a, helix.poisson, helix.volume_fraction);
     let body = |kind, length, outer_radius, spiral| Span {
         kind,
@@ -204,6 +207,7 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         line_density: tube.line_density,
         spiral,
     };
+
     let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
     let spiral = Spiral {
         inner_radius: helix.core_outer_radius,
@@ -215,6 +219,7 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
         boundary_angle: helix.boundary_angle,
         closed_bending: disc.stiffness.bending,
     };
+
     let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, None);
     let segments = (0..chain.segments)
         .map(|index| {
@@ -226,6 +231,7 @@ fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
             }
         })
         .collect();
+
     Ok((chain.base_magnet.then_some(ring), segments))
 }
 
@@ -256,6 +262,7 @@ fn plain(rod: &Cylinder) -> Result<Segment, Error> {
             (Moduli::bulk(elastic_modulus, poisson), remanence, ELASTOMER_DENSITY)
         }
     };
+
     let span = Span {
         kind: SpanKind::Rod,
         length: rod.length,
