@@ -1,4 +1,6 @@
-//! The numbers by which a fit is tuned, in one table: unit, what happens at other values, and where that was seen.
+//! The numbers by which a fit is tuned, in one table: unit, and what is known of other values.
+//!
+//! Where nothing is said of other values, none are recorded.
 
 /// First damping, 1.
 pub(super) const FIRST_DAMPING: f64 = 1e-3;

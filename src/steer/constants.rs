@@ -1,4 +1,6 @@
-//! The numbers by which steering is tuned, in one table: unit, what happens at other values, and where that was seen.
+//! The numbers by which steering is tuned, in one table: unit, and what is known of other values.
+//!
+//! Where nothing is said of other values, none are recorded.
 
 /// Most steps of one walk.
 pub(super) const MOST_STEPS: usize = 400;
@@ -9,13 +11,14 @@ pub(super) const PACE: usize = 24;
 /// Shortest part of a step that is tried.
 pub(super) const SHORTEST_PART: f64 = 1.0 / 1024.0;
 
-/// Part of the predicted gain that a step must bring.
+/// Part of the predicted gain that a step must bring. 1e-4 to 1e-2: the example `reachable` meets the same 18 of 18 targets, in 246 to
+/// 243 steps together.
 pub(super) const GAIN: f64 = 1e-3;
 
 /// Difference between predicted and found errors, relative to the errors before, up to which a Jacobian is kept and corrected.
 pub(super) const FAITHFUL: f64 = 0.5;
 
-/// Step, in longest steps, below which nothing moves.
+/// Step, in longest steps, below which nothing moves: by default 0.5 nm and 1e-8 rad.
 pub(super) const STILL: f64 = 1e-7;
 
 /// Most corrections of one step. In 200 random targets (the example `reachable`) most steps that needed any took one or two.
@@ -39,7 +42,8 @@ pub(super) const GAP_DIFFERENCE: f64 = 1e-7;
 /// Stability margin, in least margins, below which it is computed at every step, not only bounded.
 pub(super) const NEAR_MARGIN: f64 = 2.0;
 
-/// Step of the differences that give the gradient of the margin, in longest steps.
+/// Step of the differences that give the gradient of the margin, in longest steps. Beside differences of fourth order the error is 1e-5
+/// of the largest component (`tests/steer/limits.rs`).
 pub(super) const MARGIN_DIFFERENCE: f64 = 0.02;
 
 /// Stability margin below which what is free of the target is used to raise it.
@@ -66,14 +70,14 @@ pub(super) const FIELD_STEP: f64 = 1e-3;
 /// Longest step of the inserted length, m.
 pub(super) const INSERTION_STEP: f64 = 2e-3;
 
-/// Most steps of a straight way.
+/// Most steps of a straight way: a bound, by default 10 m of travel.
 pub(super) const STRAIGHT_STEPS: usize = 2000;
 
 /// Number of states of the tree from which a target is tried that cannot be reached directly, and how many of them are tried.
 pub(super) const TREE_STATES: usize = 48;
 pub(super) const STARTS: usize = 8;
 
-/// Most steps from one state of the tree to a random one.
+/// Most steps from one state of the tree to a random one: by default 12 of 5 mm are [`DRAWN_TRAVEL`].
 pub(super) const EXTENSION: usize = 12;
 
 /// Seed of all random draws: the same question has the same answer.

@@ -187,11 +187,13 @@ fn check_moves(scene: &Scene, moves: &[Move]) -> Result<(), Error> {
     if moves.is_empty() {
         return refuse("nothing may move".into());
     }
+
     for (number, each) in moves.iter().enumerate() {
         let name = each.name();
         if moves[..number].contains(each) {
             return refuse(format!("`{name}` is named twice"));
         }
+
         let (known, what) = match each {
             Move::Insertion => (scene.shaft.is_some(), "the scene has no shaft"),
             Move::UniformField => (true, ""),

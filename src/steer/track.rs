@@ -39,6 +39,8 @@ impl Steering {
         if found.state.outputs().stability_margin >= COMFORTABLE_MARGIN {
             return Ok(found);
         }
+
+        // The margin known so far is a bound: here it is measured.
         let mut measured = found.state.clone();
         let margin = measured.manipulator.measure_margin().stability_margin;
         let freedoms = measured.freedoms(&self.rules);
@@ -46,6 +48,8 @@ impl Steering {
         else {
             return Ok(found);
         };
+
+        // A step along what the target leaves free, then back to the target from there.
         let aim = self.aim(target);
         let linear = Linear::at(&measured, &aim)?;
         let Some(direction) = linear.free(&gradient) else { return Ok(found) };
@@ -55,6 +59,7 @@ impl Steering {
         if back.limit.is_some() || margin_of(&back.state) <= margin {
             return Ok(found);
         }
+
         let mut way = found.way;
         way.push(Step::of(&moved));
         way.extend(back.way);
