@@ -34,7 +34,7 @@ pub(crate) use elastic_norm::ElasticNorm;
 pub(crate) use factorisation::Origin;
 pub(crate) use free_turn::FreeTurn;
 pub use inputs::Inputs;
-pub(crate) use inputs::LONGEST_INSERTION;
+pub(crate) use inputs::{LONGEST_INSERTION, LONGEST_REACH};
 pub use inputs::PlacedSource;
 pub use layout::Input;
 pub(crate) use layout::{Counts, VECTOR};

@@ -182,7 +182,7 @@ impl Search<'_> {
     /// Restores `branch`. If only the budget ran out, it is left at the last equilibrium on the way instead, so that the
     /// next solve continues there.
     fn give_up(&mut self, branch: &mut History, outcome: Outcome, last: &[f64]) -> Report {
-        let work = &mut self.corrector.evaluator.work;
+        let work = &mut *self.corrector.evaluator.work;
         (work.factorisation, work.free_turn) = (None, None);
         let reached = self.reached.take().filter(|_| matches!(outcome, Outcome::OutOfBudget(_)));
         if let Some(contact) = &mut self.corrector.evaluator.contact {

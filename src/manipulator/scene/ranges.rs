@@ -1,5 +1,6 @@
 //! The allowed range of the numbers of a scene that no other part of the library checks, in the units of the scene.
 
+use crate::equilibrium::{LONGEST_INSERTION, LONGEST_REACH};
 use crate::error::Interval;
 
 /// Turns of the field, of magnets, of the base and of the shaft, deg: a hundred times round. Of a larger one too few digits would be
@@ -10,10 +11,10 @@ pub(super) const TURN: Interval = Interval::within(36_000.0);
 pub(super) const SPIRAL_START: Interval = Interval::within(360.0);
 
 /// Length of shaft inside the port, mm.
-pub(super) const INSERTION: Interval = Interval::at_least(0.0).at_most(1000.0);
+pub(super) const INSERTION: Interval = Interval::at_least(0.0).at_most(1e3 * LONGEST_INSERTION);
 
 /// Reach of the guidewire from the port, mm.
-pub(super) const GUIDEWIRE_INSERTION: Interval = Interval::at_least(0.0).at_most(2000.0);
+pub(super) const GUIDEWIRE_INSERTION: Interval = Interval::at_least(0.0).at_most(1e3 * LONGEST_REACH);
 
 /// Standard deviations of any number.
 pub(super) const DEVIATION: Interval = Interval::above(0.0);
