@@ -17,7 +17,7 @@ use crate::error::Error;
 const FAR: f64 = 6.0;
 
 /// Largest coordinate of a point, m: beyond it, powers of the distance overflow.
-const FARTHEST: f64 = 1e9;
+pub(super) const FARTHEST: f64 = 1e9;
 
 /// A cylinder or ring magnetised along its axis, centred at the origin of its frame, axis `z`, `mu_r = 1`.
 ///
@@ -208,7 +208,7 @@ impl AxialSource {
     /// Shape of the body, without its magnetisation.
     #[must_use]
     pub fn outline(&self) -> Outline {
-        Outline::new(self.inner, self.outer, self.length())
+        Outline::cylinder(self.inner, self.outer, self.length())
     }
 
     /// Inner radius, m; 0 for a solid cylinder.
@@ -302,6 +302,40 @@ impl AxialSource {
         }
     }
 
+    /// The components, and the shear (T/m2) that magnetisation across the axis needs, see [`super::transverse`].
+    #[inline]
+    pub(super) fn with_shear<const ORDER: u8>(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<(Meridian, f64, Components), Error> {
+        if !point.iter().all(|coordinate| coordinate.abs() <= FARTHEST) {
+            return Err(refused(point));
+        }
+        let at = Meridian::of(point.x, point.y);
+        let r2 = at.rho * at.rho + point.z * point.z;
+        if r2 > self.far2 {
+            let components = self.multipole.components::<ORDER>(point.z, r2);
+            return Ok((at, self.multipole.shear(point.z, r2), components));
+        }
+        let sum = match &self.edges {
+            SourceEdges::Cylinder(edges) => edges.with_shear::<ORDER>(at.rho, point.z),
+            SourceEdges::Ring(edges) => edges.with_shear::<ORDER>(at.rho, point.z),
+        };
+        match sum {
+            Some((shear, components)) => Ok((at, shear, components)),
+            None => Err(Error::OnEdge { x: point.x, y: point.y, z: point.z }),
+        }
+    }
+
+    /// How much of a point is inside the material, as the field takes it: 1 inside, half on a curved surface, else 0.
+    #[inline]
+    pub(super) fn share_inside(&self, rho: f64, z: f64) -> f64 {
+        if z.abs() >= self.half || rho > self.outer || rho < self.inner {
+            return 0.0;
+        }
+        if rho == self.outer || (rho == self.inner && self.inner > 0.0) { 0.5 } else { 1.0 }
+    }
+
     #[inline]
     pub(super) fn components<const ORDER: u8>(
         &self,
@@ -328,7 +362,7 @@ impl AxialSource {
 
 /// The error for a point that is not finite or too far away.
 #[cold]
-fn refused(point: &Vector3<f64>) -> Error {
+pub(super) fn refused(point: &Vector3<f64>) -> Error {
     let value = point.iter().copied().find(|c| c.is_nan()).unwrap_or_else(|| point.amax());
     Error::range("coordinate of a field point (m)", value, "finite and at most 1e9 in size")
 }

@@ -26,6 +26,12 @@ impl Meridian {
         let inverse = 1.0 / rho;
         Self { x, y, rho, cosine: x * inverse, sine: y * inverse }
     }
+
+    /// Squares of cosine and sine of the azimuth, and their product.
+    #[inline]
+    pub(super) fn squares(&self) -> [f64; 3] {
+        [self.cosine * self.cosine, self.sine * self.sine, self.cosine * self.sine]
+    }
 }
 
 /// Cylindrical components, divided by the powers of `rho` with which they vanish on the axis.

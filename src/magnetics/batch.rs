@@ -76,7 +76,9 @@ impl AxialSource {
         points: &[Vector3<f64>],
         out: &mut [Vector3<f64>],
     ) -> Result<(), Error> {
-        self.each::<FIELD>(height, points, |number, at, components| out[number] += components.field(at))
+        self.each::<FIELD, false>(height, points, |number, at, (components, _)| {
+            out[number] += components.field(at);
+        })
     }
 
     /// Adds the field and its gradient at `points`, seen from a frame in which the magnet's centre is at `height` on the axis.
@@ -86,7 +88,7 @@ impl AxialSource {
         points: &[Vector3<f64>],
         out: &mut [(Vector3<f64>, Matrix3<f64>)],
     ) -> Result<(), Error> {
-        self.each::<GRADIENT>(height, points, |number, at, components| {
+        self.each::<GRADIENT, false>(height, points, |number, at, (components, _)| {
             out[number].0 += components.field(at);
             out[number].1 += components.gradient(at);
         })
@@ -99,35 +101,49 @@ impl AxialSource {
         points: &[Vector3<f64>],
         out: &mut [Jet],
     ) -> Result<(), Error> {
-        self.each::<HESSIAN>(height, points, |number, at, components| {
+        self.each::<HESSIAN, false>(height, points, |number, at, (components, _)| {
             out[number] += components.jet(at);
         })
     }
 
     /// Hands the components at each point, by its number, to `put`; the magnet's centre is at `height` on the axis.
-    fn each<const ORDER: u8>(
+    ///
+    /// Beside them is the shear (T/m2) of magnetisation across the axis, 0 unless `ACROSS`.
+    pub(super) fn each<const ORDER: u8, const ACROSS: bool>(
         &self,
         height: f64,
         points: &[Vector3<f64>],
-        mut put: impl FnMut(usize, &Meridian, &Components),
+        mut put: impl FnMut(usize, &Meridian, (&Components, f64)),
     ) -> Result<(), Error> {
         if points.len() < FEWEST {
             for (number, point) in points.iter().enumerate() {
-                let found = self.components::<ORDER>(&Vector3::new(point.x, point.y, point.z - height));
-                let (at, components) = found.map_err(|error| error.at((*point).into()))?;
-                put(number, &at, &components);
+                let found = self.alone::<ORDER, ACROSS>(&Vector3::new(point.x, point.y, point.z - height));
+                let (at, shear, components) = found.map_err(|error| error.at((*point).into()))?;
+                put(number, &at, (&components, shear));
             }
             return Ok(());
         }
-        self.side_by_side::<ORDER>(height, points, put)
+        self.side_by_side::<ORDER, ACROSS>(height, points, put)
+    }
+
+    /// The components at one point, with the shear if `ACROSS`.
+    fn alone<const ORDER: u8, const ACROSS: bool>(
+        &self,
+        point: &Vector3<f64>,
+    ) -> Result<(Meridian, f64, Components), Error> {
+        if ACROSS {
+            return self.with_shear::<ORDER>(point);
+        }
+        let (at, components) = self.components::<ORDER>(point)?;
+        Ok((at, 0.0, components))
     }
 
     /// Evaluates points that fill the lanes side by side, and hands each to `put` by its number.
-    fn side_by_side<const ORDER: u8>(
+    fn side_by_side<const ORDER: u8, const ACROSS: bool>(
         &self,
         height: f64,
         points: &[Vector3<f64>],
-        mut put: impl FnMut(usize, &Meridian, &Components),
+        mut put: impl FnMut(usize, &Meridian, (&Components, f64)),
     ) -> Result<(), Error> {
         let (rows, at) = ([0.0; WIDTH], [Meridian::of(0.0, 0.0); WIDTH]);
         let lanes = |far| Waiting { far, count: 0, numbers: [0; WIDTH], at, rho: rows, z: rows };
@@ -143,8 +159,9 @@ impl AxialSource {
             } else if r2 <= farthest2 {
                 &mut far
             } else {
-                let (at, components) = self.components::<ORDER>(&Vector3::new(point.x, point.y, z))?;
-                put(number, &at, &components);
+                let (at, shear, components) =
+                    self.alone::<ORDER, ACROSS>(&Vector3::new(point.x, point.y, z))?;
+                put(number, &at, (&components, shear));
                 continue;
             };
 
@@ -153,49 +170,54 @@ impl AxialSource {
             (waiting.rho[lane], waiting.z[lane]) = (at.rho, z);
             waiting.count += 1;
             if waiting.count == WIDTH {
-                self.flush::<ORDER>(waiting, height, points, &mut put)?;
+                self.flush::<ORDER, ACROSS>(waiting, height, points, &mut put)?;
             }
         }
 
-        self.flush::<ORDER>(&mut near, height, points, &mut put)?;
-        self.flush::<ORDER>(&mut far, height, points, &mut put)
+        self.flush::<ORDER, ACROSS>(&mut near, height, points, &mut put)?;
+        self.flush::<ORDER, ACROSS>(&mut far, height, points, &mut put)
     }
 
     /// Evaluates the waiting points.
-    fn flush<const ORDER: u8>(
+    fn flush<const ORDER: u8, const ACROSS: bool>(
         &self,
         waiting: &mut Waiting,
         height: f64,
         points: &[Vector3<f64>],
-        put: &mut impl FnMut(usize, &Meridian, &Components),
+        put: &mut impl FnMut(usize, &Meridian, (&Components, f64)),
     ) -> Result<(), Error> {
         let count = std::mem::take(&mut waiting.count);
         let Waiting { far, numbers, at, rho, z, .. } = waiting;
-        let mut rows = [[0.0; WIDTH]; COMPONENTS];
+        let (mut rows, mut shear) = ([[0.0; WIDTH]; COMPONENTS], [0.0; WIDTH]);
         let together = count >= FEWEST && {
             rho.copy_within(0..WIDTH - count, count);
             z.copy_within(0..WIDTH - count, count);
-            let kernel = if ORDER == HESSIAN { points::jets } else { points::gradients };
+            let mut kernel = |origin: &Origin<'_>| match (ORDER, ACROSS) {
+                (HESSIAN, true) => points::jets_across(origin, rho, z, &mut rows, &mut shear),
+                (_, true) => points::gradients_across(origin, rho, z, &mut rows, &mut shear),
+                (HESSIAN, false) => points::jets(origin, rho, z, &mut rows),
+                (_, false) => points::gradients(origin, rho, z, &mut rows),
+            };
             if *far {
-                kernel(&Origin::Multipole(self.multipole(), multipole::TERMS), rho, z, &mut rows)
+                kernel(&Origin::Multipole(self.multipole(), multipole::TERMS))
             } else {
-                self.with_edges(|edges| kernel(&Origin::Edges { edges, rough: false }, rho, z, &mut rows))
+                self.with_edges(|edges| kernel(&Origin::Edges { edges, rough: false }))
             }
         };
 
         for (lane, (number, at)) in numbers.iter().zip(at).enumerate().take(count) {
             if !together {
                 let point = points[*number] - Vector3::new(0.0, 0.0, height);
-                let found = self.components::<ORDER>(&point);
-                let (at, components) = found.map_err(|error| error.at(points[*number].into()))?;
-                put(*number, &at, &components);
+                let found = self.alone::<ORDER, ACROSS>(&point);
+                let (at, shear, components) = found.map_err(|error| error.at(points[*number].into()))?;
+                put(*number, &at, (&components, shear));
                 continue;
             }
 
             let [radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist] =
                 rows.each_ref().map(|row| row[lane]);
             let components = Components { radial, axial, radial_dz, axial_dz, radial_dzz, axial_dzz, twist };
-            put(*number, at, &components);
+            put(*number, at, (&components, shear[lane]));
         }
         Ok(())
     }

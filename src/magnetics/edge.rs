@@ -31,6 +31,13 @@ pub(super) const GRADIENT: u8 = 1;
 /// Order of differentiation: field, gradient and second derivative.
 pub(super) const HESSIAN: u8 = 2;
 
+/// What is summed beside the components: nothing.
+const NOTHING: u8 = 0;
+/// What is summed beside the components: the scalar potential.
+const POTENTIAL: u8 = 1;
+/// What is summed beside the components: the shear, which magnetisation across the axis needs.
+const SHEAR: u8 = 2;
+
 /// Coaxial circular edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Edges<const N: usize> {
@@ -53,18 +60,24 @@ impl<const N: usize> Edges<N> {
     /// `ORDER` is the highest derivative; components of higher ones stay zero.
     #[inline]
     pub(super) fn components<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<Components> {
-        self.sum::<ORDER, false>(rho, z).map(|(_, sum)| sum)
+        self.sum::<ORDER, NOTHING>(rho, z).map(|(_, sum)| sum)
     }
 
     /// As [`Edges::components`], with the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
     #[inline]
     pub(super) fn with_potential<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
-        self.sum::<ORDER, true>(rho, z)
+        self.sum::<ORDER, POTENTIAL>(rho, z)
     }
 
-    /// The potential, zero unless `POTENTIAL`, and the components.
+    /// As [`Edges::components`], with the shear (T/m2), see [`Place::shear`].
     #[inline]
-    fn sum<const ORDER: u8, const POTENTIAL: bool>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
+    pub(super) fn with_shear<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
+        self.sum::<ORDER, SHEAR>(rho, z)
+    }
+
+    /// The number that `BESIDE` names, and the components.
+    #[inline]
+    fn sum<const ORDER: u8, const BESIDE: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
         let place = Place::new(Lanes(self.radius), z - Lanes(self.position), Lanes::all(rho));
         if place.is_on_edge() {
             return None;
@@ -79,10 +92,13 @@ impl<const N: usize> Edges<N> {
             ..Components::default()
         };
 
-        let potential = if POTENTIAL {
-            place.potential(&integrals, parts.radial, parts.axial).weighted_sum(weights)
-        } else {
-            0.0
+        let beside = match BESIDE {
+            POTENTIAL => place.potential(&integrals, parts.radial, parts.axial).weighted_sum(weights),
+            SHEAR => {
+                let within = place.shear(&integrals, parts.radial, parts.axial).weighted_sum(weights);
+                within - place.wall().weighted_sum(weights) / rho.powi(4).max(f64::MIN_POSITIVE)
+            }
+            _ => 0.0,
         };
 
         if ORDER >= GRADIENT {
@@ -95,7 +111,7 @@ impl<const N: usize> Edges<N> {
             sum.twist = parts.twist.weighted_sum(weights);
         }
 
-        Some((potential, sum))
+        Some((beside, sum))
     }
 }
 
@@ -114,11 +130,11 @@ pub(super) struct Parts<const N: usize> {
 pub(super) struct Place<const N: usize> {
     radius: Lanes<N>,
     /// Height above the edge's plane.
-    u: Lanes<N>,
+    pub(super) u: Lanes<N>,
     rho: Lanes<N>,
-    rho2: Lanes<N>,
-    a2: Lanes<N>,
-    u2: Lanes<N>,
+    pub(super) rho2: Lanes<N>,
+    pub(super) a2: Lanes<N>,
+    pub(super) u2: Lanes<N>,
     /// `a^2 - rho^2`, without cancellation.
     w: Lanes<N>,
     /// `a + rho`, `a - rho` and `1 / (a + rho)`.

@@ -15,6 +15,15 @@ pub const MAGNET_OFFSET: Interval = Interval::within(1e3);
 /// that stands for a stronger one; what is above 20 T is given in another unit.
 pub const MAGNET_REMANENCE: Interval = Interval::within(20.0);
 
+/// Edges, radii and lengths of a magnet that a scene gives by its shape, m: smaller ones were meant in another unit.
+pub const DIRECTED_MAGNET_SIZE: Interval = Interval::at_least(2e-4).at_most(2.0);
+
+/// A component of a unit vector whose length is within 0.001 of 1.
+pub const DIRECTION_COMPONENT: Interval = Interval::within(1.001);
+
+/// Remanence of a magnet that a scene gives by its shape, T; negative: against its direction. No permanent magnet has more.
+pub const DIRECTED_MAGNET_REMANENCE: Interval = Interval::within(2.0);
+
 /// Inner radius of a winding, m.
 pub const COIL_INNER_RADIUS: Interval = Interval::above(0.0).less_than("the outer radius");
 

@@ -44,10 +44,7 @@ impl Multipole {
     /// terms as are needed there.
     #[inline]
     pub(super) fn components<const ORDER: u8>(&self, z: f64, r2: f64) -> Components {
-        let ratio2 = r2 / self.extent2;
-        let terms =
-            REACH.iter().find(|(reach, _)| ratio2 >= reach * reach).map_or(TERMS, |&(_, terms)| terms);
-        self.sum::<ORDER>(z, r2, terms)
+        self.sum::<ORDER>(z, r2, self.terms(r2))
     }
 
     /// The scalar potential at such a point by all terms, T m: the sum of `beta_l S^0_l / (l+1)`.
@@ -58,6 +55,34 @@ impl Multipole {
             solid::<0, 1>(Lanes([inverse2.sqrt()]), Lanes([z * inverse2]), Lanes([inverse2]), 2 * TERMS);
         let degrees = (1..).step_by(2);
         self.beta.iter().zip(degrees).map(|(beta, l)| beta * zonal[l].0[0] / (l as f64 + 1.0)).sum()
+    }
+
+    /// The shear at such a point, T/m2, for magnetisation across the axis, see [`super::transverse`].
+    #[inline]
+    pub(super) fn shear(&self, z: f64, r2: f64) -> f64 {
+        self.shear_of(Lanes([z]), Lanes([r2]), self.terms(r2)).0[0]
+    }
+
+    /// The shear by `terms` terms at points side by side: minus the sum of `beta_l S^2_{l+1} / (l (l + 1))`.
+    #[expect(clippy::inline_always, reason = "compiled for several processors")]
+    #[inline(always)]
+    pub(super) fn shear_of<const N: usize>(&self, z: Lanes<N>, r2: Lanes<N>, terms: usize) -> Lanes<N> {
+        let inverse2 = 1.0 / r2;
+        let start = 3.0 * inverse2.squared() * inverse2.sqrt();
+        let second = solid::<2, N>(start, z * inverse2, inverse2, 2 * terms);
+        let mut sum = Lanes::all(0.0);
+        for (term, beta) in self.beta.iter().enumerate().take(terms) {
+            let l = 2 * term + 1;
+            sum = sum + *beta / (l * (l + 1)) as f64 * second[l + 1];
+        }
+        -1.0 * sum
+    }
+
+    /// Number of terms that are needed at the distance `sqrt(r2)`.
+    #[inline]
+    fn terms(&self, r2: f64) -> usize {
+        let ratio2 = r2 / self.extent2;
+        REACH.iter().find(|(reach, _)| ratio2 >= reach * reach).map_or(TERMS, |&(_, terms)| terms)
     }
 
     /// The components by `terms` terms, anywhere beyond the extent.

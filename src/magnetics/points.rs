@@ -58,6 +58,32 @@ for_each_processor! {
 }
 
 for_each_processor! {
+    /// As [`gradients`], with the shear (T/m2) that magnetisation across the axis needs.
+    pub(super) fn gradients_across(
+        origin: &Origin<'_>,
+        rho: &Row,
+        z: &Row,
+        out: &mut [Row; COMPONENTS],
+        shear: &mut Row,
+    ) -> bool {
+        with_shear::<GRADIENT>(origin, rho, z, out, shear)
+    }
+}
+
+for_each_processor! {
+    /// As [`gradients_across`], with the second derivatives.
+    pub(super) fn jets_across(
+        origin: &Origin<'_>,
+        rho: &Row,
+        z: &Row,
+        out: &mut [Row; COMPONENTS],
+        shear: &mut Row,
+    ) -> bool {
+        with_shear::<HESSIAN>(origin, rho, z, out, shear)
+    }
+}
+
+for_each_processor! {
     /// As [`gradients`] at one point, with eight edges of each group in the lanes, over which the components are to be added up.
     pub(super) fn nested_gradients(
         groups: &[Edges<WIDTH>],
@@ -97,6 +123,41 @@ pub(super) fn components<const ORDER: u8>(
             let r2 = Lanes(*rho).squared() + Lanes(*z).squared();
             let parts = multipole.parts::<ORDER, WIDTH>(Lanes(*z), r2, *terms);
             *out = rows(&parts).map(|part| part.0);
+        }
+    }
+}
+
+/// As [`components`], with the shear; `false` where a lane is too near to an edge.
+#[inline(always)]
+fn with_shear<const ORDER: u8>(
+    origin: &Origin<'_>,
+    rho: &Row,
+    z: &Row,
+    out: &mut [Row; COMPONENTS],
+    shear: &mut Row,
+) -> bool {
+    match origin {
+        Origin::Multipole(multipole, terms) => {
+            let r2 = Lanes(*rho).squared() + Lanes(*z).squared();
+            *out = rows(&multipole.parts::<ORDER, WIDTH>(Lanes(*z), r2, *terms)).map(|part| part.0);
+            *shear = multipole.shear_of(Lanes(*z), r2, *terms).0;
+            true
+        }
+        Origin::Edges { edges, .. } => {
+            *out = [[0.0; WIDTH]; COMPONENTS];
+            let (mut within, mut wall) = (Lanes::all(0.0), Lanes::all(0.0));
+            let mut excess = Lanes::all(f64::MAX);
+            for [radius, position, strength] in *edges {
+                let place = Place::new(Lanes::all(*radius), Lanes(*z) - *position, Lanes(*rho));
+                excess = excess.min(place.excess(EXACT.1));
+                let (integrals, parts) = evaluated::<ORDER, { EXACT.0 }>(&place);
+                within = within + *strength * place.shear(&integrals, parts.radial, parts.axial);
+                wall = wall + *strength * place.wall();
+                accumulate::<ORDER>(&parts, &[*strength; WIDTH], out);
+            }
+            let rho4 = Lanes(*rho).squared().squared().max(Lanes::all(f64::MIN_POSITIVE));
+            *shear = (within - wall / rho4).0;
+            excess.0.iter().all(|excess| *excess >= 0.0)
         }
     }
 }
@@ -141,9 +202,23 @@ fn of_groups<const ORDER: u8>(
 /// Adds the components at these places, each weighted with its strength (T).
 #[inline(always)]
 fn add<const ORDER: u8, const STEPS: u32>(place: &Place<WIDTH>, strength: &Row, out: &mut [Row; COMPONENTS]) {
+    let (_, parts) = evaluated::<ORDER, STEPS>(place);
+    accumulate::<ORDER>(&parts, strength, out);
+}
+
+/// The integrals and the components at these places.
+#[inline(always)]
+fn evaluated<const ORDER: u8, const STEPS: u32>(place: &Place<WIDTH>) -> (Integrals<WIDTH>, Parts<WIDTH>) {
     let ratio = [place.difference * place.inverse_far, place.sum * place.inverse_far];
     let integrals = Integrals::with_steps::<STEPS>(place.parameter(), place.complement(), ratio);
-    let parts = rows(&place.components::<ORDER, true>(&integrals));
+    let parts = place.components::<ORDER, true>(&integrals);
+    (integrals, parts)
+}
+
+/// Adds components, each weighted with the strength (T) of its lane.
+#[inline(always)]
+fn accumulate<const ORDER: u8>(parts: &Parts<WIDTH>, strength: &Row, out: &mut [Row; COMPONENTS]) {
+    let parts = rows(parts);
     let count = if ORDER == HESSIAN { COMPONENTS } else { 4 };
     for (row, part) in out.iter_mut().zip(parts).take(count) {
         for ((entry, value), strength) in row.iter_mut().zip(part.0).zip(strength) {

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::fmi::Package;
 use crate::fmi::value::{DataType, Value};
 use crate::fmi::variable::{Availability, Causality, Request, Variable};
-use crate::magnetics::{Drive, Part};
+use crate::magnetics::{Drive, Outline};
 use crate::manipulator::FeedMode;
 use crate::vessel::Branch;
 
@@ -28,7 +28,7 @@ pub(super) struct Description {
     shaft: Option<Tube>,
     feed_mode: FeedMode,
     guidewire: Option<Wire>,
-    magnet: Vec<Cylinder>,
+    magnet: Vec<Part>,
     /// The magnets after the first one, then the coils.
     #[serde(rename = "further")]
     others: Vec<Source>,
@@ -85,24 +85,33 @@ struct Wire {
     radius: f64,
 }
 
-/// A magnet after the first one, or a coil. The cylinder of a coil is its winding, with core if there is one, and has the remanence of
+/// A magnet after the first one, or a coil. The part of a coil is its winding, with core if there is one, and has the remanence of
 /// its dipole moment at one ampere.
 #[derive(Debug, Serialize)]
 struct Source {
     name: String,
     coil: bool,
-    cylinders: Vec<Cylinder>,
+    parts: Vec<Part>,
 }
 
 /// A part of a magnet or coil.
 #[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Cylinder {
-    inner_radius: f64,
-    outer_radius: f64,
-    length: f64,
+struct Part {
+    #[serde(flatten)]
+    solid: Solid,
+    /// Position of its centre along the source's `z`.
     offset: f64,
-    remanence: f64,
+    remanence: [f64; 3],
+    volume: f64,
+}
+
+/// What a page draws of a part.
+#[derive(Debug, Serialize)]
+#[serde(tag = "shape", rename_all = "camelCase", rename_all_fields = "camelCase")]
+enum Solid {
+    Cylinder { inner_radius: f64, outer_radius: f64, length: f64 },
+    Cuboid { size: [f64; 3] },
+    Sphere { radius: f64 },
 }
 
 /// The wall of the vessel; that of a mesh has no branches here, and its triangles are known to whoever has the mesh.
@@ -133,8 +142,8 @@ impl Description {
         let design = start.design()?;
         let sources = start.sources()?;
         let mut sources = start.source_names().zip(sources.list()).map(|((name, drive), source)| {
-            let cylinders = source.parts().iter().map(Cylinder::of).collect();
-            Source { name, coil: drive == Drive::Current, cylinders }
+            let parts = source.parts().iter().map(Part::of).collect();
+            Source { name, coil: drive == Drive::Current, parts }
         });
 
         let walls = start.vessel.as_ref().map(|vessel| Wall {
@@ -153,7 +162,7 @@ impl Description {
                 .map(|span| Tube { inner_radius: span.inner_radius, outer_radius: span.outer_radius }),
             feed_mode: start.feed_mode,
             guidewire: design.guidewire().map(|wire| Wire { radius: wire.radius }),
-            magnet: sources.next().map_or_else(Vec::new, |magnet| magnet.cylinders),
+            magnet: sources.next().map_or_else(Vec::new, |magnet| magnet.parts),
             others: sources.collect(),
             vessel: walls,
         })
@@ -165,16 +174,19 @@ impl Description {
     }
 }
 
-impl Cylinder {
-    fn of(part: &Part) -> Self {
-        let Part { outline, centre, remanence } = part;
-        Self {
-            inner_radius: outline.inner_radius(),
-            outer_radius: outline.outer_radius(),
-            length: outline.length(),
-            offset: centre.z,
-            remanence: remanence.z,
-        }
+impl Part {
+    fn of(part: &crate::magnetics::Part) -> Self {
+        let solid = match &part.outline {
+            Outline::Cylinder(body) => Solid::Cylinder {
+                inner_radius: body.inner_radius(),
+                outer_radius: body.outer_radius(),
+                length: body.length(),
+            },
+            Outline::Cuboid(half) => Solid::Cuboid { size: (2.0 * half).into() },
+            Outline::Sphere(radius) => Solid::Sphere { radius: *radius },
+        };
+        let (remanence, volume) = (part.remanence.into(), part.outline.volume());
+        Self { solid, offset: part.centre.z, remanence, volume }
     }
 }
 

@@ -18,7 +18,7 @@ fn pose(position: [f64; 3], turn: [f64; 3]) -> Pose {
 
 /// A ring's outline, a magnet, a flat disc, a magnet with a bore, a ring with its bore.
 fn bodies() -> [Outline; 5] {
-    let millimetres = |inner, outer, length| Outline::new(inner * MM, outer * MM, length * MM);
+    let millimetres = |inner, outer, length| Outline::cylinder(inner * MM, outer * MM, length * MM);
     [
         millimetres(0.0, 2.0, 1.0),
         millimetres(0.0, 22.5, 30.0),
@@ -59,12 +59,12 @@ fn closed_forms_are_met() {
         ("in the bore's wall", ring, bored, [0.0, 1.25, 0.0], [0.0; 3], 0.25),
         ("across the bore", ring, bored, [0.0, 0.0, 15.2], [0.0; 3], 0.0),
         ("over the mouth of the bore", magnet, bored, [0.0, 0.0, 29.8], [0.0; 3], 0.2),
-        ("a rod through a ring", Outline::new(0.0, 0.7 * MM, 9.0 * MM), hollow, [0.0; 3], [0.0; 3], 0.0),
-        ("a ring around a rod", hollow, Outline::new(0.0, 0.7 * MM, 9.0 * MM), [0.0; 3], [0.0; 3], 0.0),
+        ("a rod through a ring", Outline::cylinder(0.0, 0.7 * MM, 9.0 * MM), hollow, [0.0; 3], [0.0; 3], 0.0),
+        ("a ring around a rod", hollow, Outline::cylinder(0.0, 0.7 * MM, 9.0 * MM), [0.0; 3], [0.0; 3], 0.0),
         (
             "a ring on a rod too thick",
             hollow,
-            Outline::new(0.0, 0.8 * MM, 9.0 * MM),
+            Outline::cylinder(0.0, 0.8 * MM, 9.0 * MM),
             [0.0; 3],
             [0.0; 3],
             0.05,
@@ -78,7 +78,7 @@ fn closed_forms_are_met() {
 
 #[test]
 fn links_of_a_chain_share_no_volume() {
-    let link = Outline::new(4.0 * MM, 5.0 * MM, 1.0 * MM);
+    let link = Outline::cylinder(4.0 * MM, 5.0 * MM, 1.0 * MM);
     let apart = depth(&link, &link, &pose([4.5, 0.0, 0.0], [FRAC_PI_2, 0.0, 0.0]));
     assert_eq!(apart.to_bits(), 0);
     assert!(depth(&link, &link, &pose([8.5, 0.0, 0.0], [FRAC_PI_2, 0.0, 0.0])) > 0.0);
@@ -120,7 +120,7 @@ proptest! {
         first in body(), second in body(), at in [-5.0..5.0, -5.0..5.0, -5.0..5.0], turned in turn(),
         about in turn(), spin in -3.0..3.0_f64,
     ) {
-        let outline = |b: [f64; 3]| Outline::new(b[0], b[1], b[2]);
+        let outline = |b: [f64; 3]| Outline::cylinder(b[0], b[1], b[2]);
         let (one, two, place) = (outline(first), outline(second), pose(at, turned));
         let found = depth(&one, &two, &place);
         let inverse = Pose::identity().seen_from(&place);
@@ -138,7 +138,7 @@ proptest! {
         first in body(), second in body(), at in [-5.0..5.0, -5.0..5.0, -5.0..5.0], turned in turn(),
     ) {
         let place = pose(at, turned);
-        let found = Outline::new(first[0], first[1], first[2]).depth_in(&Outline::new(second[0], second[1], second[2]), &place);
+        let found = Outline::cylinder(first[0], first[1], first[2]).depth_in(&Outline::cylinder(second[0], second[1], second[2]), &place);
         let sampled = sampled(first, second, &place);
         prop_assert!(sampled <= found + DEPTH * MM, "{found} where a point lies {sampled} deep");
         prop_assert!(found <= sampled + DEPTH_SAMPLED * MM, "{found} where points lie {sampled} deep at the most");

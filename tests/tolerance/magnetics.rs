@@ -92,3 +92,11 @@ pub(crate) const ROUGH_SHEET: f64 = 2e-8;
 /// The gradient by so many multipoles, over its size and over the power of the extent's ratio to the distance that is left out
 /// (reached: 9).
 pub(crate) const LEFT_OUT: f64 = 12.0;
+
+/// Field, gradient and second derivative of magnets of every shape and direction.
+pub(crate) const MAGNET_FIELD: f64 = 1e-12;
+pub(crate) const MAGNET_GRADIENT: f64 = 1e-12;
+pub(crate) const MAGNET_HESSIAN: f64 = 1e-12;
+
+/// The same beside faces and edges, where rounding of a coordinate alone moves them by as much.
+pub(crate) const NEAR_MAGNET_EDGE: f64 = 1e-11;

@@ -45,26 +45,31 @@ export interface Body {
     boundaryAngle: number | null;
 }
 
-/** A cylinder of a magnet, about the magnet's z axis. */
-export interface Cylinder {
-    innerRadius: number;
-    outerRadius: number;
-    length: number;
-    /** Place of its centre along the axis, m. */
+/** The shape of a part of a magnet or coil, about or along the axes of its source, m. */
+export type Solid =
+    | { shape: "cylinder"; innerRadius: number; outerRadius: number; length: number }
+    | { shape: "cuboid"; size: [number, number, number] }
+    | { shape: "sphere"; radius: number };
+
+/** A part of a magnet or coil. */
+export type Part = Solid & {
+    /** Place of its centre along the source's z axis, m. */
     offset: number;
-    /** Remanence along the axis, T: positive means that north lies towards +z. */
-    remanence: number;
-}
+    /** Remanence, T: north lies where it points. */
+    remanence: [number, number, number];
+    /** Volume, m3. */
+    volume: number;
+};
 
 /**
- * A magnet after the first one, or a coil. The cylinder of a coil is its winding, with the remanence that has its dipole moment of one
+ * A magnet after the first one, or a coil. The part of a coil is its winding, with the remanence that has its dipole moment of one
  * ampere.
  */
 export interface Source {
     /** Beginning of the names of its inputs, such as `magnet[2]` or `coil[1]`. */
     name: string;
     coil: boolean;
-    cylinders: Cylinder[];
+    parts: Part[];
 }
 
 /** A branch of a vessel: balls along its centreline, closely spaced; x, y, z and radius of each, m. */
@@ -91,7 +96,7 @@ export interface Description {
     /** Radius of the wire inside; null for none. */
     guidewire: { radius: number } | null;
     /** The external magnet; empty where the scene has none (its strength is then 0). */
-    magnet: Cylinder[];
+    magnet: Part[];
     /** Further magnets, then coils. */
     further: Source[];
     /** The vessel; null for none. A vessel from a mesh has no branches, but triangles: nine numbers each, m. */

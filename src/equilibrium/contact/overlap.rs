@@ -106,7 +106,7 @@ impl Placed<'_> {
                 continue;
             }
             for (number, part) in magnet.parts().iter().enumerate() {
-                let disc = Outline::new(0.0, radius, 0.0);
+                let disc = Outline::cylinder(0.0, radius, 0.0);
                 let level = |s: f64| {
                     let pose = seen(&section(k, s), at, &part.centre);
                     disc.level_in(&part.outline, &pose, reach).unwrap_or(f64::NEG_INFINITY)

@@ -41,7 +41,7 @@ impl RingBody {
 
     /// Its outline without the bore: no part of the manipulator or of a magnet is assumed to fit into it.
     pub(crate) fn outline(&self) -> Outline {
-        Outline::new(0.0, self.ring.outer_radius, self.ring.length)
+        Outline::cylinder(0.0, self.ring.outer_radius, self.ring.length)
     }
 
     /// Pose of its centre for a node at the pose `node`.

@@ -28,7 +28,7 @@ impl SourceName {
     #[must_use]
     pub fn body(&self, number: usize) -> String {
         match self {
-            Self::Magnet(_) => format!("cylinder {} of {self}", number + 1),
+            Self::Magnet(_) => format!("part {} of {self}", number + 1),
             Self::Coil(_) => self.to_string(),
         }
     }

@@ -112,7 +112,7 @@ impl MultipoleCoil {
     /// [`Error::Range`] naming the first dimension out of range; as [`MultipoleTable::new`].
     pub fn new(coil: Coil, table: MultipoleTable) -> Result<Self, Error> {
         let (coil, table) = (coil.checked()?, table.checked()?);
-        let outline = Outline::new(0.0, coil.outer_radius, coil.length);
+        let outline = Outline::cylinder(0.0, coil.outer_radius, coil.length);
         let part = Part::winding(outline, &(Vector3::z() * table.moment()));
         Ok(Self { made_from: (coil, table), parts: [part] })
     }

@@ -89,6 +89,29 @@ impl Sum {
         self.size += force.norm();
     }
 
+    /// The wrench of the field of `other` on magnetic charges at `pose` in its frame; `charges` hands each place, in the frame of the
+    /// body, with its charge (A m) to what it is given.
+    pub(super) fn on_charges(
+        other: &Source,
+        pose: &Pose,
+        charges: impl FnOnce(&mut dyn FnMut(Vector3<f64>, f64)),
+    ) -> Result<(Wrench, f64), Error> {
+        let (mut arms, mut strengths) = (Vec::new(), Vec::new());
+        charges(&mut |place, charge| {
+            arms.push(pose.rotation * place);
+            strengths.push(charge);
+        });
+        let points: Vec<Vector3<f64>> = arms.iter().map(|arm| pose.position + arm).collect();
+        let mut fields = vec![Vector3::zeros(); points.len()];
+        other.fields(&points, &mut fields)?;
+
+        let mut sum = Self::NONE;
+        for ((arm, charge), field) in arms.iter().zip(&strengths).zip(&fields) {
+            sum.add(arm, &(field * *charge));
+        }
+        Ok(sum.wrench_and_size())
+    }
+
     /// What was added up, and the sum of the magnitudes, N.
     pub(super) fn wrench_and_size(&self) -> (Wrench, f64) {
         (self.wrench, self.size)

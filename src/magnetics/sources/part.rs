@@ -1,7 +1,5 @@
 //! The solid parts of a source.
 
-use core::f64::consts::PI;
-
 use nalgebra::Vector3;
 
 use crate::constants::VACUUM_PERMEABILITY;
@@ -21,8 +19,7 @@ pub struct Part {
 impl Part {
     /// The winding of a coil about the frame's `z`, whose moment at one ampere is given, A m2.
     pub(super) fn winding(outline: Outline, moment: &Vector3<f64>) -> Self {
-        let [inner, outer] = [outline.inner_radius(), outline.outer_radius()];
-        let volume = PI * (outer * outer - inner * inner) * outline.length();
-        Self { outline, centre: Vector3::zeros(), remanence: moment * VACUUM_PERMEABILITY / volume }
+        let remanence = moment * VACUUM_PERMEABILITY / outline.volume();
+        Self { outline, centre: Vector3::zeros(), remanence }
     }
 }

@@ -96,7 +96,7 @@ impl Drive {
 ///     }
 /// }
 ///
-/// let part = Part { outline: Outline::new(0.0, 0.5e-3, 1e-3), centre: Vector3::zeros(), remanence: Vector3::z() };
+/// let part = Part { outline: Outline::cylinder(0.0, 0.5e-3, 1e-3), centre: Vector3::zeros(), remanence: Vector3::z() };
 /// let needle = Source::from(Needle(Dipole::new(Vector3::z())?, [part]));
 /// let wrench = needle.wrench_on_source(&needle, &Pose::identity().advanced(0.1), 1e-3)?;
 /// assert!((wrench.force.z / -6e-3 - 1.0).abs() < 1e-12); // -6 mu_0 / (4 pi) m^2 / r^4

@@ -1,41 +1,44 @@
 import { Vector3 } from "three";
-import type { Cylinder, Description } from "../protocol";
+import type { Description, Part } from "../protocol";
 import { type Triple, type ValuePlaces, valueAt, vectorAt } from "./places";
 import { orientationAt } from "./shape";
 import { SourcePlaces } from "./source_places";
 
-/** A dipole on the axis of a magnet or coil: its place, m, and its moment times mu0 / 4 pi, T m3, where the strength is 1. */
+/** A dipole in a magnet or coil: its place, m, and its moment times mu0 / 4 pi, T m3, where the strength is 1; in the world. */
 interface Dipole {
-    offset: number;
-    strength: number;
+    readonly place: Vector3;
+    readonly moment: Vector3;
 }
 
 /** A magnet or coil as dipoles, where and as strong as the last inputs said. */
 class DipoleSource {
-    readonly centre = new Vector3();
-    readonly axis = new Vector3();
-    readonly dipoles: Dipole[];
+    readonly dipoles: readonly Dipole[];
     factor = 0;
 
     constructor(
-        cylinders: readonly Cylinder[],
+        private readonly parts: readonly Part[],
         private readonly places: SourcePlaces,
     ) {
-        this.dipoles = cylinders.map((cylinder) => ({
-            offset: cylinder.offset,
-            strength: (cylinder.remanence * volume(cylinder)) / (4 * Math.PI),
-        }));
+        this.dipoles = parts.map(() => ({ place: new Vector3(), moment: new Vector3() }));
     }
 
     read(inputs: Float64Array): void {
-        this.centre.set(...vectorAt(inputs, this.places.position));
-        this.axis.set(0, 0, 1).applyQuaternion(orientationAt(inputs, this.places.orientation));
+        const centre = new Vector3(...vectorAt(inputs, this.places.position));
+        const turn = orientationAt(inputs, this.places.orientation);
+        for (const [k, { offset, remanence, volume }] of this.parts.entries()) {
+            const { place, moment } = this.dipoles[k] as Dipole;
+            place.set(0, 0, offset).applyQuaternion(turn).add(centre);
+            moment
+                .set(...remanence)
+                .multiplyScalar(volume / (4 * Math.PI))
+                .applyQuaternion(turn);
+        }
         this.factor = valueAt(inputs, this.places.strength) || 0;
     }
 }
 
 /**
- * The field around the device as point dipoles tell it: one for each cylinder of a magnet and for each coil, and the uniform field with
+ * The field around the device as point dipoles tell it: one for each part of a magnet and for each coil, and the uniform field with
  * its gradient. Good enough for the direction and relative length of an arrow; the core computes with the exact fields.
  */
 export class DipoleField {
@@ -47,9 +50,9 @@ export class DipoleField {
     private slopes = [0, 0, 0, 0, 0];
 
     constructor(description: Description, places: ValuePlaces) {
-        const first = { name: "magnet", coil: false, cylinders: description.magnet };
+        const first = { name: "magnet", coil: false, parts: description.magnet };
         this.sources = [first, ...description.further].map((source) => {
-            return new DipoleSource(source.cylinders, new SourcePlaces(places, source));
+            return new DipoleSource(source.parts, new SourcePlaces(places, source));
         });
         this.uniform = places.inputVector("field.uniform");
         this.gradient = [1, 2, 3, 4, 5].map((k) => places.input(`field.gradient[${k}]`));
@@ -71,21 +74,17 @@ export class DipoleField {
             this.constant.y + xy * x + yy * y + yz * z,
             this.constant.z + xz * x + yz * y - (xx + yy) * z,
         );
-        for (const { centre, axis, dipoles, factor } of this.sources) {
-            for (const dipole of factor === 0 ? [] : dipoles) {
+        for (const { dipoles, factor } of this.sources) {
+            for (const { place, moment } of factor === 0 ? [] : dipoles) {
                 const { distance } = this;
-                distance.set(x, y, z).sub(centre).addScaledVector(axis, -dipole.offset);
+                distance.set(x, y, z).sub(place);
                 const square = distance.lengthSq();
-                const size = (factor * dipole.strength) / (square * Math.sqrt(square));
+                const size = factor / (square * Math.sqrt(square));
                 field
-                    .addScaledVector(distance, (3 * size * axis.dot(distance)) / square)
-                    .addScaledVector(axis, -size);
+                    .addScaledVector(distance, (3 * size * moment.dot(distance)) / square)
+                    .addScaledVector(moment, -size);
             }
         }
         return field.toArray();
     }
-}
-
-function volume(cylinder: Cylinder): number {
-    return Math.PI * (cylinder.outerRadius ** 2 - cylinder.innerRadius ** 2) * cylinder.length;
 }

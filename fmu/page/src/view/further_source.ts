@@ -11,7 +11,7 @@ export class FurtherSource {
     private readonly places: SourcePlaces;
 
     constructor(source: Source, places: ValuePlaces, palette: Palette) {
-        this.magnet = new Magnet(source.cylinders, palette, source.name, source.coil);
+        this.magnet = new Magnet(source.parts, palette, source.name, source.coil);
         this.places = new SourcePlaces(places, source);
         this.place(places.start());
     }

@@ -1,20 +1,25 @@
 import {
     Box3,
+    BoxGeometry,
     BufferGeometry,
+    type Color,
     CanvasTexture,
     CylinderGeometry,
+    Float32BufferAttribute,
     Group,
     LatheGeometry,
     Mesh,
     MeshBasicMaterial,
     MeshStandardMaterial,
     PlaneGeometry,
+    type Quaternion,
+    SphereGeometry,
     SRGBColorSpace,
     type Texture,
     Vector2,
     Vector3,
 } from "three";
-import type { Cylinder } from "../protocol";
+import type { Part, Solid } from "../protocol";
 import type { Palette } from "./colours";
 import { MM } from "./shape";
 
@@ -24,10 +29,19 @@ const AROUND = 96;
 /** Letters on the side of each half. */
 const LETTERS = 4;
 
+/** Parts of an edge and of a meridian where the poles are told by the colour of their faces. */
+const ACROSS = 24;
+
 /** Opacity of a magnet without strength. */
 const FADED = 0.22;
 
-/** A magnet: coaxial cylinders about its z axis, each half in the colour of its pole and with its letter. Or a coil, in that of a wire. */
+/** A cylinder of a magnet or coil. */
+type Cylinder = Extract<Solid, { shape: "cylinder" }>;
+
+/**
+ * A magnet: cylinders about its z axis, magnetised along it, each half in the colour of its pole and with its letter; other parts in the
+ * colours of their poles. Or a coil, in that of a wire.
+ */
 export class Magnet {
     /** Whether it is switched off. */
     faded = false;
@@ -36,7 +50,7 @@ export class Magnet {
     private readonly textures: Texture[] = [];
 
     constructor(
-        private readonly cylinders: readonly Cylinder[],
+        private readonly parts: readonly Part[],
         palette: Palette,
         name = "magnet",
         private readonly coil = false,
@@ -47,23 +61,43 @@ export class Magnet {
         const plain = painted(coil ? "wire" : "plain");
         const paint = { north: painted("north"), south: painted("south"), plain };
         const ink = { north: this.ink("N"), south: this.ink("S") };
-        for (const cylinder of cylinders) {
-            const half = (MM * cylinder.length) / 2;
-            for (const side of [-1, 1] as const) {
-                const pole =
-                    coil || cylinder.remanence === 0
-                        ? "plain"
-                        : side * cylinder.remanence > 0
-                          ? "north"
-                          : "south";
-                const part = new Group();
-                part.add(new Mesh(halfCylinder(cylinder, half), paint[pole]));
-                if (pole !== "plain") this.letter(part, cylinder, half, ink[pole]);
-                // Halves are built towards +z with letters upright; the other one is turned about the x axis.
-                part.position.z = MM * cylinder.offset;
-                if (side < 0) part.rotation.x = Math.PI;
-                this.group.add(part);
+        const colours = { north: palette.north, south: palette.south };
+        for (const solid of parts) {
+            const [x, y, z] = solid.remanence;
+            if (solid.shape === "cylinder" && (coil || (x === 0 && y === 0))) {
+                this.halves(solid, solid.offset, coil ? 0 : z, paint, ink);
+            } else {
+                const geometry = withPoles(geometryOf(solid), new Vector3(x, y, z), colours);
+                const own = new MeshStandardMaterial({
+                    vertexColors: true,
+                    metalness: 0.15,
+                    roughness: 0.36,
+                });
+                const mesh = new Mesh(geometry, this.keep(own));
+                mesh.position.z = MM * solid.offset;
+                this.group.add(mesh);
             }
+        }
+    }
+
+    /** The two halves of a cylinder with this remanence along z. */
+    private halves(
+        cylinder: Cylinder,
+        offset: number,
+        remanence: number,
+        paint: Record<"north" | "south" | "plain", MeshStandardMaterial>,
+        ink: Record<"north" | "south", MeshBasicMaterial>,
+    ): void {
+        const half = (MM * cylinder.length) / 2;
+        for (const side of [-1, 1] as const) {
+            const pole = remanence === 0 ? "plain" : side * remanence > 0 ? "north" : "south";
+            const part = new Group();
+            part.add(new Mesh(halfCylinder(cylinder, half), paint[pole]));
+            if (pole !== "plain") this.letter(part, cylinder, half, ink[pole]);
+            // Halves are built towards +z with letters upright; the other one is turned about the x axis.
+            part.position.z = MM * offset;
+            if (side < 0) part.rotation.x = Math.PI;
+            this.group.add(part);
         }
     }
 
@@ -74,13 +108,14 @@ export class Magnet {
 
     /** The box around it as it lies. */
     box(): Box3 {
-        const along = Math.max(...this.cylinders.map((one) => MM * (Math.abs(one.offset) + one.length / 2)));
-        const across = Math.max(...this.cylinders.map((one) => MM * one.outerRadius));
-        const axis = new Vector3(0, 0, 1).applyQuaternion(this.group.quaternion);
-        const reach = (part: number) =>
-            along * Math.abs(part) + across * Math.sqrt(Math.max(0, 1 - part ** 2));
-        const size = new Vector3(reach(axis.x), reach(axis.y), reach(axis.z)).multiplyScalar(2);
-        return new Box3().setFromCenterAndSize(this.group.position, size);
+        const box = new Box3();
+        const turn = this.group.quaternion;
+        for (const part of this.parts) {
+            const place = new Vector3(0, 0, MM * part.offset).applyQuaternion(turn).add(this.group.position);
+            const size = reachOf(part, turn).multiplyScalar(2);
+            box.union(new Box3().setFromCenterAndSize(place, size));
+        }
+        return box;
     }
 
     /** Shows how strong it is: without strength it is faded. */
@@ -176,4 +211,70 @@ function halfCylinder(cylinder: Cylinder, half: number): LatheGeometry {
         return k === 0 || k === all.length - 1 ? [point] : [point, point.clone()];
     });
     return new LatheGeometry(points, AROUND).rotateX(Math.PI / 2);
+}
+
+/** How far a part reaches from its middle along the axes of the world, where its source is turned. */
+function reachOf(part: Solid, turn: Quaternion): Vector3 {
+    const axes = [0, 1, 2].map((k) => new Vector3().setComponent(k, 1).applyQuaternion(turn));
+    const [first, second, axis] = axes as [Vector3, Vector3, Vector3];
+    const along = (component: 0 | 1 | 2) => {
+        const [x, y, z] = [first, second, axis].map((one) => Math.abs(one.getComponent(component)));
+        const parts = [x, y, z] as [number, number, number];
+        switch (part.shape) {
+            case "cylinder":
+                return (part.length / 2) * parts[2] + part.outerRadius * Math.hypot(parts[0], parts[1]);
+            case "cuboid":
+                return parts.reduce((sum, share, k) => sum + (share * (part.size[k] ?? 0)) / 2, 0);
+            case "sphere":
+                return part.radius;
+        }
+    };
+    return new Vector3(along(0), along(1), along(2)).multiplyScalar(MM);
+}
+
+/** The surface of a part, in many faces. */
+function geometryOf(part: Solid): BufferGeometry {
+    switch (part.shape) {
+        case "cylinder": {
+            const [inner, outer, half] = [part.innerRadius, part.outerRadius, part.length / 2].map(
+                (v) => MM * v,
+            );
+            const steps = Array.from({ length: ACROSS + 1 }, (_, k) => k / ACROSS);
+            const line = (from: [number, number], to: [number, number]) =>
+                steps.map(
+                    (t) => new Vector2(from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t),
+                );
+            const [r, a, h] = [outer as number, inner as number, half as number];
+            const profile = [...line([a, -h], [r, -h]), ...line([r, -h], [r, h]), ...line([r, h], [a, h])];
+            const bore = a > 0 ? line([a, h], [a, -h]) : [];
+            return new LatheGeometry([...profile, ...bore], AROUND).rotateX(Math.PI / 2);
+        }
+        case "cuboid": {
+            const [x, y, z] = part.size.map((edge) => MM * edge) as [number, number, number];
+            return new BoxGeometry(x, y, z, ACROSS, ACROSS, ACROSS);
+        }
+        case "sphere":
+            return new SphereGeometry(MM * part.radius, AROUND, AROUND / 2);
+    }
+}
+
+/** The surface with every face in the colour of the pole on whose side of the middle it lies. */
+function withPoles(
+    surface: BufferGeometry,
+    remanence: Vector3,
+    { north, south }: Record<"north" | "south", Color>,
+): BufferGeometry {
+    const faces = surface.toNonIndexed();
+    surface.dispose();
+    const places = faces.getAttribute("position");
+    const painted = new Float32Array(3 * places.count);
+    const corner = new Vector3();
+    for (let first = 0; first < places.count; first += 3) {
+        let height = 0;
+        for (let k = first; k < first + 3; k++) {
+            height += corner.fromBufferAttribute(places, k).dot(remanence);
+        }
+        for (let k = first; k < first + 3; k++) (height > 0 ? north : south).toArray(painted, 3 * k);
+    }
+    return faces.setAttribute("color", new Float32BufferAttribute(painted, 3));
 }

@@ -124,27 +124,13 @@ impl Picture {
             own.flat_map(|(source, placed)| source.parts().iter().map(move |part| (part, placed)))
         };
 
-        let magnet = driven(Drive::Factor).map(|(part, PlacedSource { pose, strength })| {
-            let ends = ends(part);
-            let north = if part.remanence.z * strength > 0.0 { ends[1] } else { ends[0] };
-            let south = ends[0] + ends[1] - north;
-            let outline = |ends| outline::of_cylinder(&view, pose, ends, part.outline.outer_radius());
-            let letters = [north, south].map(|end| pose.advanced(0.5 * (end + part.centre.z)).position);
-            let [ahead, behind] = letters.each_ref().map(|letter| view.towards.dot(letter));
-            Magnet {
-                whole: outline(ends),
-                northern: outline([part.centre.z, north]),
-                poles: letters.map(|letter| view.at(&letter)),
-                front: usize::from(behind > ahead),
-            }
-        });
+        let magnet = driven(Drive::Factor)
+            .map(|(part, PlacedSource { pose, strength })| Magnet::of(&view, part, pose, *strength));
 
         let middle = outputs.shape.iter().sum::<Vector3<f64>>() / outputs.shape.len() as f64;
         let remarks =
             on.iter().filter_map(|(source, placed)| Remark::of(&view, &middle, source, &placed.pose));
-        let coils = driven(Drive::Current).map(|(part, placed)| {
-            outline::of_cylinder(&view, &placed.pose, ends(part), part.outline.outer_radius())
-        });
+        let coils = driven(Drive::Current).map(|(part, placed)| outline::of_part(&view, &placed.pose, part));
 
         let body = |pose: &Pose| outline::of_cylinder(&view, pose, [-0.5 * ring, 0.5 * ring], radius);
         let walls = outputs.wall.iter().flat_map(|wall| &wall.places);
@@ -212,19 +198,32 @@ impl Picture {
     }
 }
 
-/// Heights of the ends of a part above its source's centre, m.
-fn ends(part: &Part) -> [f64; 2] {
-    [-0.5, 0.5].map(|share| part.centre.z + share * part.outline.length())
+impl Magnet {
+    /// A part of a magnet at this pose with this strength.
+    fn of(view: &View, part: &Part, pose: &Pose, strength: f64) -> Self {
+        let north = part.remanence * strength;
+        let north = north.try_normalize(0.0).unwrap_or_else(Vector3::z);
+        let letters = [north, -north].map(|side| {
+            let half = part.outline.half_extents().dot(&side.abs());
+            pose.transform(&(part.centre + side * (0.5 * half)))
+        });
+        let [ahead, behind] = letters.each_ref().map(|letter| view.towards.dot(letter));
+        Self {
+            whole: outline::of_part(view, pose, part),
+            northern: outline::of_half(view, pose, part, &north),
+            poles: letters.map(|letter| view.at(&letter)),
+            front: usize::from(behind > ahead),
+        }
+    }
 }
 
 impl Remark {
     /// That of a source at this pose, at its lower edge; `None` where it stands in the plane through a place of the device.
     fn of(view: &View, device: &Vector3<f64>, source: &Source, pose: &Pose) -> Option<Self> {
         let depth = view.towards.dot(&(pose.position - device));
-        let radius = |part: &Part| part.outline.outer_radius();
-        let size = source.parts().iter().map(radius).fold(0.0, f64::max);
-        let each = source.parts().iter();
-        let outlines = each.flat_map(|part| outline::of_cylinder(view, pose, ends(part), radius(part)));
+        let across = |part: &Part| part.outline.half_extents().xy().max();
+        let size = source.parts().iter().map(across).fold(0.0, f64::max);
+        let outlines = source.parts().iter().flat_map(|part| outline::of_part(view, pose, part));
         let lowest = outlines.map(|(_, y)| y).fold(f64::INFINITY, f64::min);
         let (side, away) = (if depth > 0.0 { "in front" } else { "behind" }, depth.abs());
         let words = format!("{:.0} mm {side}", 1e3 * away);

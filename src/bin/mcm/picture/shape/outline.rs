@@ -1,6 +1,7 @@
 //! Outlines in a plane: of a vessel, and of cylinders.
 
 use mcm::geometry::Pose;
+use mcm::magnetics::{Outline as Solid, Part};
 use mcm::nalgebra::Vector3;
 use mcm::vessel::Lumen;
 use rayon::prelude::*;
@@ -93,6 +94,51 @@ fn depths(lumen: &Lumen, view: &View) -> [f64; 2] {
         let depth = view.towards.dot(&centre);
         [low.min(depth - radius), high.max(depth + radius)]
     })
+}
+
+/// Outline of a part of a magnet or coil at this pose.
+pub(super) fn of_part(view: &View, pose: &Pose, part: &Part) -> Outline {
+    hull(places(part).map(|place| view.at(&pose.transform(&(part.centre + place)))).collect())
+}
+
+/// Outline of the half of a part that lies towards a unit vector of its frame, as seen from its centre.
+pub(super) fn of_half(view: &View, pose: &Pose, part: &Part, towards: &Vector3<f64>) -> Outline {
+    let all: Vec<Vector3<f64>> = places(part).collect();
+    let height = |place: &Vector3<f64>| place.dot(towards);
+    let (ahead, behind): (Vec<_>, Vec<_>) = all.into_iter().partition(|place| height(place) > 0.0);
+
+    // Where the lines between the halves cut the middle: their hull is the cut through the body.
+    let cut = ahead.iter().flat_map(|one| {
+        behind.iter().map(move |other| {
+            let share = height(one) / (height(one) - height(other));
+            one + (other - one) * share
+        })
+    });
+    let half = ahead.iter().copied().chain(cut.collect::<Vec<_>>());
+    hull(half.map(|place| view.at(&pose.transform(&(part.centre + place)))).collect())
+}
+
+/// Places on the surface of a part, from its centre, of which it is the convex hull, m.
+fn places(part: &Part) -> Box<dyn Iterator<Item = Vector3<f64>>> {
+    let circle = |radius: f64, height: f64| {
+        (0..AROUND).map(move |i| {
+            let (sine, cosine) = (core::f64::consts::TAU * i as f64 / AROUND as f64).sin_cos();
+            Vector3::new(radius * cosine, radius * sine, height)
+        })
+    };
+    match part.outline {
+        Solid::Cylinder(body) => {
+            let (radius, half) = (body.outer_radius(), 0.5 * body.length());
+            Box::new(circle(radius, -half).chain(circle(radius, half)))
+        }
+        Solid::Cuboid(half) => Box::new((0..8).map(move |corner: usize| {
+            Vector3::from_fn(|axis, _| if corner >> axis & 1 == 1 { half[axis] } else { -half[axis] })
+        })),
+        Solid::Sphere(radius) => Box::new((0..=AROUND / 2).flat_map(move |step| {
+            let (sine, cosine) = (core::f64::consts::TAU * step as f64 / AROUND as f64).sin_cos();
+            circle(radius * sine, radius * cosine)
+        })),
+    }
 }
 
 /// Outline of a cylinder around the axis of `pose`, between two heights (m) over its origin.
