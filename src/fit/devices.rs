@@ -12,8 +12,9 @@ const INPUTS: [&str; 7] = ["field", "magnet", "coil", "base", "load", "gravity",
 /// The table in which a key counts as input or number of the device.
 fn table(key: &str) -> &str {
     let of_coil = ["_radius_mm", ".length_mm", ".turns", ".reach_mm", ".multipoles"];
+    let of_magnet = [".cylinders", ".size_mm", "radius_mm", ".length_mm", ".direction", ".remanence_t"];
     let of_device = key.starts_with("feed.shaft")
-        || key.starts_with("magnet") && key.contains(".cylinders")
+        || key.starts_with("magnet") && of_magnet.iter().any(|part| key.contains(part))
         || key.starts_with("coil") && of_coil.iter().any(|part| key.contains(part));
     if of_device { "design" } else { key.split(['.', '[']).next().unwrap_or(key) }
 }

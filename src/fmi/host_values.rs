@@ -8,7 +8,7 @@ use crate::design::{Backbone, Design, Guidewire, Specification};
 use crate::equilibrium::{PlacedSource, Settings};
 use crate::error::{Error, Interval};
 use crate::geometry::Pose;
-use crate::magnetics::{AxialMagnet, Cylinders, Drive, Source, Sources};
+use crate::magnetics::{AxialMagnet, Cylinders, Drive, ShapedMagnet, Source, Sources};
 use crate::manipulator::{FeedMode, Inputs, Manipulator, POTENTIAL, Scene, SceneFile, Variant, Way};
 use crate::vessel::{Vessel, Wall};
 
@@ -80,8 +80,10 @@ pub struct HostValues {
     pub wall_modulus: f64,
     /// Coefficient of friction between the device and the wall.
     pub friction: f64,
-    /// The cylinders of the first magnet, which are parameters.
+    /// The cylinders of the first magnet, which are parameters; none where it has a shape.
     pub magnets: Vec<AxialMagnet>,
+    /// The first magnet where it is given by its shape, whose numbers are parameters; else empty.
+    pub shaped: Vec<ShapedMagnet>,
     /// How the device comes to its first inputs.
     pub way: Way,
     /// Settings of model and solver.
@@ -164,6 +166,7 @@ impl HostValues {
             specification: scene.specification,
             vessel: scene.vessel.map(Arc::new),
             magnets,
+            shaped: file.shaped_magnet()?.into_iter().collect(),
             way: scene.way,
             settings: scene.settings,
         })
@@ -265,8 +268,12 @@ impl HostValues {
     /// Those of [`Cylinders::new`].
     pub fn sources(&self) -> Result<Sources, Error> {
         let mut list: Vec<Source> = self.sources.iter().map(|source| source.kind.clone()).collect();
-        if let Some(first) = list.first_mut().filter(|_| !self.magnets.is_empty()) {
-            *first = Cylinders::new(self.magnets.clone())?.into();
+        if let Some(first) = list.first_mut() {
+            if let Some(shaped) = self.shaped.first() {
+                *first = shaped.source()?;
+            } else if !self.magnets.is_empty() {
+                *first = Cylinders::new(self.magnets.clone())?.into();
+            }
         }
         Sources::new(list)
     }

@@ -23,7 +23,7 @@ impl Plane {
     /// The plane of these inputs and of the sources that are switched on.
     ///
     /// # Errors
-    /// [`Error::Unsupported`] naming the quantity that lies outside any such plane.
+    /// [`Error::Unsupported`] naming the quantity that lies outside any such plane, or a source that is not axisymmetric.
     pub(super) fn of(inputs: &Inputs, sources: &Sources) -> Result<Self, Error> {
         let base = inputs.base;
         let axis = base.axis();
@@ -36,9 +36,14 @@ impl Plane {
             ("tip force", inputs.tip_force),
         ];
         inside.extend(inputs.ring_forces.iter().map(|force| ("ring force", *force)));
-        for (_, source) in
-            sources.list().iter().zip(&inputs.sources).filter(|(_, placed)| placed.strength != 0.0)
-        {
+        let placed = sources.list().iter().zip(&inputs.sources).enumerate();
+        for (number, (kind, source)) in placed.filter(|(_, (_, placed))| placed.strength != 0.0) {
+            if !kind.is_axisymmetric() {
+                let name = sources.name(number);
+                return Err(Error::Unsupported(format!(
+                    "method \"planar\": the field of {name} leaves the plane, as it is not axisymmetric about its z axis"
+                )));
+            }
             inside.push(("magnet's axis", source.pose.axis()));
             inside.push(("magnet's position", source.pose.position - base.position));
         }

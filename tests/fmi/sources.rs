@@ -209,3 +209,35 @@ fn messages_have_no_words_of_the_language() {
 fn instance_table() -> mcm::fmi::variables::Table {
     instance(BENT).1.table().clone()
 }
+
+/// The numbers of a magnet that is given by its shape are parameters; a direction that is no unit vector is refused by its name.
+#[test]
+fn a_shape_is_set_by_its_parameters() {
+    const CUBOID: &str = "[design]\nsegments = 1\n[magnet]\nposition_mm = [0, -60, 3]\nshape = \"cuboid\"\n\
+                          size_mm = [20, 20, 10]\nremanence_t = 1.2\n[model]\ninteraction = \"rings\"\n";
+    let angle = |scene: &str, changes: &[(&str, f64)]| {
+        let (mut instance, package, _) = instance(scene);
+        let table = package.table().clone();
+        for (name, value) in changes {
+            assert_eq!(set(&mut instance, &table, name, *value), Ending::Ok, "{name}");
+        }
+        assert_eq!(instance.setup_experiment(0.0, None), Ending::Ok);
+        assert_eq!(instance.enter_initialization(), Ending::Ok);
+        match instance.exit_initialization() {
+            Ending::Ok => Some(get(&mut instance, &table, "tip.angle")),
+            _ => None,
+        }
+    };
+    let changes = [
+        ("magnet.design.size[3]", 0.015),
+        ("magnet.design.direction[2]", 0.6),
+        ("magnet.design.direction[3]", -0.8),
+        ("magnet.design.remanence", -1.1),
+    ];
+    let set_anew = angle(CUBOID, &changes).unwrap();
+    let stated =
+        CUBOID.replace("20, 20, 10", "20, 20, 15").replace("= 1.2", "= -1.1\ndirection = [0, 0.6, -0.8]");
+    assert_eq!(set_anew.to_bits(), angle(&stated, &[]).unwrap().to_bits());
+    assert!((set_anew - angle(CUBOID, &[]).unwrap()).abs() > 1e-3);
+    assert_eq!(angle(CUBOID, &[("magnet.design.direction[3]", 0.5)]), None);
+}

@@ -9,6 +9,7 @@ mod estimate;
 
 mod jacobian;
 mod long_discs;
+mod magnet_shapes;
 mod near_fold;
 
 mod quantities;

@@ -85,13 +85,30 @@ fn further_magnets_and_coils_have_their_bodies_and_moments() {
     let further = described["further"].as_array().unwrap();
     let names: Vec<_> = further.iter().map(|source| source["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["magnet[2]", "coil[1]"]);
-    assert_eq!(further[0]["cylinders"], described["magnet"], "both are the usual pair");
-    let [winding] = &further[1]["cylinders"].as_array().unwrap()[..] else { panic!("one winding") };
+    assert_eq!(further[0]["parts"], described["magnet"], "both are the usual pair");
+    let [winding] = &further[1]["parts"].as_array().unwrap()[..] else { panic!("one winding") };
     let [inner, outer, length] = ["innerRadius", "outerRadius", "length"].map(|key| number(&winding[key]));
     assert_close("winding", &[inner, outer, length], &[0.02, 0.04, 0.06], ROUNDING);
     // A coil of N turns between the radii a and b has the moment N pi (a^2 + a b + b^2) / 3 of one ampere.
     let moment = 600.0 * core::f64::consts::PI * (inner * inner + inner * outer + outer * outer) / 3.0;
     let volume = core::f64::consts::PI * (outer * outer - inner * inner) * length;
     let expected = 4e-7 * core::f64::consts::PI * moment / volume;
-    assert_relative_eq!(number(&winding["remanence"]), expected, max_relative = 1e-9);
+    assert_relative_eq!(number(&winding["remanence"][2]), expected, max_relative = 1e-9);
+}
+
+#[test]
+fn magnets_have_their_shapes_and_remanences() {
+    let scene = "[design]\nsegments = 1\n[[magnet]]\nshape = \"cuboid\"\nsize_mm = [10, 20, 30]\ndirection = [0, 0.6, 0.8]\n\
+                 remanence_t = 1.2\n[[magnet]]\nposition_mm = [150, 0, 0]\nshape = \"sphere\"\nradius_mm = 12.5\ngrade = \"N42\"";
+    let described = described(scene);
+    let [cuboid] = &described["magnet"].as_array().unwrap()[..] else { panic!("one part") };
+    let list = |value: &serde_json::Value| value.as_array().unwrap().iter().map(number).collect::<Vec<f64>>();
+    assert_eq!(cuboid["shape"], "cuboid");
+    assert_close("size", &list(&cuboid["size"]), &[0.01, 0.02, 0.03], ROUNDING);
+    assert_close("remanence", &list(&cuboid["remanence"]), &[0.0, 0.72, 0.96], ROUNDING);
+    assert_relative_eq!(number(&cuboid["volume"]), 6e-6, max_relative = 1e-12);
+    let ball = &described["further"][0]["parts"][0];
+    assert_eq!(ball["shape"], "sphere");
+    assert_relative_eq!(number(&ball["radius"]), 0.0125);
+    assert_relative_eq!(number(&ball["remanence"][2]), 1.3, max_relative = 1e-12);
 }

@@ -10,6 +10,7 @@ use super::access;
 use super::rows::{Draft, Rows};
 use crate::equilibrium::Interaction;
 use crate::equilibrium::quantities::{TIME_BUDGET, TOLERANCE_ANGLE, TOLERANCE_POSITION, TOLERANCE_RELATIVE};
+use crate::magnetics::ShapedMagnet;
 use crate::magnetics::quantities as of;
 use crate::manipulator::Input;
 
@@ -34,6 +35,9 @@ impl Rows {
         for magnet in 0..start.magnets.len() {
             self.magnet(magnet);
         }
+        if let Some(magnet) = start.shaped.first() {
+            self.shaped_magnet(magnet);
+        }
         let gravity = access!(|values, index| values.gravity[index.component]);
         let draft = Draft::parameter("gravity", ACCELERATION, "Acceleration of gravity", gravity).tunable();
         self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::Gravity)));
@@ -50,6 +54,23 @@ impl Rows {
         number(&of::MAGNET_LENGTH, LENGTH, access!(|values, index| values.magnets[index.item].length));
         number(&of::OFFSET, LENGTH, access!(|values, index| values.magnets[index.item].offset));
         number(&of::REMANENCE, REMANENCE, access!(|values, index| values.magnets[index.item].remanence));
+    }
+
+    /// The numbers of a magnet that is given by its shape.
+    fn shaped_magnet(&mut self, magnet: &ShapedMagnet) {
+        for (item, (place, quantity)) in magnet.shape.numbered().enumerate() {
+            let dimension = access!(|values, index| values.shaped[0].dimensions[index.item]);
+            let draft = Draft::holding(quantity, LENGTH, dimension).of_item(place);
+            self.scalar_of(item, draft.known(Known::Source));
+        }
+        for item in 0..3 {
+            let component = access!(|values, index| values.shaped[0].direction[index.item]);
+            let draft = Draft::holding(&of::DIRECTION, RATIO, component).of_item(item);
+            self.scalar_of(item, draft.known(Known::Source));
+        }
+        let remanence = access!(|values| values.shaped[0].remanence);
+        let draft = Draft::holding(&of::DIRECTED_REMANENCE, REMANENCE, remanence);
+        self.scalar(draft.known(Known::Source));
     }
 
     fn model_parameters(&mut self) {

@@ -107,7 +107,7 @@ impl Faults<'_> {
             }
         };
 
-        file.design.complete();
+        file.complete();
         let mut written = Value::Table(file.table().ok()?);
 
         // Arrays of fixed length are read without complaint when they are too long: compare with what was
@@ -177,7 +177,7 @@ impl Faults<'_> {
         let mut file: SceneFile = table.clone().try_into().map_err(|error: toml::de::Error| {
             Error::Syntax { what: self.what.into(), reason: error.message().into() }
         })?;
-        file.design.complete();
+        file.complete();
         file.mesh.clone_from(&whole.mesh);
         Ok(file)
     }

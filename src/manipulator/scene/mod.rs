@@ -4,6 +4,7 @@ mod choices;
 mod device;
 mod faults;
 mod file;
+mod magnet_shape;
 mod mesh;
 mod moved;
 mod multipoles;

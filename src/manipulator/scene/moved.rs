@@ -68,6 +68,7 @@ impl SceneFile {
             let mut magnet = MagnetEntries::default();
             magnet.put(placed);
             self.magnet.0.push(magnet);
+            self.complete();
         }
 
         let placed = inputs.sources.iter().skip(added).zip(&own.sources).enumerate();

@@ -103,6 +103,15 @@ impl SceneFile {
         Ok(scene)
     }
 
+    /// Fills in the defaults that depend on other entries.
+    pub(super) fn complete(&mut self) {
+        self.design.complete();
+        let uncertainty = &mut self.uncertainty;
+        self.magnet.complete(|key, deviation| {
+            uncertainty.entry(key).or_insert(deviation);
+        });
+    }
+
     /// Fills in the entry that `key` names if it was omitted because it follows from the design.
     pub(super) fn complete_for(&mut self, key: &str) -> Result<(), Error> {
         let design = || Design::new(self.design.specification()?);

@@ -13,7 +13,7 @@ use super::device::DesignKey;
 use super::file::DesignEntries;
 use super::sources::{MagnetEntries, Magnets};
 use super::spiral_start::SpiralStartEntry;
-use super::{SceneFile, names, ranges};
+use super::{SceneFile, magnet_shape, names, ranges};
 use crate::error::Interval;
 use crate::magnetics::{Cylinders, MultipoleTable, Sources};
 
@@ -53,7 +53,7 @@ pub(super) fn schema() -> Value {
     let mut root = settings.into_generator().into_root_schema_for::<SceneFile>().to_value();
     tidy(&mut root);
     let mut file = SceneFile::default();
-    file.design.complete();
+    file.complete();
     set_defaults(&mut root, &serde_json::to_value(&file).expect("a scene can be written"));
     for (key, range) in names::ranges().chain(ranges::KEYS) {
         set_range(&mut root, key, range);
@@ -118,6 +118,7 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
         ),
         ("design.backbone", "object", one_stiffness.clone()),
         ("feed.shaft", "object", one_stiffness),
+        ("magnet", "object", json!(magnet_shape::conditions())),
         ("magnet", "array", json!([{ "items": [{}], "additionalItems": { "required": ["position_mm"] } }])),
         (
             "feed",

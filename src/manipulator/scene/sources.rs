@@ -7,12 +7,15 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::SceneFile;
+use super::magnet_shape;
 use super::mesh::unplaced;
 use super::pose::{TURN_AXIS, in_metres, pose, turn, turned};
 use super::units::MM_PER_M;
 use crate::equilibrium::PlacedSource;
 use crate::error::Error;
-use crate::magnetics::{AxialMagnet, Coil, Cylinders, MultipoleCoil, MultipoleTable, Solenoid, Source};
+use crate::magnetics::{
+    AxialMagnet, Coil, Cylinders, MultipoleCoil, MultipoleTable, ShapedMagnet, Solenoid, Source,
+};
 
 /// The magnets of a scene: none, one table `[magnet]`, or several `[[magnet]]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -88,27 +91,55 @@ pub(super) struct MagnetEntries {
     pub(super) strength: f64,
     /// A cylinder or ring of the magnet, magnetised along the common axis. One table for each.
     ///
-    /// They must not overlap.
-    pub(super) cylinders: Vec<MagnetCylinder>,
+    /// They must not overlap. Left out without `shape`: the pair of the paper.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) cylinders: Option<Vec<MagnetCylinder>>,
+    /// Shape of a magnet in one piece, magnetised in any direction; it takes the place of `cylinders`.
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "magnet_shape::read")]
+    #[cfg_attr(test, schemars(schema_with = "magnet_shape::names"))]
+    pub(super) shape: Option<String>,
+    /// Edges of a cuboid along the axes of its frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) size_mm: Option<[f64; 3]>,
+    /// Radius of a sphere, outer radius of a cylinder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) radius_mm: Option<f64>,
+    /// Inner radius of a ring; left out: 0, a solid cylinder.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) inner_radius_mm: Option<f64>,
+    /// Length of a cylinder along its axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) length_mm: Option<f64>,
+    /// Direction of magnetisation in the magnet's frame, a unit vector; left out: its z.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) direction: Option<[f64; 3]>,
+    /// Remanence along that direction; negative: against it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) remanence_t: Option<f64>,
+    /// Grade of sintered `NdFeB` instead of `remanence_t`: the middle of its range, whose width is four standard deviations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, schemars(schema_with = "magnet_shape::grades"))]
+    pub(super) grade: Option<String>,
 }
 
 impl Default for MagnetEntries {
-    /// The paper's pair; below the manipulator's middle its field is parallel to the manipulator's magnetisation.
+    /// Below the manipulator's middle its field is parallel to the manipulator's magnetisation.
     fn default() -> Self {
-        let cylinder = |offset_mm| MagnetCylinder {
-            radius_mm: 22.5,
-            inner_radius_mm: 0.0,
-            length_mm: 30.0,
-            offset_mm,
-            remanence_t: 1.35,
-        };
         Self {
             position_mm: None,
             orientation_wxyz: [0.0, 1.0, 0.0, 0.0],
             turn_deg: 0.0,
             turn_axis: TURN_AXIS,
             strength: 1.0,
-            cylinders: vec![cylinder(-20.0), cylinder(20.0)],
+            cylinders: None,
+            shape: None,
+            size_mm: None,
+            radius_mm: None,
+            inner_radius_mm: None,
+            length_mm: None,
+            direction: None,
+            remanence_t: None,
+            grade: None,
         }
     }
 }
@@ -132,6 +163,18 @@ pub(super) struct MagnetCylinder {
 }
 
 impl MagnetCylinder {
+    /// The paper's pair.
+    pub(super) fn pair() -> Vec<Self> {
+        let cylinder = |offset_mm| Self {
+            radius_mm: 22.5,
+            inner_radius_mm: 0.0,
+            length_mm: 30.0,
+            offset_mm,
+            remanence_t: 1.35,
+        };
+        vec![cylinder(-20.0), cylinder(20.0)]
+    }
+
     pub(super) fn si(&self) -> AxialMagnet {
         AxialMagnet {
             radius: self.radius_mm / MM_PER_M,
@@ -216,7 +259,19 @@ impl CoilEntries {
 impl MagnetEntries {
     /// The cylinders in SI units.
     fn cylinders(&self) -> Vec<AxialMagnet> {
-        self.cylinders.iter().map(MagnetCylinder::si).collect()
+        self.cylinders.iter().flatten().map(MagnetCylinder::si).collect()
+    }
+
+    /// The checked source; `key` is that of the table.
+    fn source(&self, key: &str) -> Result<Source, Error> {
+        if let Some(magnet) = self.shaped(key)? {
+            return magnet.source();
+        }
+        let made = Cylinders::new(self.cylinders()).map_err(|error| match error {
+            Error::Range { .. } => error,
+            of_the_list => Error::Unsupported(format!("{key}.cylinders: {of_the_list}")),
+        });
+        Ok(made?.into())
     }
 
     /// Pose and strength; `key` is that of the table, and `place` where the magnet is unless it says so.
@@ -238,13 +293,8 @@ impl SceneFile {
     pub(super) fn sources(&self) -> Result<Vec<Source>, Error> {
         let mut out = Vec::new();
         for (number, magnet) in self.magnet.0.iter().enumerate() {
-            let made = Cylinders::new(magnet.cylinders()).map_err(|error| match error {
-                Error::Range { .. } => error.of_item(number + 1),
-                of_the_list => {
-                    Error::Unsupported(format!("{}.cylinders: {of_the_list}", self.magnet.key(number)))
-                }
-            });
-            out.push(made?.into());
+            let made = magnet.source(&self.magnet.key(number));
+            out.push(made.map_err(|error| error.of_item(number + 1))?);
         }
         for (number, coil) in (1..).zip(&self.coil) {
             out.push(coil.source(&format!("coil[{number}]")).map_err(|error| error.of_item(number))?);
@@ -255,6 +305,14 @@ impl SceneFile {
     /// The cylinders of the external magnet; none without one.
     pub(crate) fn magnet_cylinders(&self) -> Vec<AxialMagnet> {
         self.magnet.0.first().map_or_else(Vec::new, MagnetEntries::cylinders)
+    }
+
+    /// The external magnet where it is given by its shape.
+    ///
+    /// # Errors
+    /// [`Error::Unsupported`] for keys that do not belong to the shape, or are missing.
+    pub(crate) fn shaped_magnet(&self) -> Result<Option<ShapedMagnet>, Error> {
+        self.magnet.0.first().map_or(Ok(None), |first| first.shaped(&self.magnet.key(0)))
     }
 
     /// Poses and strengths of the magnets, of which the first may leave out its place, then of the coils.
