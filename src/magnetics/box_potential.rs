@@ -65,7 +65,7 @@ impl Corners {
             let [one, two] = OTHERS[axis].map(|other| self.from[other].map(f64::abs));
             let rho = one[0].min(one[1]).hypot(two[0].min(two[1]));
             let farther = rho.max(low.abs()).max(high.abs());
-            let beyond = (high.max(-low)).max(0.0);
+            let beyond = high.max(-low).max(0.0);
             rho.hypot(beyond) <= ON_EDGE * farther
         })
     }

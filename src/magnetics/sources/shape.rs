@@ -5,7 +5,6 @@ use core::fmt;
 use nalgebra::Vector3;
 
 use super::source::Source;
-use super::{cuboid, oblique, sphere};
 use crate::error::{Error, Quantity};
 use crate::magnetics::quantities::{DIRECTED_REMANENCE, DIRECTION};
 
@@ -24,16 +23,7 @@ pub struct Shape {
     pub(super) make: fn(&[f64], Vector3<f64>) -> Result<Source, Error>,
 }
 
-/// All shapes.
-pub static SHAPES: [&Shape; 3] = [&cuboid::SHAPE, &sphere::SHAPE, &oblique::SHAPE];
-
 impl Shape {
-    /// The shape of this name.
-    #[must_use]
-    pub fn named(name: &str) -> Option<&'static Self> {
-        SHAPES.into_iter().find(|shape| shape.name == name)
-    }
-
     /// The dimensions, each with its number among those of the same quantity, from 0.
     pub fn numbered(&self) -> impl Iterator<Item = (usize, &'static Quantity)> {
         let before = move |at: usize| {
@@ -55,11 +45,11 @@ impl PartialEq for Shape {
     }
 }
 
-/// A magnet of one of the [`SHAPES`], centred in its frame.
+/// A magnet of one of the [`super::SHAPES`], centred in its frame.
 ///
 /// ```
-/// use mcm::magnetics::{Shape, ShapedMagnet};
-/// let shape = Shape::named("cuboid").ok_or("no such shape")?;
+/// use mcm::magnetics::{ShapedMagnet, shape_named};
+/// let shape = shape_named("cuboid").ok_or("no such shape")?;
 /// let cube =
 ///     ShapedMagnet { shape, dimensions: vec![0.01; 3], direction: [0.0, 0.0, 1.0], remanence: 1.45 };
 /// assert!((cube.source()?.moment().z - 1.1539).abs() < 1e-4);

@@ -15,6 +15,7 @@ mod ranges;
 mod resolve;
 #[cfg(test)]
 mod schema;
+mod shaped_magnets;
 mod sources;
 mod spiral_start;
 mod text;
