@@ -9,8 +9,8 @@ mod search;
 mod sensitivity;
 
 pub use contact::{Body, Contact, WallForces};
-pub(crate) use model::{LONGEST_INSERTION, LONGEST_REACH};
 pub use model::{Input, Inputs, Interaction, PlacedSource, Settings, quantities};
+pub(crate) use model::{LONGEST_INSERTION, LONGEST_REACH};
 pub(crate) use search::Deadline;
 #[cfg(target_family = "wasm")]
 pub use search::set_clock;
