@@ -1,31 +1,29 @@
 //! The chain of bodies from base to tip, validated once.
 
-use core::f64::consts::PI;
+use nalgebra::Vector2;
 
 use super::helix::annulus_area;
-use super::limits;
 use super::material::{ELASTOMER_DENSITY, Moduli, composite_density};
-use super::section::{Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
-use super::specification::{
-    Backbone, Cylinder, CylinderMaterial, Guidewire, Segmented, Specification, SpiralKind,
-};
+use super::section::{Ring, SectorKind, Span, SpanKind, Stiffness};
+use super::specification::{Backbone, Cylinder, CylinderMaterial, Guidewire, Specification};
+use super::{limits, sectioned, segmented};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
-/// The deformable spans between two rings (or between base and tip), and the ring at their distal end.
+/// The deformable spans between two rigid parts (or between base and tip), and the rigid part at their distal end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segment {
     /// The deformable spans, base to tip.
     pub spans: Vec<Span>,
-    /// The ring at the distal end, if there is one.
-    pub ring: Option<Ring>,
+    /// The rigid bodies at the distal end, welded to one another, base to tip: one ring, none, or rigid sections in a row.
+    pub rings: Vec<Ring>,
 }
 
 /// A validated design: all quantities are within their ranges, and the bodies are derived from them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Design {
     specification: Specification,
-    base_ring: Option<Ring>,
+    base_rings: Vec<Ring>,
     segments: Vec<Segment>,
     shaft: Option<Span>,
     guidewire: Option<Guidewire>,
@@ -46,11 +44,12 @@ impl Design {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn new(specification: Specification) -> Result<Self, Error> {
-        let (base_ring, segments) = match &specification {
-            Specification::Segmented(chain) => segmented(chain)?,
-            Specification::Cylinder(rod) => (None, vec![plain(rod)?]),
+        let (base_rings, segments) = match &specification {
+            Specification::Segmented(chain) => segmented::bodies(chain)?,
+            Specification::Cylinder(rod) => (Vec::new(), vec![plain(rod)?]),
+            Specification::Sections(device) => sectioned::bodies(device)?,
         };
-        Ok(Self { specification, base_ring, segments, shaft: None, guidewire: None })
+        Ok(Self { specification, base_rings, segments, shaft: None, guidewire: None })
     }
 
     /// This device at the end of a shaft: a tube that is pushed through a port, as long as its inserted part is.
@@ -66,10 +65,8 @@ impl Design {
             inner_radius: tube.inner_radius,
             outer_radius: tube.outer_radius,
             stiffness,
-            magnetisation: 0.0,
-            density: 0.0,
             line_density,
-            spiral: None,
+            ..Span::plain()
         };
         Ok(Self { shaft: Some(span), ..self })
     }
@@ -80,11 +77,18 @@ impl Design {
     /// [`Error::Range`] for a radius that does not fit into every body, or a modulus out of range; [`Error::Unsupported`] where a
     /// body has no lumen.
     pub fn with_guidewire(self, wire: &Guidewire) -> Result<Self, Error> {
+        let narrowest = |bores: &mut dyn Iterator<Item = f64>| bores.fold(f64::INFINITY, f64::min);
         let device = match &self.specification {
-            Specification::Segmented(chain) => chain
-                .backbone
-                .map_or(("core", chain.helix.core_inner_radius), |tube| ("backbone", tube.inner_radius)),
+            Specification::Segmented(chain) => match chain.backbone {
+                Some(tube) => ("backbone", tube.inner_radius),
+                None => ("core", narrowest(&mut chain.helices().map(|helix| helix.core_inner_radius))),
+            },
             Specification::Cylinder(rod) => ("cylinder", rod.inner_radius),
+            Specification::Sections(_) => {
+                let spans = self.segments.iter().flat_map(|segment| &segment.spans);
+                let bores = spans.map(Span::narrowest_bore);
+                ("section", narrowest(&mut bores.chain(self.rings().map(|ring| ring.inner_radius))))
+            }
         };
         let shaft = self.shaft.iter().map(|span| ("shaft", span.inner_radius));
         limits::guidewire(wire, &shaft.chain([device]).collect::<Vec<_>>())?;
@@ -124,10 +128,10 @@ impl Design {
         &self.specification
     }
 
-    /// The ring at the base, clamped with the base frame at its proximal face.
+    /// The rigid bodies at the base, welded to one another and clamped with the base frame at their proximal face.
     #[must_use]
-    pub fn base_ring(&self) -> Option<&Ring> {
-        self.base_ring.as_ref()
+    pub fn base_rings(&self) -> &[Ring] {
+        &self.base_rings
     }
 
     /// The segments, base to tip.
@@ -136,17 +140,23 @@ impl Design {
         &self.segments
     }
 
-    /// All rings, base to tip.
+    /// All rings and other rigid bodies, base to tip.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
-        self.base_ring.iter().chain(self.segments.iter().filter_map(|segment| segment.ring.as_ref()))
+        self.base_rings.iter().chain(self.segments.iter().flat_map(|segment| &segment.rings))
     }
 
-    /// Whether every body is symmetric about its axis: no spiral winds in one direction.
+    /// Whether every body is symmetric about its axis: no spiral winds in one direction, none is bent without loads, and none is
+    /// magnetised across its axis.
     #[must_use]
     pub fn is_axisymmetric(&self) -> bool {
-        let mut spirals =
-            self.segments.iter().flat_map(|segment| &segment.spans).filter_map(|span| span.spiral);
-        spirals.all(|spiral| spiral.kind == SectorKind::Axisymmetric)
+        let even = |span: &Span| {
+            let spiral = span.spiral.is_none_or(|spiral| spiral.kind == SectorKind::Axisymmetric);
+            let magnet = span.magnetisation == 0.0 || span.direction.is_axial();
+            spiral && magnet && span.rest_curvature.xy() == Vector2::zeros()
+        };
+        let own = self.shaft.iter().chain(self.segments.iter().flat_map(|segment| &segment.spans));
+        own.into_iter().all(even)
+            && self.rings().all(|ring| ring.remanence == 0.0 || ring.direction.is_axial())
     }
 
     /// Length of the straight unloaded manipulator without a shaft, m.
@@ -173,79 +183,9 @@ impl Design {
     /// Magnetic moment of the straight manipulator along `d3`, A m2.
     #[must_use]
     pub fn moment(&self) -> f64 {
-        let spans: f64 = self.segments.iter().flat_map(|s| &s.spans).map(Span::moment).sum();
-        spans + self.rings().map(Ring::moment).sum::<f64>()
-    }
-}
-
-/// The base ring and the segments of a chain of rings and helices.
-fn segmented(chain: &Segmented) -> Result<(Option<Ring>, Vec<Segment>), Error> {
-    limits::segmented(chain)?;
-
-    let helix = &chain.helix;
-    let geometry = helix.geometry()?;
-    let tube = chain.backbone.as_ref().map(Tube::of).unwrap_or_default();
-
-    let ring = Ring {
-        inner_radius: helix.core_inner_radius,
-        outer_radius: helix.radius,
-        length: chain.ring.length,
-        remanence: chain.ring_polarisation(),
-        mass: (chain.ring.density * annulus_area(helix.core_inner_radius, helix.radius) + tube.line_density)
-            * chain.ring.length,
-    };
-
-    let moduli = Moduli::composite(helix.shore_a, helix.poisson, helix.volume_fraction);
-    let body = |kind, length, outer_radius, spiral| Span {
-        kind,
-        length,
-        inner_radius: helix.core_inner_radius,
-        outer_radius,
-        stiffness: Stiffness::annulus(helix.core_inner_radius, outer_radius, moduli) + tube.stiffness,
-        magnetisation: helix.volume_fraction * helix.particle_remanence / VACUUM_PERMEABILITY,
-        density: helix.density.unwrap_or_else(|| composite_density(helix.volume_fraction)),
-        line_density: tube.line_density,
-        spiral,
-    };
-
-    let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
-    let spiral = Spiral {
-        inner_radius: helix.core_outer_radius,
-        outer_radius: helix.radius,
-        sector_angle: geometry.sector_angle,
-        windings: helix.windings,
-        kind: SectorKind::Axisymmetric,
-        start: 0.0,
-        boundary_angle: helix.boundary_angle,
-        closed_bending: disc.stiffness.bending,
-    };
-
-    let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, None);
-    let segments = (0..chain.segments)
-        .map(|index| {
-            let (kind, start) = sector(chain, index);
-            let core = Span { spiral: Some(Spiral { kind, start, ..spiral }), ..core.clone() };
-            Segment {
-                spans: vec![disc.clone(), core, disc.clone()],
-                ring: (index + 1 < chain.segments || chain.tip_magnet).then_some(ring),
-            }
-        })
-        .collect();
-
-    Ok((chain.base_magnet.then_some(ring), segments))
-}
-
-/// How the sector of the spiral of segment number `index` (from 0) lies, and where it begins (rad).
-fn sector(chain: &Segmented, index: usize) -> (SectorKind, f64) {
-    let start = chain.spiral_start.of(index);
-    match chain.spiral {
-        // The same for all segments, so that they remain alike.
-        SpiralKind::Axisymmetric => (SectorKind::Axisymmetric, 0.0),
-        // Opposite to the end of the previous spiral, whole turns left out.
-        SpiralKind::Alternating if index % 2 == 1 => {
-            (SectorKind::LeftHanded, start + PI * (1.0 + 2.0 * chain.helix.windings.fract()))
-        }
-        SpiralKind::Helical | SpiralKind::Alternating => (SectorKind::RightHanded, start),
+        let spans = self.segments.iter().flat_map(|segment| &segment.spans);
+        let spans: f64 = spans.map(|span| span.moment() * span.direction.vector().z).sum();
+        spans + self.rings().map(|ring| ring.moment() * ring.direction.vector().z).sum::<f64>()
     }
 }
 
@@ -271,20 +211,19 @@ fn plain(rod: &Cylinder) -> Result<Segment, Error> {
         stiffness: Stiffness::annulus(rod.inner_radius, rod.radius, moduli),
         magnetisation: remanence / VACUUM_PERMEABILITY,
         density: rod.density.unwrap_or(bulk_density),
-        line_density: 0.0,
-        spiral: None,
+        ..Span::plain()
     };
-    Ok(Segment { spans: vec![span], ring: None })
+    Ok(Segment { spans: vec![span], rings: Vec::new() })
 }
 
 /// Contribution of a backbone to every section.
-struct Tube {
-    stiffness: Stiffness,
-    line_density: f64,
+pub(super) struct Tube {
+    pub(super) stiffness: Stiffness,
+    pub(super) line_density: f64,
 }
 
 impl Tube {
-    fn of(backbone: &Backbone) -> Self {
+    pub(super) fn of(backbone: &Backbone) -> Self {
         let moduli = Moduli::bulk(backbone.modulus.elastic(), backbone.poisson);
         Self {
             stiffness: Stiffness::annulus(backbone.inner_radius, backbone.outer_radius, moduli),
@@ -296,9 +235,6 @@ impl Tube {
 impl Default for Tube {
     /// No backbone.
     fn default() -> Self {
-        Self {
-            stiffness: Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 },
-            line_density: 0.0,
-        }
+        Self { stiffness: Span::plain().stiffness, line_density: 0.0 }
     }
 }

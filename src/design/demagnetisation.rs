@@ -2,8 +2,11 @@
 
 use core::f64::consts::PI;
 
+use nalgebra::Vector3;
+
+use super::direction::Direction;
 use super::helix::annulus_area;
-use super::specification::Segmented;
+use super::specification::{Helix, RingMagnet, Segmented};
 use crate::numerics::quadrature::gauss_legendre;
 
 /// Number of panels of the quadrature, each half as long as the previous one, towards the angle at which the two
@@ -72,7 +75,7 @@ fn discs(a: f64, b: f64, length: f64) -> f64 {
 }
 
 impl Segmented {
-    /// Magnetic polarisation `J = mu_0 M` of the rings along their axis, T: the remanence of equivalent magnets of
+    /// Magnetic polarisation `J = mu_0 M` along the axis of rings that are all alike, T: the remanence of equivalent magnets of
     /// permeability 1.
     ///
     /// With the linear demagnetisation curve `B = B_r + mu_0 mu_r H` and the mean `H = -N M` of the ring's own field,
@@ -96,12 +99,29 @@ impl Segmented {
     /// ```
     #[must_use]
     pub fn ring_polarisation(&self) -> f64 {
-        let (ring, helix) = (&self.ring, &self.helix);
-        let excess = ring.recoil_permeability - 1.0;
-        if excess == 0.0 {
-            return ring.remanence;
-        }
-        let factor = demagnetising_factor(helix.core_inner_radius, helix.radius, ring.length);
-        ring.remanence / (1.0 + factor * excess)
+        polarisation(&self.ring, &self.helix, Direction::Axial).0
     }
+}
+
+/// Magnetic polarisation (T) of a ring with the radii of a helix that is magnetised in this direction, and the direction of the
+/// polarisation.
+///
+/// Across the axis the factor is `(1 - N) / 2`: the three factors of any body add up to 1. A ring that is weakened by its own field
+/// more along one direction than along another is magnetised a little off the direction of its remanence.
+pub(super) fn polarisation(ring: &RingMagnet, helix: &Helix, direction: Direction) -> (f64, Direction) {
+    let (sign, direction) = direction.signed();
+    let remanence = sign * ring.remanence;
+    let excess = ring.recoil_permeability - 1.0;
+    if excess == 0.0 {
+        return (remanence, direction);
+    }
+
+    let along = demagnetising_factor(helix.core_inner_radius, helix.radius, ring.length);
+    if direction.is_axial() {
+        return (remanence / (1.0 + along * excess), direction);
+    }
+    let across = 0.5 * (1.0 - along);
+    let weakened = [across, across, along].map(|factor| 1.0 / (1.0 + factor * excess));
+    let (size, direction) = Direction::of(&direction.vector().component_mul(&Vector3::from(weakened)));
+    (remanence * size, direction)
 }

@@ -73,7 +73,7 @@ impl Helix {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range; the height `h` must be positive.
     pub fn geometry(&self) -> Result<HelixGeometry, Error> {
-        limits::helix(self)?;
+        limits::helix_dimensions(self)?;
         let winding_angle = self.boundary_angle / self.windings;
         let pitch = self.radius * winding_angle;
         let height = check(

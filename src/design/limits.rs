@@ -7,10 +7,16 @@ use super::quantities as of;
 use super::specification::{
     Backbone, Cylinder, CylinderMaterial, Guidewire, Helix, Modulus, RingMagnet, Segmented, SpiralStart,
 };
+use super::value_list::ValueList;
 use crate::error::{Error, Interval, Quantity};
+
+pub(super) use super::section_limits::sections;
 
 /// Largest number of segments of a manipulator.
 pub const MOST_SEGMENTS: usize = 64;
+
+/// Largest number of sections of a device made of sections.
+pub const MOST_SECTIONS: usize = 128;
 
 /// Largest recoil permeability of the rings.
 ///
@@ -50,6 +56,21 @@ pub const VOLUME_FRACTION: Interval = Interval::at_least(0.0).below(DENSEST_PACK
 /// stronger one; what is above 20 T is given in another unit.
 pub const REMANENCE: Interval = Interval::at_least(0.0).at_most(20.0);
 
+/// Remanence along a direction, T: negative, it is reversed.
+pub const SIGNED_REMANENCE: Interval = Interval::within(20.0);
+
+/// Radius of a section, m: a hundredth of a hair is none.
+pub const SECTION_RADIUS: Interval = Interval::at_least(1e-6).at_most(1.0);
+
+/// Inner radius of a section, m.
+pub const SECTION_INNER_RADIUS: Interval = Interval::at_least(0.0).less_than("its outer radius");
+
+/// Measured bending and torsional stiffness, N m2.
+pub const ROTATIONAL_STIFFNESS: Interval = Interval::above(0.0).at_most(1e3);
+
+/// Measured axial and shear stiffness, N.
+pub const LINE_STIFFNESS: Interval = Interval::above(0.0).at_most(1e9);
+
 /// Recoil permeability of the rings.
 pub const RECOIL_PERMEABILITY: Interval = Interval::at_least(1.0).at_most(MOST_PERMEABLE);
 
@@ -78,28 +99,39 @@ pub const SPIRAL_START: Interval = Interval::within(TAU);
 /// Relative excess of one radius over another, into which it has to fit, that counts as rounding of a unit conversion.
 const FIT: f64 = 1e-9;
 
-/// Checks the given quantities of a helix.
-pub(super) fn helix(helix: &Helix) -> Result<(), Error> {
+/// Checks the dimensions of a helix.
+pub(super) fn helix_dimensions(helix: &Helix) -> Result<(), Error> {
     of::HELIX_LENGTH.check(helix.length)?;
     of::HELIX_BOUNDARY_ANGLE.check(helix.boundary_angle)?;
     of::HELIX_RADIUS.check(helix.radius)?;
     of::HELIX_WINDINGS.check(helix.windings)?;
     of::HELIX_CORE_OUTER_RADIUS.check_beside(helix.core_outer_radius, helix.radius)?;
-    of::HELIX_CORE_INNER_RADIUS.check_beside(helix.core_inner_radius, helix.core_outer_radius)?;
+    of::HELIX_CORE_INNER_RADIUS.check_beside(helix.core_inner_radius, helix.core_outer_radius).map(|_| ())
+}
+
+/// Checks a helix; its remanence may be negative where it is `signed`.
+fn helix(helix: &Helix, signed: bool) -> Result<(), Error> {
+    helix_dimensions(helix)?;
 
     of::HELIX_SHORE_A.check(helix.shore_a)?;
     of::HELIX_POISSON.check(helix.poisson)?;
     of::HELIX_VOLUME_FRACTION.check(helix.volume_fraction)?;
-    of::HELIX_PARTICLE_REMANENCE.check(helix.particle_remanence)?;
+    remanence(&of::HELIX_PARTICLE_REMANENCE, helix.particle_remanence, signed)?;
     of::HELIX_DENSITY.check(helix.density.unwrap_or_default()).map(|_| ())
 }
 
-/// Checks the given quantities of the ring magnets.
-pub(super) fn ring(ring: &RingMagnet) -> Result<(), Error> {
+/// Checks a ring magnet; its remanence may be negative where it is `signed`.
+fn ring(ring: &RingMagnet, signed: bool) -> Result<(), Error> {
     of::RING_LENGTH.check(ring.length)?;
-    of::RING_REMANENCE.check(ring.remanence)?;
+    remanence(&of::RING_REMANENCE, ring.remanence, signed)?;
     of::RING_RECOIL_PERMEABILITY.check(ring.recoil_permeability)?;
     of::RING_DENSITY.check(ring.density).map(|_| ())
+}
+
+/// Checks a remanence, which may be negative where it is `signed`.
+fn remanence(quantity: &'static Quantity, value: f64, signed: bool) -> Result<(), Error> {
+    let interval = if signed { &SIGNED_REMANENCE } else { &quantity.interval };
+    interval.check(quantity.name, value).map(|_| ()).map_err(|error| error.of(quantity))
 }
 
 /// Checks a backbone that runs through bores of radius `bore` (m).
@@ -149,10 +181,44 @@ pub(super) fn guidewire(wire: &Guidewire, lumens: &[(&str, f64)]) -> Result<(), 
 /// Checks a chain of segments.
 pub(super) fn segmented(chain: &Segmented) -> Result<(), Error> {
     of::NUMBER_OF_SEGMENTS.check(chain.segments as f64)?;
-    helix(&chain.helix)?;
-    ring(&chain.ring)?;
-    spiral_start(&chain.spiral_start, chain.segments)?;
-    chain.backbone.map_or(Ok(()), |tube| backbone(&tube, chain.helix.core_inner_radius))
+    lists(chain)?;
+    // Where a list states a quantity, the error names the entry.
+    let of_entry = |number: usize| {
+        move |error: Error| {
+            let listed = error.identity().is_some_and(|own| chain.list_of(own.quantity).is_some());
+            if listed { error.of_item(number) } else { error }
+        }
+    };
+
+    let signed = chain.list_of(&of::HELIX_PARTICLE_REMANENCE).is_some();
+    for (number, own) in (1..).zip(chain.helices()) {
+        helix(&own, signed).map_err(of_entry(number))?;
+        chain.backbone.map_or(Ok(()), |tube| backbone(&tube, own.core_inner_radius))?;
+    }
+    let listed = chain.list_of(&of::RING_REMANENCE).is_some();
+    ring(&chain.ring, listed || chain.ring.direction.is_some())?;
+    for (number, (own, _)) in (1..).zip(chain.ring_magnets()) {
+        ring(&own, listed || own.direction.is_some()).map_err(of_entry(number))?;
+    }
+    spiral_start(&chain.spiral_start, chain.segments)
+}
+
+/// Checks that each list has as many values as there are segments, or rings.
+fn lists(chain: &Segmented) -> Result<(), Error> {
+    let (segments, rings) = (chain.segments, chain.ring_count());
+    let counted = |key: &str, given: usize, for_rings: bool| {
+        let (count, of) = if for_rings { (rings, "ring") } else { (segments, "segment") };
+        if given == count {
+            return Ok(());
+        }
+        Err(Error::Count { quantity: key.into(), given, expected: format!("{count}, one for each {of}") })
+    };
+    let of_list = |list: &ValueList| counted(list.quantity.key, list.values.len(), list.is_of_rings());
+    chain.lists.iter().try_for_each(of_list)?;
+    match chain.ring_directions.len() {
+        0 => Ok(()),
+        given => counted("design.ring.direction", given, true),
+    }
 }
 
 /// Checks the angles by which the spirals of so many segments are turned.

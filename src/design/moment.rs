@@ -1,8 +1,10 @@
 //! Relative magnetic moment of a manipulator, compared with a solid magnet of its size.
 
+use super::demagnetisation::polarisation;
+use super::direction::Direction;
 use super::helix::{SpiralVolume, annulus_area};
 use super::limits;
-use super::specification::Segmented;
+use super::specification::{Helix, RingMagnet, Segmented};
 use crate::error::Error;
 
 /// Ratios to a solid cylindrical magnet of equal length and diameter; the first three are in `[0, 1]`.
@@ -34,24 +36,34 @@ impl Segmented {
     /// remanent_moment = (rings V_mag J_ring + S Phi V_mpc B_particle) / (V_tot B_ring)
     /// ```
     ///
-    /// `J_ring` is [`Segmented::ring_polarisation`], the remanence `B_ring` unless the rings' recoil permeability
+    /// Where segments or rings differ, sums take the place of the products. `J_ring` is [`Segmented::ring_polarisation`], the remanence `B_ring` unless the rings' recoil permeability
     /// differs from 1. Without magnetised rings (`B_ring = 0`) the last ratio refers to the particles' remanence.
     ///
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn relative_moment(&self, spiral: SpiralVolume) -> Result<RelativeMoment, Error> {
         limits::segmented(self)?;
-        let helix = &self.helix;
-        let (segments, rings) = (self.segments as f64, self.ring_count() as f64);
-        let composite = segments * helix.volumes(spiral)?.total();
-        let particles = composite * helix.volume_fraction;
-        let magnets = rings * annulus_area(helix.core_inner_radius, helix.radius) * self.ring.length;
-        let whole = annulus_area(0.0, helix.radius) * (segments * helix.length + rings * self.ring.length);
+        let volume_of = |ring: &RingMagnet, helix: &Helix| {
+            annulus_area(helix.core_inner_radius, helix.radius) * ring.length
+        };
+        let (mut composite, mut particles, mut magnets, mut moment, mut whole) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for helix in self.helices() {
+            let volume = helix.volumes(spiral)?.total();
+            composite += volume;
+            particles += volume * helix.volume_fraction;
+            moment += volume * helix.volume_fraction * helix.particle_remanence;
+            whole += annulus_area(0.0, helix.radius) * helix.length;
+        }
+        for (ring, helix) in self.ring_magnets() {
+            magnets += volume_of(&ring, &helix);
+            moment += volume_of(&ring, &helix) * polarisation(&ring, &helix, Direction::Axial).0;
+            whole += annulus_area(0.0, helix.radius) * ring.length;
+        }
+
         let volume = (magnets + composite) / whole;
         let magnetic_volume = (magnets + particles) / whole;
         let reference =
-            if self.ring.remanence > 0.0 { self.ring.remanence } else { helix.particle_remanence };
-        let moment = magnets * self.ring_polarisation() + particles * helix.particle_remanence;
+            if self.ring.remanence > 0.0 { self.ring.remanence } else { self.helix.particle_remanence };
         let remanent_moment = if reference > 0.0 { moment / (whole * reference) } else { 0.0 };
         Ok(RelativeMoment { volume, magnetic_volume, moment: magnetic_volume * volume, remanent_moment })
     }

@@ -29,7 +29,13 @@ impl RingMagnet {
     /// The ring magnets of Table 1; as in the paper, demagnetisation by their own field is neglected.
     #[must_use]
     pub fn paper() -> Self {
-        Self { length: 1.0e-3, remanence: 1.35, recoil_permeability: 1.0, density: PARTICLE_DENSITY }
+        Self {
+            length: 1.0e-3,
+            remanence: 1.35,
+            direction: None,
+            recoil_permeability: 1.0,
+            density: PARTICLE_DENSITY,
+        }
     }
 }
 
@@ -45,6 +51,8 @@ impl Segmented {
             spiral_start: SpiralStart::Same(0.0),
             helix: Helix::paper(),
             ring: RingMagnet::paper(),
+            lists: Vec::new(),
+            ring_directions: Vec::new(),
             backbone: None,
         }
     }

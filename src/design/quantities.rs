@@ -2,7 +2,8 @@
 
 use super::limits::{
     BACKBONE_OUTER_RADIUS, BOUNDARY_ANGLE, CORE_INNER_RADIUS, CORE_OUTER_RADIUS, DENSITY, ELASTIC_MODULUS,
-    GUIDEWIRE_RADIUS, LENGTH, POISSON, RECOIL_PERMEABILITY, REMANENCE, ROD_INNER_RADIUS, SEGMENTS, SHORE_A,
+    GUIDEWIRE_RADIUS, LENGTH, LINE_STIFFNESS, POISSON, RECOIL_PERMEABILITY, REMANENCE, ROD_INNER_RADIUS,
+    ROTATIONAL_STIFFNESS, SECTION_INNER_RADIUS, SECTION_RADIUS, SEGMENTS, SHORE_A, SIGNED_REMANENCE,
     SPIRAL_START, TUBE_INNER_RADIUS, VOLUME_FRACTION, WINDINGS,
 };
 use crate::error::{Interval, quantities};
@@ -39,6 +40,8 @@ quantities! {
     RING_RECOIL_PERMEABILITY: "ring recoil permeability mu_r", "design.ring.recoil_permeability", "design.ring.recoil_permeability",
         "Relative recoil permeability of the ring magnets; 1.05 for sintered NdFeB, 1: not weakened by their own field",
         RECOIL_PERMEABILITY;
+    RING_DIRECTION: "length of the direction of magnetisation", "design.ring.direction", "",
+        "Direction of the magnetisation of the ring magnets, in the material frame", Interval::FINITE;
     RING_DENSITY: "density (kg/m3)", "design.ring.density_kg_m3", "design.ring.density", "Density of the ring magnets", DENSITY;
 
     BACKBONE_OUTER: "backbone outer radius (m)", "design.backbone.outer_radius_mm", "design.backbone.outer_radius", "Outer radius",
@@ -64,6 +67,38 @@ quantities! {
         "Remanence of the magnetic particles", REMANENCE;
     ROD_REMANENCE: "cylinder remanence (T)", "design.remanence_t", "design.cylinder.remanence", "Remanence along the axis", REMANENCE;
     ROD_DENSITY: "density (kg/m3)", "design.density_kg_m3", "design.cylinder.density", "Density; 0: by the material's rule", DENSITY;
+
+    SECTION_LENGTH: "section length (m)", "design.section[*].length_mm", "section[*].length", "Length", LENGTH;
+    SECTION_OUTER: "section outer radius (m)", "design.section[*].outer_radius_mm", "section[*].outer_radius", "Outer radius",
+        SECTION_RADIUS;
+    SECTION_INNER: "section inner radius (m)", "design.section[*].inner_radius_mm", "section[*].inner_radius", "Inner radius",
+        SECTION_INNER_RADIUS;
+    SECTION_SHORE_A: "Shore A hardness", "design.section[*].shore_a", "section[*].shore_a", "Shore A hardness of the elastomer", SHORE_A;
+    SECTION_ELASTIC_MODULUS: "Young's modulus (Pa)", "design.section[*].elastic_modulus_mpa", "section[*].elastic_modulus",
+        "Young's modulus", ELASTIC_MODULUS;
+    SECTION_POISSON: "Poisson's ratio", "design.section[*].poisson", "section[*].poisson", "Poisson's ratio", POISSON;
+    SECTION_BENDING: "bending stiffness (N.m2)", "design.section[*].bending_stiffness_n_m2", "section[*].bending_stiffness",
+        "Measured bending stiffness", ROTATIONAL_STIFFNESS;
+    SECTION_TORSION: "torsional stiffness (N.m2)", "design.section[*].torsional_stiffness_n_m2", "section[*].torsional_stiffness",
+        "Measured torsional stiffness", ROTATIONAL_STIFFNESS;
+    SECTION_AXIAL: "axial stiffness (N)", "design.section[*].axial_stiffness_n", "section[*].axial_stiffness",
+        "Measured axial stiffness", LINE_STIFFNESS;
+    SECTION_SHEAR: "shear stiffness (N)", "design.section[*].shear_stiffness_n", "section[*].shear_stiffness",
+        "Measured shear stiffness", LINE_STIFFNESS;
+    SECTION_DENSITY: "density (kg/m3)", "design.section[*].density_kg_m3", "section[*].density",
+        "Density; 0: by the material's rule", DENSITY;
+    SECTION_REMANENCE: "section remanence (T)", "design.section[*].remanence_t", "section[*].remanence",
+        "Remanence; negative: reversed", SIGNED_REMANENCE;
+    SECTION_VOLUME_FRACTION: "volume fraction Phi", "design.section[*].volume_fraction", "section[*].volume_fraction",
+        "Volume fraction of magnetic particles", VOLUME_FRACTION;
+    SECTION_PARTICLE_REMANENCE: "particle remanence B_r (T)", "design.section[*].particle_remanence_t",
+        "section[*].particle_remanence", "Remanence of the magnetic particles; negative: reversed", SIGNED_REMANENCE;
+    SECTION_DIRECTION: "length of the direction of magnetisation", "design.section[*].direction", "section[*].direction",
+        "Direction of the magnetisation at the section's start, in the material frame", Interval::FINITE;
+    SECTION_TURN: "turn of the direction (rad/m)", "design.section[*].direction_turn_deg_per_mm", "section[*].direction_turn",
+        "Turn of that direction along the section, right-handed about the axis", Interval::FINITE;
+    SECTION_REST: "rest curvature (1/m)", "design.section[*].rest_curvature_per_m", "section[*].rest_curvature",
+        "Curvature about the first two directors, and twist about the third, without loads", Interval::FINITE;
 
     SHAFT_OUTER: "shaft outer radius (m)", "feed.shaft.outer_radius_mm", "", "Outer radius of the shaft", LENGTH;
     SHAFT_INNER: "shaft inner radius (m)", "feed.shaft.inner_radius_mm", "", "Inner radius of the shaft", TUBE_INNER_RADIUS;

@@ -3,6 +3,9 @@
 use core::f64::consts::PI;
 use core::ops::Add;
 
+use nalgebra::Vector3;
+
+use super::direction::Direction;
 use super::helix::annulus_area;
 use super::material::Moduli;
 use crate::constants::VACUUM_PERMEABILITY;
@@ -98,23 +101,43 @@ pub enum SpanKind {
     Core,
     /// The body of a plain cylinder.
     Rod,
+    /// An elastic section of a device made of sections.
+    Section,
 }
 
-/// A deformable piece of constant section, magnetised along `d3`.
+/// Radii and material of a span whose radii change linearly along it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Taper {
+    /// Inner radius at the span's end, m.
+    pub inner_radius: f64,
+    /// Outer radius at the span's end, m.
+    pub outer_radius: f64,
+    pub(super) moduli: Moduli,
+}
+
+/// A deformable piece, of constant section unless it is tapered.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Span {
     /// Type of the span.
     pub kind: SpanKind,
     /// Length along the unstrained centreline, m.
     pub length: f64,
-    /// Inner radius of the annulus, m.
+    /// Inner radius of the annulus, at the span's start, m.
     pub inner_radius: f64,
-    /// Outer radius of the annulus (without the spiral), m.
+    /// Outer radius of the annulus (without the spiral), at the span's start, m.
     pub outer_radius: f64,
-    /// Section stiffness, including the backbone's.
+    /// How the radii change along it; `None`: they do not.
+    pub taper: Option<Taper>,
+    /// Stiffness of the section at the span's start, including the backbone's.
     pub stiffness: Stiffness,
-    /// Magnetisation along `d3`, A/m.
+    /// Magnetisation, A/m; negative: against its direction.
     pub magnetisation: f64,
+    /// Direction of the magnetisation at the span's start, in the directors.
+    pub direction: Direction,
+    /// Turn of that direction along the span, right-handed about `d3`, rad/m.
+    pub turn: f64,
+    /// Curvature about `d1` and `d2` and twist about `d3` without loads, 1/m.
+    pub rest_curvature: Vector3<f64>,
     /// Density of the annulus and the spiral, kg/m3.
     pub density: f64,
     /// Additional mass per length on the centreline (the backbone), kg/m.
@@ -123,18 +146,31 @@ pub struct Span {
     pub spiral: Option<Spiral>,
 }
 
-/// A rigid ring magnet, magnetised along its axis.
+/// Shape of a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RigidShape {
+    /// A tube or, without a bore, a cylinder.
+    Tube,
+    /// A sphere.
+    Ball,
+}
+
+/// A rigid body of the chain: a ring magnet, any rigid tube, or a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
-    /// Inner radius, m.
+    /// Its shape.
+    pub shape: RigidShape,
+    /// Inner radius, m; 0 of a ball.
     pub inner_radius: f64,
     /// Outer radius, m.
     pub outer_radius: f64,
     /// Length along the axis, m.
     pub length: f64,
-    /// Remanence of the equivalent uniform magnet of permeability 1, T: the ring's polarisation `mu_0 M` along its axis
+    /// Remanence of the equivalent uniform magnet of permeability 1, T: the body's polarisation `mu_0 M` along its direction
     /// in its own field, see [`Segmented::ring_polarisation`](super::Segmented::ring_polarisation).
     pub remanence: f64,
+    /// Direction of the magnetisation, in the directors.
+    pub direction: Direction,
     /// Mass, including the backbone's part, kg.
     pub mass: f64,
 }
@@ -160,25 +196,90 @@ impl Spiral {
 }
 
 impl Span {
-    /// Area of the annulus without the spiral, m2.
+    /// Nothing: what most spans have in common is taken from it.
+    pub(super) fn plain() -> Self {
+        Self {
+            kind: SpanKind::Rod,
+            length: 0.0,
+            inner_radius: 0.0,
+            outer_radius: 0.0,
+            taper: None,
+            stiffness: Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 },
+            magnetisation: 0.0,
+            direction: Direction::Axial,
+            turn: 0.0,
+            rest_curvature: Vector3::zeros(),
+            density: 0.0,
+            line_density: 0.0,
+            spiral: None,
+        }
+    }
+
+    /// Inner and outer radius of the annulus at arc length `s` (m) from the span's start, m.
+    #[must_use]
+    pub fn radii_at(&self, s: f64) -> [f64; 2] {
+        let own = [self.inner_radius, self.outer_radius];
+        let Some(taper) = &self.taper else { return own };
+        let t = s / self.length;
+        let [inner, outer] = own;
+        [inner + t * (taper.inner_radius - inner), outer + t * (taper.outer_radius - outer)]
+    }
+
+    /// Stiffness of the section at arc length `s` (m) from the span's start.
+    #[must_use]
+    pub fn stiffness_at(&self, s: f64) -> Stiffness {
+        let Some(taper) = &self.taper else { return self.stiffness };
+        let [inner, outer] = self.radii_at(s);
+        Stiffness::annulus(inner, outer, taper.moduli)
+    }
+
+    /// Direction of the magnetisation at arc length `s` (m) from the span's start, in the directors.
+    #[must_use]
+    pub fn direction_at(&self, s: f64) -> Direction {
+        self.direction.turned(self.turn * s)
+    }
+
+    /// Whether the section, or the direction of its magnetisation, changes along the span; a spiral apart.
+    #[must_use]
+    pub fn varies(&self) -> bool {
+        self.taper.is_some() || (self.turn != 0.0 && !self.direction.is_axial())
+    }
+
+    /// Area of the annulus at the span's start without the spiral, m2.
     #[must_use]
     pub fn area(&self) -> f64 {
         annulus_area(self.inner_radius, self.outer_radius)
     }
 
-    /// Outer radius, including the spiral, m.
+    /// Outer radius at the widest place, including the spiral, m.
     #[must_use]
     pub fn widest_radius(&self) -> f64 {
-        self.spiral.map_or(self.outer_radius, |spiral| self.outer_radius.max(spiral.outer_radius))
+        let tapered = self.taper.map_or(self.outer_radius, |taper| self.outer_radius.max(taper.outer_radius));
+        self.spiral.map_or(tapered, |spiral| tapered.max(spiral.outer_radius))
+    }
+
+    /// Inner radius at the narrowest place, m.
+    #[must_use]
+    pub fn narrowest_bore(&self) -> f64 {
+        self.taper.map_or(self.inner_radius, |taper| self.inner_radius.min(taper.inner_radius))
     }
 
     /// Volume of magnetised material, including the spiral, m3.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        (self.area() + self.spiral.map_or(0.0, |spiral| spiral.area())) * self.length
+        // The area is quadratic along a taper: Simpson's rule is exact.
+        let area = match self.taper {
+            Some(taper) => {
+                let [inner, outer] = self.radii_at(0.5 * self.length);
+                let ends = self.area() + annulus_area(taper.inner_radius, taper.outer_radius);
+                (ends + 4.0 * annulus_area(inner, outer)) / 6.0
+            }
+            None => self.area(),
+        };
+        (area + self.spiral.map_or(0.0, |spiral| spiral.area())) * self.length
     }
 
-    /// Magnetic moment of the straight span along `d3`, A m2.
+    /// Magnetic moment of the straight span along its direction, A m2.
     #[must_use]
     pub fn moment(&self) -> f64 {
         self.magnetisation * self.volume()
@@ -195,10 +296,13 @@ impl Ring {
     /// Volume, m3.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        annulus_area(self.inner_radius, self.outer_radius) * self.length
+        match self.shape {
+            RigidShape::Tube => annulus_area(self.inner_radius, self.outer_radius) * self.length,
+            RigidShape::Ball => 4.0 / 3.0 * PI * self.outer_radius.powi(3),
+        }
     }
 
-    /// Magnetic moment `B_r V / mu_0` along the axis, A m2.
+    /// Magnetic moment `B_r V / mu_0` along its direction, A m2.
     #[must_use]
     pub fn moment(&self) -> f64 {
         self.remanence * self.volume() / VACUUM_PERMEABILITY

@@ -2,6 +2,9 @@
 
 use core::f64::consts::PI;
 
+use super::sections::Sections;
+use super::value_list::ValueList;
+
 /// An elastic modulus, given directly or by the Shore hardness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Modulus {
@@ -100,8 +103,10 @@ pub struct Helix {
 pub struct RingMagnet {
     /// Length `L_mag`, m.
     pub length: f64,
-    /// Remanence `B_r`, T.
+    /// Remanence `B_r`, T; negative, which needs a direction: reversed.
     pub remanence: f64,
+    /// Direction of the magnetisation, a unit vector in the material frame; `None`: along the axis.
+    pub direction: Option<[f64; 3]>,
     /// Relative recoil permeability `mu_r`: slope of the demagnetisation curve `B = B_r + mu_0 mu_r H`. Above 1 the
     /// ring's own field weakens it.
     pub recoil_permeability: f64,
@@ -159,6 +164,10 @@ pub struct Segmented {
     pub helix: Helix,
     /// The ring magnets.
     pub ring: RingMagnet,
+    /// Numbers of helices and rings that are not the same for all, at most one list for each quantity.
+    pub lists: Vec<ValueList>,
+    /// Directions of the rings' magnetisation, one for each; empty: that of [`Segmented::ring`].
+    pub ring_directions: Vec<[f64; 3]>,
     /// The backbone, if there is one.
     pub backbone: Option<Backbone>,
 }
@@ -203,11 +212,13 @@ pub struct Cylinder {
     pub density: Option<f64>,
 }
 
-/// Specification of either type of device.
+/// Specification of any type of device.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Specification {
     /// Rings and helices.
     Segmented(Segmented),
     /// A plain magnetised rod.
     Cylinder(Cylinder),
+    /// Any sections in a row.
+    Sections(Sections),
 }

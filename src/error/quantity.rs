@@ -22,7 +22,7 @@ use super::{Error, Interval};
 pub struct Quantity {
     /// Name with the unit of the library, as errors tell it.
     pub name: &'static str,
-    /// Key that holds it in a scene; `*` stands for the number of an item of a list.
+    /// Key that holds it in a scene; `*` stands for the number of an item of a list. Without it the number of an item comes last.
     pub key: &'static str,
     /// Variable of the FMU that holds it, with `*` as in the key; empty where there is none.
     pub variable: &'static str,
@@ -77,7 +77,8 @@ impl Identity {
         let items = self.items.iter().rev().filter(|item| **item > 0);
         items.fold(name.to_owned(), |name, item| match name.rsplit_once('*') {
             Some((before, after)) => format!("{before}{item}{after}"),
-            None => name,
+            // One value of a list that may also be one value for all.
+            None => format!("{name}[{item}]"),
         })
     }
 }
@@ -102,6 +103,17 @@ impl Error {
             && let Some(unknown) = identity.items.iter_mut().rev().find(|item| **item == 0)
         {
             *unknown = number;
+        }
+        self
+    }
+
+    /// The error about the item with another number: what `number_of` gives for that of the outermost list.
+    #[must_use]
+    pub(crate) fn renumbered(mut self, number_of: impl FnOnce(usize) -> usize) -> Self {
+        if let Self::Range { identity: Some(identity), .. } = &mut self
+            && let Some(item) = identity.items.iter_mut().find(|item| **item > 0)
+        {
+            *item = number_of(*item);
         }
         self
     }

@@ -71,8 +71,8 @@ impl DependencyKind {
 }
 
 impl Dependency {
-    /// That of an output with this role, in a device with or without a clamped ring and a shaft.
-    pub(super) fn of(role: DerivativeRole, clamped_ring: bool, shaft: bool) -> Self {
+    /// That of an output with this role, in a device with so many clamped rings, with or without a shaft.
+    pub(super) fn of(role: DerivativeRole, clamped_rings: usize, shaft: bool) -> Self {
         match role {
             DerivativeRole::Unaffected => Self::Lengths,
             DerivativeRole::MutualWrench(_) => Self::Sources,
@@ -82,8 +82,8 @@ impl Dependency {
                 // With a shaft, the port's place in the shape is the sum of many parts.
                 Output::ShapePoint(0) if !shaft => Self::BasePoint,
                 Output::ShapeTangent(0) if !shaft => Self::ClampedAxis,
-                Output::RingPosition(0) if clamped_ring => Self::ClampedCentre,
-                Output::RingAxis(0) if clamped_ring => Self::ClampedAxis,
+                Output::RingPosition(ring) if ring < clamped_rings => Self::ClampedCentre,
+                Output::RingAxis(ring) if ring < clamped_rings => Self::ClampedAxis,
                 _ => Self::Equilibrium,
             },
             _ => Self::Equilibrium,

@@ -136,7 +136,7 @@ impl HostValues {
 
         let backbone = match &scene.specification {
             Specification::Segmented(segmented) => segmented.backbone,
-            Specification::Cylinder(_) => None,
+            Specification::Cylinder(_) | Specification::Sections(_) => None,
         };
 
         Ok(Self {

@@ -6,6 +6,7 @@ use super::host_values::HostValues;
 use super::units::DENSITY;
 use super::value::{DataType, Value};
 use super::variable::Variable;
+use crate::design::{Section, Specification};
 use crate::error::Error;
 use crate::magnetics::Wrench;
 use crate::manipulator::{Manipulator, Number, Outputs};
@@ -44,9 +45,7 @@ impl Neighbours {
         let mut value = parameter.host_value(values).and_then(Value::real).ok_or_else(unknown)?;
         let DataType::Real(quantity) = parameter.data_type else { return Err(unknown()) };
         if value == 0.0 && quantity == DENSITY {
-            let design = values.design()?;
-            let span = design.segments().first().and_then(|segment| segment.spans.first());
-            value = span.ok_or_else(unknown)?.density;
+            value = density_of(values, parameter)?.ok_or_else(unknown)?;
         }
         let number = Number { value, usual: quantity.nominal };
         let (sides, difference) = manipulator.outputs_beside(number, |value| {
@@ -127,4 +126,14 @@ fn moved(values: &HostValues, direction: &[(&Variable, f64)], way: f64) -> Resul
         }
     }
     Ok(moved)
+}
+
+/// The density (kg/m3) that follows from the composition of the body whose density this parameter is.
+fn density_of(values: &HostValues, parameter: &Variable) -> Result<Option<f64>, Error> {
+    if let Specification::Sections(device) = &values.specification {
+        return Ok(device.sections.get(parameter.index.item).map(Section::density));
+    }
+    let design = values.design()?;
+    let segment = design.segments().get(parameter.index.component);
+    Ok(segment.and_then(|segment| segment.spans.first()).map(|span| span.density))
 }

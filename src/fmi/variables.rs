@@ -11,13 +11,14 @@ mod parameters;
 
 mod rows;
 
+mod sections;
+
 mod sources;
 
 mod vessel;
 
 use super::host_values::HostValues;
 use super::variable::{Causality, Variable};
-use crate::design::SpanKind;
 use crate::design::unit_mistake::UnitRule;
 use crate::error::Error;
 use rows::Rows;
@@ -44,14 +45,14 @@ use access;
 pub struct Counts {
     /// Ring magnets.
     pub rings: usize,
-    /// Cores of the helices; of a plain cylinder, its elements.
+    /// Cores of the helices, or elastic parts between rigid ones.
     pub cores: usize,
     /// Points of the centreline among the outputs.
     pub shape_points: usize,
     /// Whether the device sits on a shaft.
     pub shaft: bool,
-    /// Whether the first ring is clamped.
-    pub clamped_ring: bool,
+    /// Number of rings that are clamped, the first ones.
+    pub clamped_rings: usize,
 }
 
 /// The table for one design: the variable with value reference `r` is row `r`.
@@ -78,14 +79,13 @@ impl Table {
             )));
         }
         let design = start.design()?;
-        let spans = design.segments().iter().flat_map(|segment| &segment.spans);
         let counts = Counts {
             rings: design.rings().count(),
-            cores: spans.filter(|span| span.kind != SpanKind::Disc).count(),
+            cores: design.segments().len(),
             shape_points,
             shaft: start.shaft.is_some(),
-            // On a shaft the ring moves.
-            clamped_ring: design.base_ring().is_some() && start.shaft.is_none(),
+            // On a shaft the rings move.
+            clamped_rings: if start.shaft.is_none() { design.base_rings().len() } else { 0 },
         };
         let mut rows = Rows::default();
         rows.inputs(&counts);

@@ -99,10 +99,19 @@ impl PairTable {
         Self { inner, outer, length, axis, faces: faces.collect() }
     }
 
-    /// Whether the table was made for a magnet of these radii and this length, m.
+    /// The table of a ball of this radius, m: outside, a uniformly magnetised ball is a dipole at its centre, so that one node is exact.
+    #[must_use]
+    pub fn of_ball(radius: f64) -> Self {
+        // A cylinder of the same radius and volume has the same node.
+        let rule = AxialRule::new(0.0, radius, 4.0 / 3.0 * radius, 1);
+        let axis = vec![(0.0, 0.0, rule)];
+        Self { inner: 0.0, outer: radius, length: 2.0 * radius, axis, faces: Vec::new() }
+    }
+
+    /// Whether the table was made for a magnet of these radii and this length, m, that is not a ball.
     #[must_use]
     pub fn is_of(&self, inner: f64, outer: f64, length: f64) -> bool {
-        (self.inner, self.outer, self.length) == (inner, outer, length)
+        (self.inner, self.outer, self.length) == (inner, outer, length) && !self.faces.is_empty()
     }
 
     /// Number of rules for a pair.
@@ -123,6 +132,9 @@ impl PairTable {
         let reach = source.distance(&pose.position);
         if let Some(number) = self.axis.iter().position(|entry| entry.1 <= reach) {
             return number;
+        }
+        if self.faces.is_empty() {
+            return 0;
         }
         let level = |height: f64| {
             let distance = source.edge_distance(&pose.advanced(height), self.inner, self.outer);

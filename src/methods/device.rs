@@ -1,6 +1,7 @@
 //! A scene's manipulator, solved by the method that the scene names.
 
 use super::{Compared, Method, Settings};
+use crate::design::Specification;
 use crate::error::Error;
 use crate::manipulator::{Followed, Inputs, Jacobian, Manipulator, Outputs, POTENTIAL, Scene, Snapshot};
 
@@ -61,6 +62,9 @@ impl Device {
             return Err(Error::Unsupported(format!(
                 "a vessel and a shaft need method \"{POTENTIAL}\", not \"{given}\""
             )));
+        }
+        if let Some(what) = unknown_to_methods(&scene.specification) {
+            return Err(Error::Unsupported(format!("{what} need method \"{POTENTIAL}\", not \"{given}\"")));
         }
         if !scene.way.is_empty() {
             return Err(Error::Unsupported(format!(
@@ -149,5 +153,17 @@ impl Followed for Device {
 
     fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
         on!(self, own => own.restore(snapshot))
+    }
+}
+
+/// What the other methods do not know about a device; `None` where they know all of it.
+fn unknown_to_methods(specification: &Specification) -> Option<&'static str> {
+    match specification {
+        Specification::Sections(_) => Some("devices of kind \"sections\""),
+        Specification::Segmented(chain) => {
+            let across = chain.ring.direction.is_some() || !chain.ring_directions.is_empty();
+            across.then_some("rings with a direction")
+        }
+        Specification::Cylinder(_) => None,
     }
 }

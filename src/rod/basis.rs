@@ -6,19 +6,82 @@
 //! where touching windings carry a part of it along the core. The modes are orthogonal in the elastic energy; all but the first
 //! leave the element's ends unchanged.
 
+use super::piece::Piece;
+use crate::design::Stiffness;
+use crate::numerics::lagrange;
 use crate::numerics::quadrature::gauss_legendre;
 
-/// A part of an element with constant compliance.
-#[derive(Debug, Clone, Copy)]
+/// Additional Gauss points along a part whose compliance changes: the inverse of a polynomial is integrated.
+///
+/// A part that becomes three times as stiff from one end to the other is integrated to 1e-13 with it.
+const TAPERED: usize = 12;
+
+/// Strain per stress resultant along a part.
+#[derive(Debug, Clone)]
+pub(super) enum Compliance {
+    /// The same all along.
+    Constant(f64),
+    /// The inverse of a stiffness, a polynomial of the fourth degree through these values at five Gauss nodes.
+    Tapered([f64; QUARTIC]),
+}
+
+/// Number of values that determine the stiffness along a linear taper, which goes with the fourth power of the radius at most.
+const QUARTIC: usize = 5;
+
+impl Compliance {
+    /// That of a piece, by one of its stiffnesses.
+    pub(super) fn of(piece: &Piece<'_>, stiffness: fn(&Stiffness) -> f64) -> Self {
+        if piece.span.taper.is_none() {
+            return Self::Constant(1.0 / stiffness(&piece.span.stiffness));
+        }
+        let (nodes, _) = gauss_legendre(QUARTIC);
+        let at = |x: f64| piece.span.stiffness_at(piece.from + 0.5 * piece.length * (1.0 + x));
+        Self::Tapered(core::array::from_fn(|i| stiffness(&at(nodes[i]))))
+    }
+
+    /// At `x` from -1 to 1 along the part.
+    fn at(&self, x: f64) -> f64 {
+        match self {
+            Self::Constant(compliance) => *compliance,
+            Self::Tapered(stiffness) => {
+                let (nodes, _) = gauss_legendre(QUARTIC);
+                let values = lagrange::values(&nodes, x);
+                1.0 / values.iter().zip(stiffness).map(|(value, own)| value * own).sum::<f64>()
+            }
+        }
+    }
+
+    /// Number of Gauss points beyond those for a constant compliance.
+    fn more_points(&self) -> usize {
+        if matches!(self, Self::Tapered(_)) { TAPERED } else { 0 }
+    }
+}
+
+/// A part of an element.
+#[derive(Debug, Clone)]
 pub(super) struct Part {
     /// Arc length of its start, m.
     pub(super) start: f64,
     /// Its length, m.
     pub(super) length: f64,
     /// Strain per stress resultant.
-    pub(super) compliance: f64,
+    pub(super) compliance: Compliance,
     /// Whether the resultant varies beside the core as it does along the core.
     pub(super) long: bool,
+}
+
+impl Part {
+    /// Integral of the compliance.
+    fn flexibility(&self) -> f64 {
+        match self.compliance {
+            Compliance::Constant(compliance) => compliance * self.length,
+            Compliance::Tapered(_) => {
+                let (nodes, weights) = gauss_legendre(TAPERED);
+                let compliances = nodes.iter().zip(weights).map(|(x, w)| w * self.compliance.at(*x));
+                0.5 * self.length * compliances.sum::<f64>()
+            }
+        }
+    }
 }
 
 /// Variation of the resultant in the discs relative to that at the core's ends.
@@ -50,7 +113,7 @@ pub(super) struct Modes {
 impl Modes {
     /// Modes of polynomial degree 0 to `degree` along part `core`.
     pub(super) fn new(parts: Vec<Part>, core: usize, degree: usize, ends: Ends) -> Self {
-        let total = parts.iter().map(|part| part.compliance * part.length).sum();
+        let total = parts.iter().map(Part::flexibility).sum();
         let mut out = Self { parts, core, degree, ends, total, coefficients: Vec::new() };
         out.orthogonalise();
         out
@@ -75,14 +138,13 @@ impl Modes {
     ///
     /// The weights include the compliance and add up to one.
     fn points(&self, degree: usize) -> impl Iterator<Item = (usize, f64, f64)> {
-        let (nodes, weights) = gauss_legendre(degree + 2);
-        let rule: Vec<(f64, f64)> = nodes.into_iter().zip(weights).collect();
         self.parts.iter().enumerate().flat_map(move |(index, part)| {
+            let (nodes, weights) = gauss_legendre(degree + 2 + part.compliance.more_points());
             let scale = 0.5 * part.length;
-            let point = |(x, w): &(f64, f64)| {
-                (index, part.start + scale * (1.0 + x), scale * w * part.compliance / self.total)
+            let point = |(x, w): (f64, f64)| {
+                (index, part.start + scale * (1.0 + x), scale * w * part.compliance.at(x) / self.total)
             };
-            rule.iter().map(point).collect::<Vec<_>>()
+            nodes.into_iter().zip(weights).map(point).collect::<Vec<_>>()
         })
     }
 
@@ -134,7 +196,7 @@ impl Modes {
     /// Raw functions at `s` in part `index`: Legendre polynomials constant outside the core, powers of the distance from the core in
     /// each disc, and a jump.
     fn raw(&self, index: usize, s: f64) -> Vec<f64> {
-        let core = self.parts[self.core];
+        let core = &self.parts[self.core];
         let x = match index.cmp(&self.core) {
             core::cmp::Ordering::Less => -1.0,
             core::cmp::Ordering::Greater => 1.0,
@@ -174,7 +236,8 @@ impl Modes {
 
     /// Values of all modes at arc length `s` in part `index`, 1/m.
     pub(super) fn values(&self, index: usize, s: f64) -> Vec<f64> {
-        let factor = self.parts[index].compliance / self.total;
+        let part = &self.parts[index];
+        let factor = part.compliance.at(2.0 * (s - part.start) / part.length - 1.0) / self.total;
         let raw = self.raw(index, s);
         let sum = |row: &Vec<f64>| factor * row.iter().zip(&raw).map(|(c, v)| c * v).sum::<f64>();
         self.coefficients.iter().map(sum).collect()
@@ -182,9 +245,9 @@ impl Modes {
 
     /// Integrals of all modes from 0 to `s` in part `index`.
     pub(super) fn integrals(&self, index: usize, s: f64) -> Vec<f64> {
-        let (nodes, weights) = gauss_legendre(self.degree / 2 + 2);
         let mut sum = vec![0.0; self.count()];
         for (other, part) in self.parts.iter().enumerate().take(index + 1) {
+            let (nodes, weights) = gauss_legendre(self.degree / 2 + 2 + part.compliance.more_points());
             let length = if other == index { s - part.start } else { part.length };
             for (node, weight) in nodes.iter().zip(&weights) {
                 let values = self.values(other, part.start + 0.5 * length * (1.0 + node));

@@ -5,7 +5,7 @@
 
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
 
-use super::element::Element;
+use super::element::{Element, Station};
 use super::kinematics::{Configuration, StationState};
 use super::row::{ROTATIONS, Row};
 use crate::design::Stiffness;
@@ -35,8 +35,13 @@ impl CurvatureDerivatives {
 /// Derivatives of the curvature (1/m, material frame, per arc length of the element's tables) at a tabulated arc length by each
 /// amplitude of an element; zero for those of shear and extension.
 #[must_use]
-pub fn curvature_rates(element: &Element, row: &Row, amplitudes: &[f64]) -> Matrix3xX<f64> {
-    let (theta, rate) = Configuration::turned_at(element, row, amplitudes);
+pub fn curvature_rates(
+    configuration: &Configuration,
+    element: &Element,
+    row: &Row,
+    amplitudes: &[f64],
+) -> Matrix3xX<f64> {
+    let (theta, rate) = configuration.turned_at(element, row, amplitudes);
     let (by_vector, by_rate) = (theta.right_product_derivative(&rate), theta.left_jacobian().transpose());
 
     let mut out = Matrix3xX::zeros(element.freedoms());
@@ -49,8 +54,13 @@ pub fn curvature_rates(element: &Element, row: &Row, amplitudes: &[f64]) -> Matr
 /// Derivative of the curvature by arc length (1/m2, material frame, by that of the element's tables) at a tabulated arc length, where
 /// the mode values have these `slopes` (1/m2, by degree of freedom).
 #[must_use]
-pub fn curvature_slope(element: &Element, row: &Row, slopes: &[f64], amplitudes: &[f64]) -> Vector3<f64> {
-    let (theta, rate) = Configuration::turned_at(element, row, amplitudes);
+pub fn curvature_slope(
+    configuration: &Configuration,
+    element: &Element,
+    (row, slopes): (&Row, &[f64]),
+    amplitudes: &[f64],
+) -> Vector3<f64> {
+    let (theta, rate) = configuration.turned_at(element, row, amplitudes);
     let mut second = Vector3::zeros();
     for ((c, slope), amplitude) in element.component.iter().zip(slopes).zip(amplitudes) {
         if *c < ROTATIONS {
@@ -62,11 +72,13 @@ pub fn curvature_slope(element: &Element, row: &Row, slopes: &[f64], amplitudes:
 }
 
 impl Bending {
-    /// Derivatives at a station with quadrature weight `weight`, m.
-    pub(super) fn new(state: &StationState, stiffness: &Stiffness, weight: f64) -> Self {
+    /// Derivatives at a station, of the energy per `growth`.
+    pub(super) fn new(state: &StationState, station: &Station, growth: f64) -> Self {
+        let weight = station.weight / growth;
         let CurvatureDerivatives { by_vector, by_rate: right } = CurvatureDerivatives::of(state);
-        let stiffness = curvature_stiffness(stiffness, weight);
-        let moment = stiffness.component_mul(&(right * state.rate));
+        let stiffness = curvature_stiffness(&station.stiffness.lined(state.lining), weight);
+        let relaxed = curvature_stiffness(&station.stiffness, weight).component_mul(&state.rest);
+        let moment = stiffness.component_mul(&(right * state.rate)) - relaxed;
         let weighted = Matrix3::from_diagonal(&stiffness);
 
         Self {
@@ -86,13 +98,15 @@ pub(super) fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3
     Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
 }
 
-/// Derivatives of a station's bending and torsion energy with respect to rotation vector and rate.
+/// Derivatives of a station's bending and torsion energy with respect to rotation vector and rate, for these stiffnesses of what
+/// bends and of what is bent without loads.
 pub(super) fn gradient(
     state: &StationState,
-    stiffness: &Stiffness,
+    [stiffness, of_rest]: [&Stiffness; 2],
     weight: f64,
 ) -> (Vector3<f64>, Vector3<f64>) {
     let curvature = state.left.tr_mul(&state.rate);
-    let moment = curvature_stiffness(stiffness, weight).component_mul(&curvature);
+    let moment = curvature_stiffness(stiffness, weight).component_mul(&curvature)
+        - curvature_stiffness(of_rest, weight).component_mul(&state.rest);
     (state.theta.right_product_derivative(&state.rate).tr_mul(&moment), state.left * moment)
 }

@@ -13,7 +13,7 @@ use super::fine_points::{Fine, fine_points};
 use super::moments::SectionMoments;
 use super::piece::Piece;
 use super::source_geometry::SourceGeometry;
-use crate::design::{SectorKind, SpanKind, Spiral};
+use crate::design::{Direction, SectorKind, Spiral};
 use crate::numerics::{lagrange, quadrature::gauss_legendre};
 
 /// A point of a section with its share of the volume.
@@ -32,6 +32,8 @@ pub struct StationQuadrature {
     pub station: usize,
     /// Magnetisation, A/m.
     pub magnetisation: f64,
+    /// Direction of the magnetisation, in the directors.
+    pub direction: Direction,
     /// Distance from the ring's facing side along the straight manipulator, m.
     pub distance: f64,
     /// Points of the section.
@@ -49,9 +51,7 @@ impl Element {
             let before = if geometry.beyond { self.length - start - piece.length } else { start };
             start += piece.length;
 
-            // A ring does not act on the disc bonded to its face.
-            let adjacent = index == if geometry.beyond { pieces.len() - 1 } else { 0 };
-            if geometry.bonded && adjacent && piece.span.kind == SpanKind::Disc {
+            if geometry.bonded && piece.bonded[usize::from(geometry.beyond)] {
                 continue;
             }
 
@@ -69,6 +69,7 @@ impl Element {
                 out.push(StationQuadrature {
                     station: first + station,
                     magnetisation: piece.span.magnetisation,
+                    direction: self.stations[first + station].material.direction,
                     distance: at,
                     points,
                 });
@@ -115,7 +116,7 @@ impl Section<'_> {
     fn points(&self, geometry: &SourceGeometry, distance: f64) -> Vec<SectionPoint> {
         let span = self.piece.span;
         let harmonics = |radius| geometry.harmonics(distance, radius);
-        let circle = [span.inner_radius, span.outer_radius];
+        let circle = span.radii_at(self.along_span(self.nodes[self.node]));
         if harmonics(geometry.radius) <= 1
             && let Some(points) = self.moments()
         {
@@ -139,11 +140,16 @@ impl Section<'_> {
         out
     }
 
-    /// Passes the arc length and weight (m) of this node for each fine point of the integral along the piece to `value`.
+    /// Arc length from the span's start at `x` from -1 to 1 along the piece, m.
+    fn along_span(&self, x: f64) -> f64 {
+        self.piece.from + 0.5 * self.piece.length * (1.0 + x)
+    }
+
+    /// Passes the arc length from the span's start and weight (m) of this node for each fine point of the integral along the piece to `value`.
     fn along(&self, mut value: impl FnMut(f64, f64)) {
         let half = 0.5 * self.piece.length;
         for (x, weight, polynomials) in self.fine {
-            value(half * (1.0 + x), half * weight * polynomials[self.node]);
+            value(self.along_span(*x), half * weight * polynomials[self.node]);
         }
     }
 

@@ -3,9 +3,9 @@
 use core::ops::Range;
 use std::sync::Arc;
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 
-use super::basis::{Ends, Modes, Part};
+use super::basis::{Compliance, Ends, Modes, Part};
 use super::bending_stop::BendingStop;
 use super::fine_points::fine_points;
 use super::moments::SectionMoments;
@@ -26,6 +26,9 @@ const FINE_POINTS: (usize, usize) = (6, 12);
 
 /// Share of an element's compliance from which the strain along a disc is resolved as that along the core.
 const LONG: f64 = 0.02;
+
+/// Additional points of the polynomials that stand for the rows of a piece whose compliance changes along it.
+const TAPERED: usize = 8;
 
 /// Size below which a coefficient of the projection between elements is dropped as rounding.
 const NEGLIGIBLE: f64 = 1e-13;
@@ -81,9 +84,25 @@ pub struct Element {
     pub core_ends: [Arc<Row>; 2],
     /// The bending stop of the core; `None` without windings.
     pub stop: Option<BendingStop>,
+    /// Rotation vector of the end without loads, rad.
+    pub rest_angle: Vector3<f64>,
     modes: [Modes; COMPONENTS],
-    /// Length, nodes on [-1, 1] and first station of each piece.
-    pieces: Vec<(f64, Vec<f64>, usize)>,
+    pieces: Vec<PieceTable>,
+}
+
+/// The table of a piece.
+#[derive(Debug, Clone)]
+struct PieceTable {
+    /// Length, m.
+    length: f64,
+    /// Gauss nodes on [-1, 1].
+    nodes: Vec<f64>,
+    /// Number of the first station.
+    first: usize,
+    /// Curvature without loads, 1/m.
+    rest_rate: Vector3<f64>,
+    /// Whether its compliance changes along it.
+    tapered: bool,
 }
 
 impl Element {
@@ -91,24 +110,23 @@ impl Element {
     #[must_use]
     pub fn new(offset: f64, pieces: &[Piece<'_>], resolution: &Resolution) -> Self {
         let degree = resolution.degree;
-        let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core).unwrap_or(0);
+        let bend = |piece: &Piece<'_>| piece.length / piece.span.stiffness.bending;
+        let core = core_of(pieces, bend);
         let before: f64 = pieces.iter().take(core).map(|piece| piece.length).sum();
         let core_length = pieces.get(core).map_or(0.0, |piece| piece.length);
         let resolved = resolution.nearest.map_or(0, |ring| ring.along(ring.distance + before, core_length));
         let (disc_points, extra) = if resolution.fine { FINE_POINTS } else { POINTS };
         let core_points = resolved.max(degree + 1 + extra);
 
-        // Discs are stiff and bend little, unless there is much of them.
-        let bend = |piece: &Piece<'_>| piece.length / piece.span.stiffness.bending;
         let all: f64 = pieces.iter().map(bend).sum();
-        let is_long = |piece: &Piece<'_>| piece.span.kind == SpanKind::Disc && bend(piece) > LONG * all;
-
+        let is_long = |number: usize, piece: &Piece<'_>| number != core && bend(piece) > LONG * all;
         let modes = |stiffness: fn(&Stiffness) -> f64, ends: Ends| {
             let mut start = 0.0;
-            let parts = pieces.iter().map(|piece| {
+            let parts = pieces.iter().enumerate().map(|(number, piece)| {
                 start += piece.length;
-                let compliance = 1.0 / stiffness(&piece.span.stiffness);
-                Part { start: start - piece.length, length: piece.length, compliance, long: is_long(piece) }
+                let compliance = Compliance::of(piece, stiffness);
+                let long = is_long(number, piece);
+                Part { start: start - piece.length, length: piece.length, compliance, long }
             });
             Modes::new(parts.collect(), core, degree, ends)
         };
@@ -130,15 +148,21 @@ impl Element {
         // A piece that bends as a core does is resolved as one.
         let mut tables = Vec::new();
         let mut first = 0;
-        for piece in pieces {
-            let short = piece.span.kind == SpanKind::Disc && !is_long(piece);
+        for (number, piece) in pieces.iter().enumerate() {
+            let short = number != core && !is_long(number, piece);
             let points = if short { disc_points } else { core_points };
-            tables.push((piece.length, gauss_legendre(points).0, first));
+            tables.push(PieceTable {
+                length: piece.length,
+                nodes: gauss_legendre(points).0,
+                first,
+                rest_rate: piece.span.rest_curvature,
+                tapered: piece.span.taper.is_some(),
+            });
             first += points;
         }
 
         let length = pieces.iter().map(|piece| piece.length).sum();
-        let empty = Arc::new(Row { arc_length: 0.0, rate: vec![], integral: vec![], position: vec![] });
+        let empty = Arc::new(Row::empty());
         let mut element = Self {
             offset,
             length,
@@ -148,6 +172,7 @@ impl Element {
             runs,
             core_ends: [empty.clone(), empty],
             stop,
+            rest_angle: tables.iter().map(|piece| piece.rest_rate * piece.length).sum(),
             modes,
             pieces: tables,
         };
@@ -197,8 +222,8 @@ impl Element {
     pub fn row(&self, s: f64) -> Row {
         let mut start = 0.0;
         let mut piece = 0;
-        while piece + 1 < self.pieces.len() && s > start + self.pieces[piece].0 {
-            start += self.pieces[piece].0;
+        while piece + 1 < self.pieces.len() && s > start + self.pieces[piece].length {
+            start += self.pieces[piece].length;
             piece += 1;
         }
         self.row_in(piece, start, s.clamp(0.0, self.length))
@@ -209,8 +234,8 @@ impl Element {
     #[must_use]
     pub fn row_beyond(&self, s: f64, slack: f64) -> Option<Row> {
         let mut joint = 0.0;
-        for (piece, (length, ..)) in self.pieces.iter().enumerate().take(self.pieces.len() - 1) {
-            joint += length;
+        for (piece, own) in self.pieces.iter().enumerate().take(self.pieces.len() - 1) {
+            joint += own.length;
             if (s - joint).abs() <= slack {
                 return Some(self.row_in(piece + 1, joint, joint));
             }
@@ -222,16 +247,18 @@ impl Element {
     pub(super) fn row_in(&self, piece: usize, start: f64, s: f64) -> Row {
         let rate = order(self.modes.each_ref().map(|mode| mode.values(piece, s)));
         let integral = order(self.modes.each_ref().map(|mode| mode.integrals(piece, s)));
-        let mut position = Vec::new();
-        for (length, nodes, _) in &self.pieces[..piece] {
+        let (mut position, mut rest_angle) = (Vec::new(), Vector3::zeros());
+        for PieceTable { length, nodes, rest_rate, .. } in &self.pieces[..piece] {
             position.extend(lagrange::integrals(nodes, 1.0).iter().map(|weight| 0.5 * length * weight));
+            rest_angle += rest_rate * *length;
         }
-        let (length, nodes, _) = &self.pieces[piece];
+        let PieceTable { length, nodes, rest_rate, .. } = &self.pieces[piece];
         let x = (2.0 * (s - start) / length - 1.0).clamp(-1.0, 1.0);
         position.extend(lagrange::integrals(nodes, x).iter().map(|weight| 0.5 * length * weight));
-        let total = self.pieces.iter().map(|(_, nodes, _)| nodes.len()).sum();
+        let total = self.pieces.iter().map(|piece| piece.nodes.len()).sum();
         position.resize(total, 0.0);
-        Row { arc_length: s, rate, integral, position }
+        rest_angle += rest_rate * (s - start);
+        Row { arc_length: s, rate, integral, position, rest_rate: *rest_rate, rest_angle }
     }
 
     /// Number of pieces.
@@ -241,21 +268,21 @@ impl Element {
 
     /// Length (m) of a piece, and the largest degree of the polynomials that its rows are.
     pub(super) fn piece(&self, piece: usize) -> (f64, usize) {
-        let (length, nodes, _) = &self.pieces[piece];
+        let PieceTable { length, nodes, tapered, .. } = &self.pieces[piece];
         let degree = self.modes.iter().map(Modes::count).max().unwrap_or(0);
-        (*length, nodes.len().max(degree))
+        (*length, nodes.len().max(degree) + if *tapered { TAPERED } else { 0 })
     }
 
     /// Gauss nodes on [-1, 1] of a piece, and its first station.
     pub(super) fn nodes(&self, piece: usize) -> (&[f64], usize) {
-        let (_, nodes, first) = &self.pieces[piece];
+        let PieceTable { nodes, first, .. } = &self.pieces[piece];
         (nodes, *first)
     }
 
     fn add_stations(&mut self, index: usize, piece: &Piece<'_>) {
-        let start: f64 = self.pieces[..index].iter().map(|(length, _, _)| length).sum();
+        let start: f64 = self.pieces[..index].iter().map(|piece| piece.length).sum();
         let span = piece.span;
-        let nodes = self.pieces[index].1.clone();
+        let nodes = self.pieces[index].nodes.clone();
         let weights = lagrange::integrals(&nodes, 1.0);
 
         // The spiral turns along the piece faster than the modes: its moments are integrated on finer points
@@ -264,7 +291,7 @@ impl Element {
         for (x, fine, polynomials) in fine_points(&nodes) {
             let along = 0.5 * piece.length * (1.0 + x);
             for (material, value) in materials.iter_mut().zip(polynomials) {
-                material.add_section(span, along, 0.5 * piece.length * fine * value);
+                material.add_section(span, piece.from + along, 0.5 * piece.length * fine * value);
             }
         }
 
@@ -275,13 +302,20 @@ impl Element {
             self.stations.push(Station {
                 row,
                 weight,
-                stiffness: span.stiffness,
-                material: SectionMaterial::new(span, material, weight),
+                stiffness: span.stiffness_at(piece.from + along),
+                material: SectionMaterial::new(span, piece.from + along, material, weight),
                 points: ([material.centroid()], material.points()),
                 spread: material.spread(),
             });
         }
     }
+}
+
+/// The number of the piece that deforms most: the core with its spiral or, of others, that with the largest compliance `bend`.
+fn core_of(pieces: &[Piece<'_>], bend: impl Fn(&Piece<'_>) -> f64) -> usize {
+    let core = pieces.iter().position(|piece| piece.span.kind == SpanKind::Core);
+    let softest = || (0..pieces.len()).max_by(|a, b| bend(&pieces[*a]).total_cmp(&bend(&pieces[*b])));
+    core.or_else(softest).unwrap_or(0)
 }
 
 /// Arranges a table by mode in the order of the degrees of freedom: the first modes of all components, the other rotation

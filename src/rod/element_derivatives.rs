@@ -220,8 +220,8 @@ impl ElementDerivatives {
     fn add_station_gradient(&mut self, element: &Element, at: &LoadedStation<'_>) {
         let &LoadedStation { index, state, growth, load, ref beyond } = at;
         let station = &element.stations[index];
-        let (bend, rate) =
-            bending::gradient(state, &station.stiffness.lined(state.lining), station.weight / growth);
+        let stiffness = [&station.stiffness.lined(state.lining), &station.stiffness];
+        let (bend, rate) = bending::gradient(state, stiffness, station.weight / growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let slope = state.theta.rotation_gradient(&pull) + bend;
         let along = state.directors.tr_mul(beyond);
@@ -237,7 +237,7 @@ impl ElementDerivatives {
     fn add_station(&mut self, element: &Element, at: &LoadedStation<'_>) {
         let &LoadedStation { index, state, growth, load, ref beyond } = at;
         let station = &element.stations[index];
-        let bend = Bending::new(state, &station.stiffness.lined(state.lining), station.weight / growth);
+        let bend = Bending::new(state, station, growth);
         let pull = beyond * state.stretch.transpose() + load.couple * state.directors;
         let (slope, curve) = state.theta.contract_rotation(&pull);
         let slope = slope + bend.slope;

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::bending::curvature_stiffness;
 use super::element::Element;
 use super::row::{COMPONENTS, ROTATIONS, Row};
 use crate::geometry::{Pose, RotationVector};
@@ -25,6 +26,8 @@ pub struct StationState {
     pub position: Vector3<f64>,
     /// Bending stiffness of what lies inside beside that of the section, N m2.
     pub lining: f64,
+    /// Curvature without loads, per arc length of the element's tables, 1/m.
+    pub rest: Vector3<f64>,
 }
 
 impl StationState {
@@ -74,7 +77,7 @@ fn components(element: &Element, row: &[f64], amplitudes: &[f64]) -> (Vector3<f6
 }
 
 impl Configuration {
-    /// The undeformed element.
+    /// The unloaded element.
     #[must_use]
     pub fn straight(element: &Element) -> Self {
         let state = StationState {
@@ -86,6 +89,7 @@ impl Configuration {
             tangent: Vector3::z(),
             position: Vector3::zeros(),
             lining: 0.0,
+            rest: Vector3::zeros(),
         };
         let mut out = Self {
             stations: vec![state; element.stations.len()],
@@ -99,23 +103,25 @@ impl Configuration {
 
     /// Updates all states for the mode amplitudes `amplitudes`.
     pub fn update(&mut self, element: &Element, amplitudes: &[f64]) {
-        let mut end = Vector3::new(0.0, 0.0, element.offset);
+        let mut end_position = Vector3::new(0.0, 0.0, element.offset);
         for (state, station) in self.stations.iter_mut().zip(&element.stations) {
             let (theta, _) = components(element, &station.row.integral, amplitudes);
             let (rate, strain) = components(element, &station.row.rate, amplitudes);
-            state.theta = RotationVector::new(theta);
-            state.rate = rate;
+            state.rest = station.row.rest_rate * self.growth;
+            state.theta = RotationVector::new(theta + station.row.rest_angle * self.growth);
+            state.rate = rate + state.rest;
             state.directors = state.theta.matrix();
             state.left = state.theta.left_jacobian();
             state.stretch = Vector3::z() * self.growth + strain;
             state.tangent = state.directors * state.stretch;
-            end += state.tangent * station.weight;
+            end_position += state.tangent * station.weight;
         }
         for (index, station) in element.stations.iter().enumerate() {
             self.stations[index].position = self.position_at(element, &station.row);
         }
-        self.end_theta = RotationVector::new(Vector3::new(amplitudes[0], amplitudes[1], amplitudes[2]));
-        self.end = Pose { position: end, rotation: self.end_theta.matrix() };
+        let end = Vector3::new(amplitudes[0], amplitudes[1], amplitudes[2]);
+        self.end_theta = RotationVector::new(end + element.rest_angle * self.growth);
+        self.end = Pose { position: end_position, rotation: self.end_theta.matrix() };
     }
 
     fn position_at(&self, element: &Element, row: &Row) -> Vector3<f64> {
@@ -129,14 +135,14 @@ impl Configuration {
     /// The pose at a tabulated arc length, in the frame of the preceding node.
     #[must_use]
     pub fn pose_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Pose {
-        let rotation = Self::rotation_at(element, row, amplitudes).matrix();
+        let rotation = self.rotation_at(element, row, amplitudes).matrix();
         Pose { position: self.position_at(element, row), rotation }
     }
 
     /// The frame at a tabulated arc length.
     #[must_use]
     pub fn frame_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> FrameState {
-        let theta = Self::rotation_at(element, row, amplitudes);
+        let theta = self.rotation_at(element, row, amplitudes);
         let pose = Pose { position: self.position_at(element, row), rotation: theta.matrix() };
         FrameState { pose, left: theta.left_jacobian(), theta }
     }
@@ -145,39 +151,41 @@ impl Configuration {
     #[must_use]
     pub fn curve_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> (Vector3<f64>, Vector3<f64>) {
         let (_, strain) = components(element, &row.rate, amplitudes);
-        let directors = Self::rotation_at(element, row, amplitudes).matrix();
+        let directors = self.rotation_at(element, row, amplitudes).matrix();
         (self.position_at(element, row), directors * (Vector3::z() * self.growth + strain))
     }
 
     /// The rotation vector at a tabulated arc length.
     #[must_use]
-    pub fn rotation_at(element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
-        RotationVector::new(components(element, &row.integral, amplitudes).0)
+    pub fn rotation_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> RotationVector {
+        let theta = components(element, &row.integral, amplitudes).0;
+        RotationVector::new(theta + row.rest_angle * self.growth)
     }
 
     /// The rotation vector at a tabulated arc length, and its derivative by the table's arc length, 1/m.
     pub(super) fn turned_at(
+        &self,
         element: &Element,
         row: &Row,
         amplitudes: &[f64],
     ) -> (RotationVector, Vector3<f64>) {
         let (rate, _) = components(element, &row.rate, amplitudes);
-        (Self::rotation_at(element, row, amplitudes), rate)
+        (self.rotation_at(element, row, amplitudes), rate + row.rest_rate * self.growth)
     }
 
     /// Curvature about `d1` and `d2`, and twist about `d3`, at a tabulated arc length: rotation of the directors per arc length
     /// (1/m), in the directors.
     #[must_use]
     pub fn curvature_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {
-        let (theta, rate) = Self::turned_at(element, row, amplitudes);
+        let (theta, rate) = self.turned_at(element, row, amplitudes);
         theta.left_jacobian().tr_mul(&rate) / self.growth
     }
 
     /// Rotation of the directors per the table's arc length (rad/m) at a tabulated arc length, in the frame of the preceding node.
     #[must_use]
-    pub fn turning_at(element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {
-        let (rate, _) = components(element, &row.rate, amplitudes);
-        Self::rotation_at(element, row, amplitudes).left_jacobian() * rate
+    pub fn turning_at(&self, element: &Element, row: &Row, amplitudes: &[f64]) -> Vector3<f64> {
+        let (theta, rate) = self.turned_at(element, row, amplitudes);
+        theta.left_jacobian() * rate
     }
 
     /// Elastic energy, J.
@@ -189,6 +197,9 @@ impl Configuration {
             let k = station.stiffness.lined(state.lining);
             let bending = curvature.x * curvature.x + curvature.y * curvature.y;
             energy += 0.5 * station.weight * (k.bending * bending + k.torsion * curvature.z * curvature.z);
+            // What lies inside is straight without loads, the section need not be.
+            let moment = curvature_stiffness(&station.stiffness, station.weight).component_mul(&state.rest);
+            energy -= moment.dot(&(curvature - state.rest * 0.5));
         }
         for ((component, stiffness), amplitude) in
             element.component.iter().zip(&element.metric).zip(amplitudes)

@@ -22,7 +22,7 @@ impl Configuration {
         let none = Stiffness { bending: 0.0, torsion: 0.0, shear: 0.0, axial: 0.0 };
         for ((state, station), stiffness) in self.stations.iter().zip(&element.stations).zip(stiffness) {
             let (slope, rate) =
-                bending::gradient(state, &none.lined(stiffness), station.weight / self.growth);
+                bending::gradient(state, [&none.lined(stiffness), &none], station.weight / self.growth);
             for (i, component) in element.component.iter().enumerate().filter(|(_, c)| **c < ROTATIONS) {
                 out[i] +=
                     slope[*component] * station.row.integral[i] + rate[*component] * station.row.rate[i];

@@ -52,6 +52,42 @@ impl Load {
         }
     }
 
+    /// Adds a magnetic charge (A m) at `arm` from the origin.
+    ///
+    /// `potential` (T m), `field` (T) and, for the second derivatives, `gradient` (T/m) are those at the charge.
+    pub fn add_charge(
+        &mut self,
+        charge: f64,
+        arm: &Vector3<f64>,
+        (potential, field): (f64, &Vector3<f64>),
+        gradient: Option<&Matrix3<f64>>,
+    ) {
+        let force = field * -charge;
+        self.energy += charge * potential;
+        self.force += force;
+        self.couple += force * arm.transpose();
+        let Some(gradient) = gradient else { return };
+        let (own, lever) = (gradient * charge, hat(arm));
+        self.position_position -= own;
+        self.position_rotation += own * lever;
+        self.rotation_rotation += lever * own * lever;
+        self.stiff = true;
+    }
+
+    /// The load on another frame of the same rigid body, from whose origin it is `arm` (m) to that of this one.
+    #[must_use]
+    pub fn carried(&self, arm: &Vector3<f64>) -> Self {
+        let lever = hat(arm);
+        let cross = lever * self.position_rotation;
+        Self {
+            couple: self.couple + self.force * arm.transpose(),
+            position_rotation: self.position_rotation - self.position_position * lever,
+            rotation_rotation: self.rotation_rotation + cross + cross.transpose()
+                - lever * self.position_position * lever,
+            ..*self
+        }
+    }
+
     /// Derivative of the energy with respect to `omega`: minus the torque about `p`, N m.
     #[must_use]
     pub fn moment(&self) -> Vector3<f64> {
@@ -101,7 +137,7 @@ impl Load {
         out
     }
 
-    /// Adds a dipole `moment d3` (A m2, `d3 = axis`) at `arm` from the origin.
+    /// Adds a dipole `moment axis` (A m2; `axis` is a unit vector that turns with the frame) at `arm` from the origin.
     ///
     /// `field`, its `gradient` and, for the second derivatives, `hessian_along = sum_i axis_i d2B_i/dx_j dx_k` are those at the
     /// dipole.

@@ -26,7 +26,8 @@ impl SectionMoments {
 
     /// Adds `weight` (m) times the section of `span` at arc length `s` (m) from the span's start.
     pub(super) fn add_section(&mut self, span: &Span, s: f64, weight: f64) {
-        self.add_circle(span.inner_radius, span.outer_radius, 2.0 * PI, weight);
+        let [inner, outer] = span.radii_at(s);
+        self.add_circle(inner, outer, 2.0 * PI, weight);
         let Some(spiral) = &span.spiral else { return };
         let (inner, outer, angle) = (spiral.inner_radius, spiral.outer_radius, spiral.sector_angle);
         match spiral.kind {

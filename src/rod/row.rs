@@ -1,5 +1,7 @@
 //! Tables of the strain modes at one arc length.
 
+use nalgebra::Vector3;
+
 /// The six strain components: curvature about `d1`, `d2`, `d3`, then shear along `d1`, `d2` and extension.
 pub const COMPONENTS: usize = 6;
 
@@ -17,4 +19,22 @@ pub struct Row {
     pub integral: Vec<f64>,
     /// Weight of each station's tangent in the position at this arc length, m.
     pub position: Vec<f64>,
+    /// Curvature without loads, 1/m.
+    pub rest_rate: Vector3<f64>,
+    /// Its integral up to here, rad: the rotation vector of the unloaded element.
+    pub rest_angle: Vector3<f64>,
+}
+
+impl Row {
+    /// No values: a place that is not tabulated yet.
+    pub(super) fn empty() -> Self {
+        Self {
+            arc_length: 0.0,
+            rate: Vec::new(),
+            integral: Vec::new(),
+            position: Vec::new(),
+            rest_rate: Vector3::zeros(),
+            rest_angle: Vector3::zeros(),
+        }
+    }
 }

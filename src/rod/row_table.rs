@@ -69,11 +69,14 @@ impl RowTable {
             }
             sum
         };
+        let (first, rest_rate) = (&rows[0], rows[0].rest_rate);
         Row {
             arc_length: s,
             rate: mix(|row| &row.rate),
             integral: mix(|row| &row.integral),
             position: mix(|row| &row.position),
+            rest_rate,
+            rest_angle: first.rest_angle + rest_rate * (s - first.arc_length),
         }
     }
 }

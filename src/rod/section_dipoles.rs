@@ -1,4 +1,4 @@
-//! Parallel dipoles in one section: their energy from weighted sums of the field.
+//! Parallel dipoles in one section, along its normal or any other direction: their energy from weighted sums of the field.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -11,7 +11,7 @@ use crate::geometry::hat;
 pub struct SectionDipoles {
     /// Field, J.
     pub field: Vector3<f64>,
-    /// Gradient times the section's normal, weighted with 1, x, y.
+    /// Gradient times the dipoles' direction, weighted with 1, x, y.
     pub force: [Vector3<f64>; 3],
     /// For second derivatives.
     pub second: Option<SectionStiffness>,
@@ -38,7 +38,7 @@ impl SectionDipoles {
         }
     }
 
-    /// Adds a dipole `moment axis` (A m2, `axis`: the section's normal) at `position` (m), with the field (T), its gradient
+    /// Adds a dipole `moment axis` (A m2, `axis`: the direction of all dipoles) at `position` (m), with the field (T), its gradient
     /// and, for the second derivatives, `along = sum_i axis_i d2B_i/dx_j dx_k` there.
     pub fn add(
         &mut self,
@@ -74,7 +74,8 @@ impl SectionDipoles {
         self
     }
 
-    /// The energy as a load on the section's frame, whose directors are the columns of `directors`.
+    /// The energy as a load on the section's frame. The columns of `directors` are the two directors of its plane and the direction of
+    /// the dipoles, which is the third director where they are normal to the section.
     ///
     /// Equal to the sum of [`Load::add_dipole`] over the dipoles with arms `x d1 + y d2`.
     #[must_use]

@@ -76,7 +76,7 @@ pub(super) fn held_force(
         rotation: turn,
     };
     let mut force = Vector3::zeros();
-    if let Some(ring) = design.base_ring() {
+    for ring in design.base_rings() {
         force += force_on_ring(magnet, ring, &mut base)?;
     }
     for segment in design.segments() {
@@ -88,7 +88,7 @@ pub(super) fn held_force(
             let body = AxialSource::new(span.inner_radius, span.outer_radius, span.length, remanence)?;
             force += force_on(magnet, &body, &mut base)?;
         }
-        if let Some(ring) = &segment.ring {
+        for ring in &segment.rings {
             force += force_on_ring(magnet, ring, &mut base)?;
         }
     }

@@ -214,10 +214,10 @@ pub(super) fn is_shown(variable: &Variable) -> bool {
 
 /// The bodies, base to tip.
 fn bodies(design: &Design) -> Vec<Body> {
-    let mut bodies: Vec<Body> = design.base_ring().map(Body::ring).into_iter().collect();
+    let mut bodies: Vec<Body> = design.base_rings().iter().map(Body::ring).collect();
     for segment in design.segments() {
         bodies.extend(segment.spans.iter().map(Body::span));
-        bodies.extend(segment.ring.as_ref().map(Body::ring));
+        bodies.extend(segment.rings.iter().map(Body::ring));
     }
     let mut begin = 0.0;
     for body in &mut bodies {
@@ -246,7 +246,7 @@ impl Body {
             kind: match span.kind {
                 SpanKind::Disc => "disc",
                 SpanKind::Core => "core",
-                SpanKind::Rod => "rod",
+                SpanKind::Rod | SpanKind::Section => "rod",
             },
             begin: 0.0,
             length: span.length,

@@ -56,6 +56,17 @@ fn the_scene_to_begin_with_is_the_default_with_every_key() {
     let magnet = |text: &str| table(text).parse::<Table>().unwrap()["magnet"]["cylinders"].clone();
     assert_eq!(magnet(&whole), magnet("[magnet]"), "an empty table is the magnet that is shown");
     let (_, rod) = printed.split_once("and none of those above:\n").unwrap();
+    let (rod, sections) = rod.split_once("\n# Any tubes").unwrap();
+    let (_, sections) = sections.split_once("and none of those above:\n").unwrap();
+    let counting: Vec<&str> = sections.lines().filter_map(|line| line.strip_prefix("# ")).collect();
+    let shown = SceneFile::parse(&counting.join("\n"), "sections").unwrap().to_toml().unwrap();
+    let missing: Vec<String> = keys_of(&shown)
+        .into_iter()
+        .filter(|key| {
+            !["design.kind"].contains(&key.as_str()) && !sections.contains(key.rsplit('.').next().unwrap())
+        })
+        .collect();
+    assert!(!shown.is_empty() && missing.is_empty(), "not shown: {missing:?}");
     let of_rubber: Vec<&str> = rod.lines().filter_map(|line| line.strip_prefix("# ")).collect();
     let other =
         |line: &&str| !["shore_a", "volume_", "particle_"].iter().any(|key| line[2..].starts_with(key));
@@ -87,6 +98,20 @@ fn a_scene_in_an_aorta_can_be_solved() {
     let answer: serde_json::Value = serde_json::from_str(&stdout(&solved)).unwrap();
     assert_eq!(answer["feed_length_m"], 0.0);
     assert!(answer["contact_count"].is_number() && answer["largest_indentation_m"].as_f64().unwrap() < 1e-3);
+}
+
+#[test]
+fn every_design_to_begin_with_bends() {
+    let here = folder("init_design");
+    for name in ["tip-magnet", "two-magnets", "magnetic-tip", "j-tip", "tentacle", "paper"] {
+        let file = format!("{name}.toml");
+        assert_status(&mcm(&here, &["init", "--design", name, "--out", &file]), 0);
+        let solved = mcm(&here, &["solve", &file, "--json"]);
+        assert_status(&solved, 0);
+        let answer: serde_json::Value = serde_json::from_str(&stdout(&solved)).unwrap();
+        assert!(answer["alpha_rad"].as_f64().unwrap() > 0.1, "{name}: {answer}");
+    }
+    assert_status(&mcm(&here, &["init", "--design", "octopus"]), 1);
 }
 
 #[test]

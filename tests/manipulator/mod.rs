@@ -17,6 +17,8 @@ mod ranges;
 mod refusals;
 mod scene;
 
+mod sections;
+
 mod sensitivities;
 
 mod snapshot;

@@ -4,13 +4,21 @@ use core::f64::consts::PI;
 use core::ops::Bound::{Excluded, Included, Unbounded};
 
 use mcm::design::quantities::HELIX_WINDING_HEIGHT;
-use mcm::error::Quantity;
+use mcm::error::{Interval, Quantity};
 use mcm::magnetics::quantities::MULTIPOLE;
 use mcm::manipulator::SceneFile;
 use mcm::{design, equilibrium, magnetics, vessel};
 
 /// Devices that together have every key. Several of their numbers are equal, such as the hardness of helix and shaft.
-const SCENES: [&str; 4] = [
+const SCENES: [&str; 7] = [
+    "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0\n\
+     [[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0\npoisson = 0.4\nremanence_t = 0.1\n\
+     density_kg_m3 = 1000.0\n",
+    "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nshore_a = 33.0\n\
+     [[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nshore_a = 33.0\nvolume_fraction = 0.2\nparticle_remanence_t = 1.0\n",
+    "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nshore_a = 33.0\n\
+     [[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nbending_stiffness_n_m2 = 1e-7\n\
+     torsional_stiffness_n_m2 = 1e-7\naxial_stiffness_n = 1.0\nshear_stiffness_n = 1.0\n",
     "[design]\nsegments = 2\n[design.helix]\nshore_a = 30.0\npoisson = 0.45\ndensity_kg_m3 = 1000.0\n[design.ring]\n\
      recoil_permeability = 1.05\n[design.backbone]\nouter_radius_mm = 0.5\ninner_radius_mm = 0.4\nshore_a = 30.0\npoisson = 0.45\n\
      density_kg_m3 = 1000.0\n[feed]\nmode = \"insertion\"\n[feed.shaft]\nouter_radius_mm = 0.5\ninner_radius_mm = 0.4\nshore_a = 30.0\n\
@@ -37,6 +45,9 @@ fn numbers() -> impl Iterator<Item = &'static Quantity> {
         vessel::quantities::ALL,
     ];
     let all = tables.into_iter().flatten().copied();
+    // What may be any number is refused with others beside it: components of vectors, and turns of a whole section.
+    let any = |quantity: &&Quantity| quantity.interval == Interval::FINITE;
+    let all = all.filter(move |quantity| !any(quantity));
     all.filter(|quantity| ![&HELIX_WINDING_HEIGHT, &MULTIPOLE].contains(quantity))
 }
 

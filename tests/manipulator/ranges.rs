@@ -10,7 +10,18 @@ use toml::{Table, Value};
 const JUST: f64 = 1e-6;
 
 /// Tables that are in the scene while a key of theirs, or of tables inside, is tried; the first that fits counts.
-const SURROUNDINGS: [(&str, &str); 12] = [
+const SURROUNDINGS: [(&str, &str); 19] = [
+    ("design.section.shore_a", SOFT),
+    ("design.section.bending_stiffness_n_m2", MEASURED),
+    ("design.section.torsional_stiffness_n_m2", MEASURED),
+    ("design.section.axial_stiffness_n", MEASURED),
+    ("design.section.shear_stiffness_n", MEASURED),
+    (
+        "design.group.",
+        "[design]\nkind = \"sections\"\n[[design.section]]\nname = \"a\"\nlength_mm = 4.0\nouter_radius_mm = 0.5\n\
+         elastic_modulus_mpa = 2.0\n[[design.group]]\nsections = [\"a\"]",
+    ),
+    ("design.section.", SOFT),
     ("design.helix.", ""),
     ("design.ring.", ""),
     (
@@ -42,6 +53,11 @@ const SURROUNDINGS: [(&str, &str); 12] = [
         "[[coil]]\nposition_mm = [0.0, 200.0, 0.0]\ninner_radius_mm = 20.0\nouter_radius_mm = 40.0\nlength_mm = 60.0\nturns = 100.0",
     ),
 ];
+
+/// A device with one elastic section, and one whose stiffness is measured.
+const SOFT: &str = "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0";
+const MEASURED: &str = "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\n\
+    bending_stiffness_n_m2 = 1e-7\ntorsional_stiffness_n_m2 = 1e-7\naxial_stiffness_n = 1.0";
 
 /// A number of a scene: its schema, and whether it is the entry of a list.
 struct Number<'a> {
@@ -89,6 +105,10 @@ fn scene(path: &str, number: &Number<'_>, value: f64) -> String {
     match path {
         "design.elastic_modulus_mpa" => drop(here.insert("remanence_t".into(), Value::Float(0.1))),
         "design.remanence_t" => drop(here.insert("elastic_modulus_mpa".into(), Value::Float(1.0))),
+        "design.section.shore_a" => drop(here.remove("elastic_modulus_mpa")),
+        "design.section.particle_remanence_t" => {
+            drop(here.insert("volume_fraction".into(), Value::Float(0.1)));
+        }
         _ if key == "elastic_modulus_mpa" => drop(here.remove("shore_a")),
         _ => {}
     }

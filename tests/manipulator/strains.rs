@@ -127,10 +127,10 @@ fn loaded() -> (Design, Outputs) {
 /// First and last point within each ring and each span, base to tip, with whether it is a ring.
 fn parts(design: &Design, out: &Outputs) -> Vec<(bool, [usize; 2])> {
     let ring = |length: f64| (true, length);
-    let mut lengths: Vec<(bool, f64)> = design.base_ring().map(|own| ring(own.length)).into_iter().collect();
+    let mut lengths: Vec<(bool, f64)> = design.base_rings().iter().map(|own| ring(own.length)).collect();
     for segment in design.segments() {
         lengths.extend(segment.spans.iter().map(|span| (false, span.length)));
-        lengths.extend(segment.ring.as_ref().map(|own| ring(own.length)));
+        lengths.extend(segment.rings.iter().map(|own| ring(own.length)));
     }
 
     let mut start = 0.0;
@@ -200,10 +200,10 @@ fn directors_follow_from_the_curvature_along_the_device() {
 fn ends(design: &Design, out: &Outputs, [first, last]: [usize; 2]) -> [f64; 2] {
     let mut joints = vec![0.0];
     let mut add = |length: f64| joints.push(joints[joints.len() - 1] + length);
-    design.base_ring().into_iter().for_each(|ring| add(ring.length));
+    design.base_rings().iter().for_each(|ring| add(ring.length));
     for segment in design.segments() {
         segment.spans.iter().for_each(|span| add(span.length));
-        segment.ring.iter().for_each(|ring| add(ring.length));
+        segment.rings.iter().for_each(|ring| add(ring.length));
     }
     let start = joints.iter().rfind(|joint| **joint <= out.shape_arc_length[first]).unwrap();
     let end = joints.iter().find(|joint| **joint >= out.shape_arc_length[last]).unwrap();

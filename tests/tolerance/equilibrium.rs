@@ -20,6 +20,28 @@ pub(crate) const STATICS_ENERGY: f64 = 1e-5;
 /// are resolved twice as finely.
 pub(crate) const STATICS_SPANS_ENERGY: f64 = 1e-3;
 
+/// Tips of devices made of sections against an independent program, over the length: its own digits are nine and more, ours those of
+/// the finest discretisation that the tolerances of the scene lead to.
+pub(crate) const SECTIONS_LENGTH: f64 = 1e-7;
+
+/// Their orientation, rad.
+pub(crate) const SECTIONS_ANGLE: f64 = 1e-6;
+
+/// Their wrenches and energies.
+pub(crate) const SECTIONS_WRENCH: f64 = 1e-6;
+
+/// Their stability margins: the table has seven decimals, and a margin is of first order in the error of the shape.
+pub(crate) const SECTIONS_MARGIN: f64 = 1e-5;
+
+/// A device and its mirror image, or the same device elsewhere, over the length.
+pub(crate) const SYMMETRY: f64 = 1e-9;
+
+/// Closed forms of bent rods, over the length, and their angles in rad.
+pub(crate) const CLOSED_FORM: f64 = 1e-7;
+
+/// The same device written in two ways, m.
+pub(crate) const SAME_DEVICE: f64 = 1e-12;
+
 /// Forces between adjacent rings at the default accuracy: the rule of most nodes on the axis leaves 5e-6 there.
 pub(crate) const ADJACENT: f64 = 1e-5;
 

@@ -52,6 +52,37 @@ enum VesselName {
     AortaSpatial,
 }
 
+/// A device to begin with.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum DesignName {
+    /// A magnet at the tip of a tube
+    TipMagnet,
+    /// Two magnets on a tube, one across the axis
+    TwoMagnets,
+    /// A soft magnetic tip on a tube
+    MagneticTip,
+    /// A wire with a bent tip, fed through a port
+    JTip,
+    /// A soft rod with alternating and turning magnetisation
+    Tentacle,
+    /// The nine segments of the paper, with one value for each
+    Paper,
+}
+
+impl DesignName {
+    /// Its scene.
+    fn scene(self) -> &'static str {
+        match self {
+            Self::TipMagnet => include_str!("init/designs/tip-magnet.toml"),
+            Self::TwoMagnets => include_str!("init/designs/two-magnets.toml"),
+            Self::MagneticTip => include_str!("init/designs/magnetic-tip.toml"),
+            Self::JTip => include_str!("init/designs/j-tip.toml"),
+            Self::Tentacle => include_str!("init/designs/tentacle.toml"),
+            Self::Paper => include_str!("init/designs/paper.toml"),
+        }
+    }
+}
+
 /// Prints a scene with every key, its default and a remark, as a beginning of one's own.
 #[derive(clap::Args)]
 #[command(after_help = "Examples: mcm init --out scene.toml; mcm init --schema --out scene.schema.json")]
@@ -62,8 +93,11 @@ pub(crate) struct Init {
     /// A device on a shaft in this vessel instead of every key
     #[arg(long, value_enum, value_name = "NAME")]
     vessel: Option<VesselName>,
+    /// A scene with this device instead of every key
+    #[arg(long, value_enum, value_name = "NAME", conflicts_with = "vessel")]
+    design: Option<DesignName>,
     /// The JSON schema of scenes instead, from which editors complete and check keys
-    #[arg(long, conflicts_with = "vessel")]
+    #[arg(long, conflicts_with_all = ["vessel", "design"])]
     schema: bool,
 }
 
@@ -72,7 +106,10 @@ impl Init {
     pub(crate) fn run(&self) -> Result<ExitCode, Failure> {
         let scene = match self.vessel {
             None if self.schema => SceneFile::SCHEMA.to_owned(),
-            None => remarks::completed(TEMPLATE)?,
+            None => match self.design {
+                Some(design) => design.scene().to_owned(),
+                None => remarks::completed(TEMPLATE)?,
+            },
             Some(VesselName::Aorta) => IN_VESSEL.to_owned() + &Aorta::planar().scene_text()?,
             Some(VesselName::AortaSpatial) => IN_VESSEL.to_owned() + &Aorta::spatial().scene_text()?,
         };

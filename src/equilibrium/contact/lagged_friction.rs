@@ -7,7 +7,6 @@ use super::friction_contact::{FrictionContact, Place};
 use super::friction_places::{Carrier, KeptShape, Placing};
 use super::vessel_contact::VesselContact;
 use crate::equilibrium::model::{Chain, Workspace};
-use crate::rod::Configuration;
 
 /// Change of the friction forces from pass to pass at which they have settled, relative to the largest that they could be.
 const SETTLED: f64 = 1e-4;
@@ -96,7 +95,7 @@ impl VesselContact {
             let (element, amplitudes) = (&chain.elements[k], chain.part(k, &work.placed));
             let configuration = &work.configurations[k];
             let (_, tangent) = configuration.curve_at(element, &row, amplitudes);
-            let turning = Configuration::turning_at(element, &row, amplitudes);
+            let turning = configuration.turning_at(element, &row, amplitudes);
 
             let node = &work.nodes[k];
             let frame = node.compose(&configuration.pose_at(element, &row, amplitudes));

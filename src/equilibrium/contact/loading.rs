@@ -46,7 +46,7 @@ impl<'a> Loading<'a> {
         let (wall, chain, mut found) = (self.wall, self.chain, Vec::new());
         for (number, body) in chain.rings.iter().enumerate() {
             let node = self.work.nodes[body.node];
-            for (rim, height) in [0.0, body.ring.length].into_iter().enumerate() {
+            for (rim, height) in [body.start, body.end()].into_iter().enumerate() {
                 wall.rim(&node, height, body.ring.outer_radius, &mut found);
                 for touch in found.drain(..) {
                     self.load_node(body.node, (Site::Ring(number), Place::Rim(number, rim)), &touch);
@@ -95,7 +95,7 @@ impl<'a> Loading<'a> {
         let frame = self.work.configurations[k].frame_at(element, &row, amplitudes);
         let point = self.work.nodes[k].transform(&frame.pose.position);
 
-        let radius = self.surface.elements[k][piece].radius;
+        let radius = self.surface.elements[k][piece].radius_at(row.arc_length);
         let length = self.work.configurations[k].growth * share;
         let touch = self.wall.rod(&point, radius, length);
         if touch.depth.is_nan() || touch.depth <= 0.0 {

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::bodies::{Body, Contact};
-use crate::equilibrium::model::{Chain, Inputs, Interaction, Model, Settings, Workspace, overlap};
+use crate::equilibrium::model::{Chain, Inputs, Interaction, Model, RingBody, Settings, Workspace, overlap};
 use crate::geometry::Pose;
 use crate::magnetics::{Outline, Source, SourceName, Sources};
 use crate::numerics::maximum::largest;
@@ -63,7 +63,9 @@ impl Placed<'_> {
 
     fn among_rings(&self, deepest: &mut Option<Contact>) {
         for (i, first) in self.chain.rings.iter().enumerate() {
-            for (j, second) in self.chain.rings.iter().enumerate().skip(i + 1) {
+            let welded = |other: &RingBody| other.node == first.node;
+            let others = self.chain.rings.iter().enumerate().skip(i + 1);
+            for (j, second) in others.filter(|(_, other)| !welded(other)) {
                 let depth = overlap(first, &self.nodes[first.node], second, &self.nodes[second.node]);
                 add(deepest, Contact { first: Body::Ring(i), second: Body::Ring(j), depth });
             }

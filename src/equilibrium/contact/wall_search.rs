@@ -28,7 +28,7 @@ impl Loading<'_> {
     ///
     /// Between two neighbouring places the clearance is taken as the cubic through both values and slopes. Places that are too
     /// near to the last one for the wall to be in reach are passed over.
-    pub(super) fn find_arcs(&self, found: &mut Vec<ArcPart>) {
+    pub(crate) fn find_arcs(&self, found: &mut Vec<ArcPart>) {
         found.clear();
         let mut start = 0.0;
         let mut seen = Seen { clearance: f64::NEG_INFINITY, arc_length: 0.0 };
@@ -47,7 +47,7 @@ impl Loading<'_> {
     }
 
     /// The widening (m) of the lumen with which the chain would nowhere touch the wall.
-    pub(super) fn missing_width(&self) -> f64 {
+    pub(crate) fn missing_width(&self) -> f64 {
         let mut missing = 0.0_f64;
         for (k, own) in self.surface.elements.iter().enumerate() {
             for skin in own {
@@ -56,7 +56,8 @@ impl Loading<'_> {
                     let (position, _) =
                         self.work.configurations[k].curve_at(&self.chain.elements[k], row, amplitudes);
                     let clearance = self.wall.clearance(&self.work.nodes[k].transform(&position));
-                    missing = missing.max(skin.radius - clearance.value);
+                    let radius = skin.radius_at(row.arc_length);
+                    missing = missing.max(radius - clearance.value);
                 }
             }
         }
@@ -78,7 +79,7 @@ impl Loading<'_> {
         for (number, row) in skin.places.iter().enumerate() {
             let place = |number: usize| skin.places.get(number).map(|row| row.arc_length);
             let next = place(number + 1).unwrap_or(row.arc_length);
-            if seen.least(start + next * growth) > skin.radius {
+            if seen.least(start + next * growth) > skin.widest() {
                 before = None;
                 continue;
             }
@@ -87,9 +88,8 @@ impl Loading<'_> {
             let node = &self.work.nodes[k];
             let clearance = self.wall.clearance(&node.transform(&position));
             *seen = Seen { clearance: clearance.value, arc_length: start + row.arc_length * growth };
-            let gap = clearance.value - skin.radius;
-            let slope = clearance.gradient.dot(&(node.rotation * tangent));
-
+            let gap = clearance.value - skin.radius_at(row.arc_length);
+            let slope = clearance.gradient.dot(&(node.rotation * tangent)) - skin.slope();
             if let Some([from, first, rise]) = before {
                 let length = row.arc_length - from;
                 if first + gap <= STRETCHED * length * growth {

@@ -2,11 +2,15 @@
 
 use std::sync::{Arc, OnceLock};
 
-use crate::design::{Design, SpanKind};
-use crate::error::{Error, check};
-use crate::magnetics::PairTable;
-use crate::rod::{Element, Piece, Resolution, RowTable, SourceGeometry};
+use nalgebra::Vector3;
 
+use crate::design::{Design, RigidShape};
+use crate::error::{Error, check};
+use crate::geometry::Pose;
+use crate::magnetics::PairTable;
+use crate::rod::{Configuration, Element, Piece, Resolution, RowTable, SourceGeometry};
+
+use super::division::divide;
 use super::guidewire::Lining;
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
@@ -40,6 +44,8 @@ pub(crate) struct Chain {
     pub(crate) rings: Vec<RingBody>,
     /// Distance from the last node to the tip, m.
     pub(crate) tip_offset: f64,
+    /// Place of the tip in the frame of the base, without a shaft and loads, m; `None` for a device that is straight then.
+    pub(crate) tip_at_rest: Option<Vector3<f64>>,
     /// Whether all bodies are symmetric about their axes.
     pub(crate) axisymmetric: bool,
     /// Number of elements of the shaft, which come first.
@@ -52,8 +58,8 @@ pub(crate) struct Chain {
     pub(crate) cores: Vec<(usize, usize)>,
     /// Outer radius of each element, m: the largest of its discs and windings.
     pub(crate) radii: Vec<f64>,
-    /// Length and outer radius of each element's pieces, m.
-    pub(crate) skins: Vec<Vec<[f64; 2]>>,
+    /// Length of each element's pieces, and their outer radii at the start and at the end, m.
+    pub(crate) skins: Vec<Vec<(f64, [f64; 2])>>,
     /// Quadratures of the elements in the fields of the rings.
     pub(crate) span_quadratures: SpanQuadratures,
     /// Rules for pairs of rings, one table for each ring; equal rings share theirs.
@@ -82,10 +88,11 @@ impl Chain {
     pub(crate) fn beside(design: &Design, settings: &Settings, others: &[Arc<Self>]) -> Result<Self, Error> {
         let mut rings = Vec::new();
         let shaft = design.shaft().map_or(0, |_| SHAFT_ELEMENTS);
-        if let Some(ring) = design.base_ring() {
-            rings.push(RingBody::new(ring, shaft)?);
+        let mut offset = 0.0;
+        for ring in design.base_rings() {
+            rings.push(RingBody::new(ring, shaft, offset)?);
+            offset += ring.length;
         }
-        let mut offset = design.base_ring().map_or(0.0, |ring| ring.length);
         let spans = settings.interaction.acts_on_spans();
         let resolution = Resolution {
             degree: settings.degree + if spans { EXTRA_DEGREES } else { 0 },
@@ -103,7 +110,7 @@ impl Chain {
         let (mut elements, mut cores, mut chains): (Vec<Element>, _, Vec<Vec<Piece<'_>>>) =
             (Vec::new(), Vec::new(), Vec::new());
         if let Some(span) = design.shaft() {
-            let pieces = vec![Piece { span, length: span.length / shaft as f64 }];
+            let pieces = vec![Piece::part(span, 0.0, span.length / shaft as f64)];
             elements = vec![
                 Element::new(
                     0.0,
@@ -116,14 +123,8 @@ impl Chain {
         }
         for segment in design.segments() {
             let first = elements.len();
-            let plain = segment.spans.iter().all(|span| span.kind == SpanKind::Rod);
-            let parts = if plain { settings.cylinder_elements } else { 1 };
-            for _ in 0..parts {
-                let pieces: Vec<Piece<'_>> = segment
-                    .spans
-                    .iter()
-                    .map(|span| Piece { span, length: span.length / parts as f64 })
-                    .collect();
+            let before = rings.last().map(|body: &RingBody| body.ring);
+            for pieces in divide(segment, before.as_ref(), settings.cylinder_elements) {
                 // The segments of most designs are alike.
                 let alike = elements
                     .iter()
@@ -136,26 +137,28 @@ impl Chain {
                 offset = 0.0;
             }
             cores.push((first, elements.len() - 1));
-            if let Some(ring) = &segment.ring {
-                rings.push(RingBody::new(ring, elements.len())?);
-                offset = ring.length;
+            for ring in &segment.rings {
+                rings.push(RingBody::new(ring, elements.len(), offset)?);
+                offset += ring.length;
             }
         }
+        only_axial_rings(&rings, settings.interaction)?;
         let mut first = vec![0];
         for element in &elements {
             first.push(first[first.len() - 1] + element.freedoms());
         }
         let metric = elements.iter().flat_map(|element| element.metric.iter().copied()).collect();
         let span_quadratures = SpanQuadratures::new(&elements, &chains, &rings, settings);
-        let skin = |piece: &Piece<'_>| [piece.length, piece.span.widest_radius()];
-        let skins: Vec<Vec<[f64; 2]>> =
-            chains.iter().map(|pieces| pieces.iter().map(skin).collect()).collect();
-        let radii = skins.iter().map(|skin| skin.iter().map(|piece| piece[1]).fold(0.0, f64::max)).collect();
+        let skins: Vec<Vec<_>> =
+            chains.iter().map(|pieces| pieces.iter().map(Piece::skin).collect()).collect();
+        let radii =
+            skins.iter().map(|own| own.iter().flat_map(|piece| piece.1).fold(0.0, f64::max)).collect();
         let pair_tables = pair_tables(&rings, settings.pair_accuracy, others);
         let made_from = (design.clone(), discretisation(settings));
         let tip_offset = offset;
         let lining = design.guidewire().map(|wire| Lining::new(wire, &elements, shaft));
         Ok(Self {
+            tip_at_rest: tip_at_rest(&elements[shaft..], tip_offset),
             elements,
             rings,
             tip_offset,
@@ -215,8 +218,8 @@ impl Chain {
 
     /// Radius (m) of the round end of a chain that ends without a ring.
     pub(crate) fn round_end(&self) -> Option<f64> {
-        let end = self.skins.last()?.last()?;
-        (self.tip_offset == 0.0).then_some(end[1])
+        let (_, [_, end]) = self.skins.last()?.last()?;
+        (self.tip_offset == 0.0).then_some(*end)
     }
 
     /// Number of unknowns.
@@ -235,6 +238,32 @@ impl Chain {
     }
 }
 
+/// Place of the tip (m) of unloaded elements in the frame of the first one's start; `None` where all of them are straight.
+fn tip_at_rest(elements: &[Element], tip_offset: f64) -> Option<Vector3<f64>> {
+    let bent =
+        |element: &Element| element.stations.iter().any(|station| station.row.rest_rate.xy().norm() > 0.0);
+    if !elements.iter().any(bent) {
+        return None;
+    }
+    let ends = elements.iter().map(|element| Configuration::straight(element).end);
+    Some(ends.fold(Pose::identity(), |node, end| node.compose(&end)).advanced(tip_offset).position)
+}
+
+/// Refuses rigid magnets whose interaction is not known: those that are not rings magnetised along their axis, each on a node of its own.
+fn only_axial_rings(rings: &[RingBody], level: Interaction) -> Result<(), Error> {
+    let known = |body: &RingBody| {
+        body.magnetisation == 0.0
+            || (body.direction.is_axial() && body.ring.shape == RigidShape::Tube && body.start == 0.0)
+    };
+    if level == Interaction::None || rings.len() < 2 || rings.iter().all(known) {
+        return Ok(());
+    }
+    let level = level.name();
+    Err(Error::Unsupported(format!(
+        "model.interaction = \"{level}\" needs magnets along their axis, none of them a ball or welded to another: choose \"none\""
+    )))
+}
+
 /// Rules for pairs of `rings` to a relative accuracy, one table for each; those that `others` have are not made again.
 fn pair_tables(rings: &[RingBody], accuracy: f64, others: &[Arc<Chain>]) -> Vec<Arc<PairTable>> {
     let alike = |chain: &&Arc<Chain>| chain.made_from.1.3.to_bits() == accuracy.to_bits();
@@ -242,6 +271,10 @@ fn pair_tables(rings: &[RingBody], accuracy: f64, others: &[Arc<Chain>]) -> Vec<
     let mut tables: Vec<Arc<PairTable>> = Vec::new();
     for body in rings {
         let (inner, outer, length) = (body.ring.inner_radius, body.ring.outer_radius, body.ring.length);
+        if body.ring.shape == RigidShape::Ball {
+            tables.push(Arc::new(PairTable::of_ball(outer)));
+            continue;
+        }
         let equal = |table: &&Arc<PairTable>| table.is_of(inner, outer, length);
         let equal = tables.iter().find(equal).or_else(|| known.iter().copied().find(equal)).cloned();
         tables.push(equal.unwrap_or_else(|| Arc::new(PairTable::new(inner, outer, length, accuracy))));

@@ -8,7 +8,7 @@ use super::source_field::StationFields;
 use super::terms::{Frame, Mixed, NearStation, RingsOnSpans, TermWrenches, blocks};
 use crate::geometry::hat;
 use crate::numerics::dense;
-use crate::rod::{Configuration, Load, Order, PlacedCoupling, PlacedLoad};
+use crate::rod::{Load, Order, PlacedCoupling, PlacedLoad};
 
 impl Potential<'_> {
     /// Places the chain and sums all loads; returns the energy, or `None` where bodies touch.
@@ -94,8 +94,9 @@ impl Potential<'_> {
             placed.clear();
             let Some(stop) = self.terms.stops.of(element) else { continue };
             let amplitudes = self.chain.part(k, unknowns);
+            let configuration = &work.configurations[k];
             let tangents = element.core_ends.each_ref().map(|row| {
-                Configuration::rotation_at(element, row, amplitudes).matrix().column(2).into_owned()
+                configuration.rotation_at(element, row, amplitudes).matrix().column(2).into_owned()
             });
             let Some(stop) = stop.loads(&tangents) else { continue };
             for (row, load) in element.core_ends.iter().zip(stop.loads) {

@@ -3,6 +3,7 @@
 mod chain;
 mod condensation;
 mod definition;
+mod division;
 mod elastic_norm;
 mod factorisation;
 mod free_turn;
@@ -40,6 +41,7 @@ pub use layout::Input;
 pub(crate) use layout::{Counts, VECTOR};
 pub(crate) use pair_quadrature::PairQuadrature;
 pub(crate) use potential::{EVERY_DIRECTION, EigenSearch, Potential, THOROUGH};
+pub(crate) use ring_body::RingBody;
 pub use settings::{Interaction, Settings};
 pub(crate) use shape_points::{ShapePoint, Site, point_at, strained};
 pub(crate) use surroundings::Surroundings;

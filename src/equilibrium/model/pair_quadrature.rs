@@ -43,6 +43,10 @@ impl PairQuadrature {
         for (i, first) in chain.rings.iter().enumerate() {
             let from = first.centre(&nodes[first.node]);
             for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
+                if first.node == second.node {
+                    chosen.next();
+                    continue;
+                }
                 let to = second.centre(&nodes[second.node]);
                 let seen = Pose {
                     position: from.rotation.tr_mul(&(to.position - from.position)),

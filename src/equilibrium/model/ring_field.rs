@@ -13,7 +13,7 @@ use crate::rod::{Charges, Load, Order, SectionDipoles, SectionStiffness, Station
 /// Sections of an element in the field of one ring, and the loads on them; storage that is used again.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SectionBatch {
-    /// Poses of the sections in the frame of the ring.
+    /// Poses of the sections in the frame of the ring; instead of the normal, the direction of the dipoles.
     pub(crate) sections: Vec<Pose>,
     /// Energy of each section as a load on its frame, in the axes of the ring.
     pub(crate) loads: Vec<Load>,
@@ -108,7 +108,7 @@ impl<'a> RingField<'a> {
         batch.loads.clear();
         batch.sections.clear();
         for sample in samples {
-            let section = start.compose(&states[sample.station].pose());
+            let section = sample.directed(start.compose(&states[sample.station].pose()));
             let dipoles =
                 on_sheet(self.ring, &sample.sheet, &section, sample.accuracy(near), Order::Hessian)?;
             batch.loads.push(dipoles.load(&section.rotation));
@@ -132,13 +132,14 @@ impl<'a> RingField<'a> {
         let (mut energy, mut force, mut moment) = (0.0, Vector3::zeros(), Vector3::zeros());
         for sample in samples {
             let state = &states[sample.station];
-            let section = start.compose(&state.pose());
+            let own_axes = sample.direction.sheet(&state.directors);
+            let section = sample.directed(start.compose(&state.pose()));
             let SheetSums { field, force: [pull, by_x, by_y] } =
                 self.ring.on_sheet(&sample.sheet, &section, sample.accuracy(near))?;
             let director = |i: usize| section.rotation.column(i).into_owned();
             energy -= director(2).dot(&field);
             force += pull;
-            let arm = section.position + Vector3::z() * body.half_length();
+            let arm = section.position + Vector3::z() * body.to_centre();
             moment += arm.cross(&pull)
                 + director(0).cross(&by_x)
                 + director(1).cross(&by_y)
@@ -146,7 +147,7 @@ impl<'a> RingField<'a> {
             let back = |own: &Vector3<f64>| start.rotation.tr_mul(own);
             let load = &mut stations[sample.station];
             load.force -= back(&pull);
-            let own = |i: usize| state.directors.column(i).transpose();
+            let own = |i: usize| own_axes.column(i).transpose();
             load.couple -= back(&by_x) * own(0) + back(&by_y) * own(1) + back(&field) * own(2);
         }
         Some((energy, self.frame.rotation * force, self.frame.rotation * moment))

@@ -40,7 +40,7 @@ impl Near {
 pub(crate) struct StationFields {
     /// The points in the frame of the source, m.
     points: Vec<Vector3<f64>>,
-    /// The normal of the section of each.
+    /// The direction of the dipole at each.
     axes: Vec<Vector3<f64>>,
     /// Where the points of each station end.
     ends: Vec<usize>,
@@ -173,9 +173,10 @@ impl<'a> SourceField<'a> {
         axes.clear();
         for (station, pose) in stations {
             let section = self.locate(&pose);
+            let direction = station.material.direction.seen_in(&section.rotation);
             for position in self.points(station) {
                 points.push(section.transform(&Vector3::new(position.x, position.y, 0.0)));
-                axes.push(section.axis());
+                axes.push(direction);
             }
             ends.push(points.len());
         }
@@ -204,8 +205,8 @@ impl<'a> SourceField<'a> {
         order: Order,
     ) -> Option<Load> {
         let local = self.locate(node);
-        let axis = local.axis();
-        let centre = body.half_length();
+        let (axis, direction) = (local.axis(), body.direction.seen_in(&local.rotation));
+        let centre = body.to_centre();
         let arm = |height: f64| axis * (centre + height);
         let mut load = Load::zero();
 
@@ -214,11 +215,11 @@ impl<'a> SourceField<'a> {
             for (point, (height, _)) in points.iter_mut().zip(nodes) {
                 *point = local.position + arm(*height);
             }
-            self.near_each(&points[..nodes.len()], &axis, order, |number, near| {
+            self.near_each(&points[..nodes.len()], &direction, order, |number, near| {
                 let (height, volume) = nodes[number];
                 let moment = body.magnetisation * volume;
                 let (field, gradient) = (&near.field, &near.gradient);
-                load.add_dipole(moment, &axis, &arm(height), field, gradient, near.along.as_ref());
+                load.add_dipole(moment, &direction, &arm(height), field, gradient, near.along.as_ref());
             })?;
         }
         Some(load)
@@ -238,8 +239,9 @@ impl<'a> SourceField<'a> {
         }
         let share = material.magnetisation * material.moments.volume / points.len() as f64;
         let section = self.locate(pose);
-        let [d1, d2, axis]: [Vector3<f64>; 3] =
-            core::array::from_fn(|i| section.rotation.column(i).into_owned());
+        // Instead of the normal, the direction of the dipoles.
+        let directors = material.direction.sheet(&section.rotation);
+        let [d1, d2, axis]: [Vector3<f64>; 3] = core::array::from_fn(|i| directors.column(i).into_owned());
         let mut sheet = SectionDipoles::new(order == Order::Hessian);
         for (number, position) in points.iter().enumerate() {
             let here;
@@ -252,7 +254,7 @@ impl<'a> SourceField<'a> {
             };
             sheet.add((share, &axis), position, &near.field, &near.gradient, near.along.as_ref());
         }
-        Some(sheet.load(&section.rotation))
+        Some(sheet.load(&directors))
     }
 
     fn locate(&self, pose: &Pose) -> Pose {

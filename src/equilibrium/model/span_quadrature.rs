@@ -5,6 +5,7 @@
 
 use super::ring_body::RingBody;
 use super::settings::{Interaction, Settings};
+use crate::design::Direction;
 use crate::geometry::Pose;
 use crate::magnetics::{DipoleSheet, FieldAccuracy};
 use crate::rod::{Element, Piece, SectionPoint, SourceGeometry, StationQuadrature};
@@ -39,6 +40,8 @@ pub(crate) struct SectionSample {
     /// Index of the station.
     pub(crate) station: usize,
     pub(crate) sheet: DipoleSheet,
+    /// Direction of the dipoles, in the directors.
+    pub(crate) direction: Direction,
     /// How the field is evaluated, and how near the ring.
     accuracy: [FieldAccuracy; 2],
 }
@@ -47,6 +50,11 @@ impl SectionSample {
     /// How the ring's field is evaluated; `near`: nearer than a bend of the chain explains.
     pub(crate) fn accuracy(&self, near: bool) -> FieldAccuracy {
         self.accuracy[usize::from(near)]
+    }
+
+    /// The pose of the section with the direction of the dipoles instead of its normal.
+    pub(crate) fn directed(&self, section: Pose) -> Pose {
+        Pose { rotation: self.direction.sheet(&section.rotation), ..section }
     }
 
     /// The sample for the bend number `level` between the element and a ring.
@@ -61,7 +69,8 @@ impl SectionSample {
         let ratio2 = body.extent().powi(2) / least2;
         let allowed = MULTIPOLE_SHARE * SPAN_SHARE * settings.pair_accuracy;
         let far = FieldAccuracy::far(ratio2, allowed).unwrap_or(near);
-        Self { station: quadrature.station, sheet: DipoleSheet::new(&dipoles), accuracy: [far, near] }
+        let (station, direction) = (quadrature.station, quadrature.direction);
+        Self { station, sheet: DipoleSheet::new(&dipoles), direction, accuracy: [far, near] }
     }
 }
 
@@ -108,7 +117,10 @@ impl SpanQuadratures {
             if pieces[element].iter().all(|piece| piece.span.magnetisation == 0.0) {
                 return None;
             }
-            let geometry = source_geometry(elements, element, body, settings)?;
+            if body.ring.remanence == 0.0 {
+                return None;
+            }
+            let geometry = source_geometry(elements, element, (body, rings), settings)?;
             let same =
                 |own: &SpanQuadrature| own.geometry == geometry && pieces[own.element] == pieces[element];
             Some(quadratures.iter().position(same).unwrap_or_else(|| {
@@ -146,7 +158,7 @@ impl SpanQuadratures {
         let level = BENDS.iter().position(|most| bend <= *most).unwrap_or(BENDS.len() - 1);
         let centre = body.centre(ring);
         let near = ends.into_iter().any(|end| {
-            let straight = self.arc_length[end] - self.arc_length[body.node] - body.half_length();
+            let straight = self.arc_length[end] - self.arc_length[body.node] - body.to_centre();
             (nodes[end].position - centre.position).norm() < chord(level) * straight.abs()
         });
         level + if near { BENDS.len() } else { 0 }
@@ -157,7 +169,7 @@ impl SpanQuadratures {
 fn source_geometry(
     elements: &[Element],
     k: usize,
-    body: &RingBody,
+    (body, rings): (&RingBody, &[RingBody]),
     settings: &Settings,
 ) -> Option<SourceGeometry> {
     let beyond = body.node > k;
@@ -168,12 +180,16 @@ fn source_geometry(
     };
     let between = if beyond { &elements[k + 1..body.node] } else { &elements[body.node..k] };
     let lengths: f64 = between.iter().map(|element| element.offset + element.length).sum();
-    // An element's offset contains the ring before its start: this ring itself, or the one that it faces.
-    let distance = lengths + if beyond { 0.0 } else { elements[k].offset - body.ring.length };
+    // An element's offset contains the rigid part before its start: this ring itself, or what it faces.
+    let distance = lengths + if beyond { body.start } else { elements[k].offset - body.end() };
+    // Of rigid bodies, the nearest one on either side is bonded to the spans.
+    let nearest = |other: &&RingBody| (other.node > k) == beyond;
+    let bonded = if beyond { rings.iter().find(nearest) } else { rings.iter().rev().find(nearest) };
     acts.then(|| SourceGeometry {
         distance,
         beyond,
-        bonded: body.node == k || body.node == k + 1,
+        bonded: bonded
+            .is_some_and(|own| (own.node, own.start.to_bits()) == (body.node, body.start.to_bits())),
         radius: body.ring.outer_radius,
         bend: 0.0,
         accuracy: SPAN_SHARE * settings.pair_accuracy,

@@ -28,7 +28,7 @@ impl Equilibrium {
         {
             return None;
         }
-        let faces = rings.iter().zip(&chain.rings).map(|(pose, body)| pose.advanced(-body.half_length()));
+        let faces = rings.iter().zip(&chain.rings).map(|(pose, body)| pose.advanced(-body.to_centre()));
         let faces: Vec<Pose> = faces.collect();
         let mut unknowns = Vec::with_capacity(chain.freedoms());
         for (element, ends) in chain.elements.iter().zip(faces.windows(2)) {
@@ -56,7 +56,8 @@ impl Equilibrium {
 /// Amplitudes with which the element ends at `target`, found by steps that are shortest in the elastic energy norm.
 fn reaching(element: &Element, target: &Pose) -> Option<Vec<f64>> {
     let mut amplitudes = vec![0.0; element.freedoms()];
-    amplitudes[..ROTATION].copy_from_slice(rotation_log(&target.rotation).as_slice());
+    let bent = rotation_log(&target.rotation) - element.rest_angle;
+    amplitudes[..ROTATION].copy_from_slice(bent.as_slice());
     let mut configuration = Configuration::straight(element);
     let mut end = |amplitudes: &[f64]| {
         configuration.update(element, amplitudes);

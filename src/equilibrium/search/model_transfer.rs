@@ -91,10 +91,13 @@ impl Equilibrium {
 }
 
 impl Equilibrium {
-    /// Distance (m) of a tip from its unloaded place at these inputs: that of the straight device behind as much shaft, at the same base.
+    /// Distance (m) of a tip from its unloaded place at these inputs: that of the unloaded device behind as much shaft, at the same base.
     pub(crate) fn tip_travel(&self, inputs: &Inputs, tip: &Pose) -> f64 {
         let shaft = self.chain.inserted(self.chain.growth(inputs.insertion));
-        let unloaded = inputs.base.position + inputs.base.axis() * (shaft + self.chain.length());
+        let unloaded = match &self.chain.tip_at_rest {
+            Some(own) => inputs.root().advanced(shaft).transform(own),
+            None => inputs.base.position + inputs.base.axis() * (shaft + self.chain.length()),
+        };
         (tip.position - unloaded).norm()
     }
 }

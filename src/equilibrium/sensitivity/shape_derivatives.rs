@@ -7,7 +7,7 @@ use super::response::Response;
 use crate::equilibrium::model::{Input, ShapePoint, Site, strained};
 use crate::equilibrium::search::Equilibrium;
 use crate::geometry::hat;
-use crate::rod::{Configuration, curvature_rates, curvature_slope};
+use crate::rod::{curvature_rates, curvature_slope};
 
 impl Equilibrium {
     /// Position, tangent and curvature at each centreline point.
@@ -48,21 +48,22 @@ impl Equilibrium {
         let Some((k, row)) = strained(&self.chain, point) else {
             return DMatrix::zeros(3, response.counts.inputs());
         };
-        let (element, growth) = (&self.chain.elements[k], self.work.configurations[k].growth);
+        let (element, configuration) = (&self.chain.elements[k], &self.work.configurations[k]);
+        let growth = configuration.growth;
         let amplitudes = self.chain.part(k, &self.branch.unknowns);
         let own = self.chain.first[k]..self.chain.first[k + 1];
         let own_rates = response.unknowns.rows_range(own);
-        let by_shape = curvature_rates(element, &row, amplitudes) * own_rates / growth;
+        let by_shape = curvature_rates(configuration, element, &row, amplitudes) * own_rates / growth;
         let mut rates = DMatrix::from_column_slice(3, by_shape.ncols(), by_shape.as_slice());
 
         if let Some(share) = share {
             let slopes = self.chain.tables()[k].rate_slopes(row.arc_length);
-            let slope = curvature_slope(element, &row, &slopes, amplitudes);
+            let slope = curvature_slope(configuration, element, (&row, &slopes), amplitudes);
             let mut by_insertion = rates.fixed_view_mut::<3, 1>(0, Input::Insertion.columns().start);
             by_insertion += slope * (self.along(k, share) / growth);
             if k < self.chain.shaft {
                 // The same rotations on a longer shaft.
-                let curvature = self.work.configurations[k].curvature_at(element, &row, amplitudes);
+                let curvature = configuration.curvature_at(element, &row, amplitudes);
                 by_insertion -= curvature / self.chain.inserted(self.work.growth);
             }
         }
@@ -77,8 +78,9 @@ impl Equilibrium {
             Site::Elastic(element, row) => {
                 let (chain, k) = (&self.chain, *element);
                 let amplitudes = chain.part(k, &self.branch.unknowns);
-                let (_, local) = self.work.configurations[k].curve_at(&chain.elements[k], row, amplitudes);
-                let turning = Configuration::turning_at(&chain.elements[k], row, amplitudes);
+                let configuration = &self.work.configurations[k];
+                let (_, local) = configuration.curve_at(&chain.elements[k], row, amplitudes);
+                let turning = configuration.turning_at(&chain.elements[k], row, amplitudes);
                 let (axes, along) = (self.work.nodes[k].rotation, self.along(k, share));
                 (axes * local * along, axes * turning * along)
             }

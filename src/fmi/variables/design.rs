@@ -10,7 +10,7 @@ use super::super::variable::Access;
 use super::rows::{Draft, Rows};
 use super::{Counts, access};
 use crate::design::CylinderMaterial::{self, Bulk, Composite};
-use crate::design::Specification::{Cylinder, Segmented};
+use crate::design::Specification::{Cylinder, Sections, Segmented};
 use crate::design::{self, Modulus, SpiralKind, quantities as of};
 
 /// How the spirals are arranged.
@@ -63,12 +63,13 @@ impl Rows {
     pub(super) fn design_parameters(&mut self, start: &HostValues) {
         match &start.specification {
             Segmented(segmented) => {
-                self.helix();
+                self.helix(segmented);
                 self.spiral(segmented.segments);
-                self.ring();
+                self.ring(segmented);
                 self.backbone(&start.backbone.modulus);
             }
             Cylinder(cylinder) => self.cylinder(&cylinder.material),
+            Sections(device) => self.sections(device),
         }
     }
 
@@ -86,10 +87,13 @@ impl Rows {
         constant("shape.points", "Number of centreline points", count(counts.shape_points));
     }
 
-    fn helix(&mut self) {
+    fn helix(&mut self, chain: &design::Segmented) {
         let length = design_access!(Segmented(s) => s.helix.length);
-        self.scalar(Draft::holding(&of::HELIX_LENGTH, LENGTH, length).known(Known::BodyLength));
-        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        let draft = Draft::holding(&of::HELIX_LENGTH, LENGTH, length).known(Known::BodyLength);
+        self.for_each(chain, draft, &of::HELIX_LENGTH);
+        let mut number = |quantity, unit, access| {
+            self.for_each(chain, Draft::holding(quantity, unit, access), quantity);
+        };
         number(&of::HELIX_BOUNDARY_ANGLE, ANGLE, design_access!(Segmented(s) => s.helix.boundary_angle));
         number(&of::HELIX_RADIUS, LENGTH, design_access!(Segmented(s) => s.helix.radius));
         number(&of::HELIX_WINDINGS, RATIO, design_access!(Segmented(s) => s.helix.windings));
@@ -120,7 +124,7 @@ impl Rows {
                     SpiralKind::Axisymmetric => 1,
                     SpiralKind::Alternating => 2,
                 },
-                Cylinder(_) => 0,
+                Cylinder(_) | Sections(_) => 0,
             },
             set: |values, number| {
                 if let Segmented(s) = &mut values.specification {
@@ -140,7 +144,7 @@ impl Rows {
         let start = Access::Real {
             get: |values, index| match &values.specification {
                 Segmented(s) => s.spiral_start.of(index.component),
-                Cylinder(_) => f64::NAN,
+                Cylinder(_) | Sections(_) => f64::NAN,
             },
             set: |values, index, value| {
                 if let Segmented(s) = &mut values.specification {
@@ -154,10 +158,13 @@ impl Rows {
         self.array(segments, &draft.min(-TAU).max(TAU));
     }
 
-    fn ring(&mut self) {
+    fn ring(&mut self, chain: &design::Segmented) {
         let length = design_access!(Segmented(s) => s.ring.length);
-        self.scalar(Draft::holding(&of::RING_LENGTH, LENGTH, length).known(Known::RingLength));
-        let mut number = |quantity, unit, access| self.scalar(Draft::holding(quantity, unit, access));
+        let draft = Draft::holding(&of::RING_LENGTH, LENGTH, length).known(Known::RingLength);
+        self.for_each(chain, draft, &of::RING_LENGTH);
+        let mut number = |quantity, unit, access| {
+            self.for_each(chain, Draft::holding(quantity, unit, access), quantity);
+        };
         number(&of::RING_REMANENCE, REMANENCE, design_access!(Segmented(s) => s.ring.remanence));
         let permeability = design_access!(Segmented(s) => s.ring.recoil_permeability);
         number(&of::RING_RECOIL_PERMEABILITY, RATIO, permeability);

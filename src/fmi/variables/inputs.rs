@@ -64,7 +64,7 @@ impl Rows {
         self.array(3, &draft.derivative_role(DerivativeRole::Input(Input::TipMoment)));
 
         for ring in 0..counts.rings {
-            let clamped = counts.clamped_ring && ring == 0;
+            let clamped = ring < counts.clamped_rings;
             let name = format!("ring[{}].load_force", ring + 1);
             let force = access!(|values, index| values.ring_forces[index.item][index.component]);
             let draft = Draft::input(name, FORCE, "Force at the ring's centre", force);

@@ -133,8 +133,8 @@ impl Rows {
             bodies.counts.shaft.then_some(bodies.counts.shape_points),
         );
         if role != DerivativeRole::None {
-            let Counts { clamped_ring, shaft, .. } = bodies.counts;
-            draft = draft.continuous(role).dependency(Dependency::of(role, clamped_ring, shaft));
+            let Counts { clamped_rings, shaft, .. } = bodies.counts;
+            draft = draft.continuous(role).dependency(Dependency::of(role, clamped_rings, shaft));
         }
         if let Some(request) = row.request {
             draft = draft.availability(Availability::OnRequest(request));

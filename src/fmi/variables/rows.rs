@@ -132,6 +132,11 @@ impl Draft {
         self.with(|row| row.derivative_role = role)
     }
 
+    /// The draft of a variable that is read and set otherwise.
+    pub(super) fn access(self, access: Access) -> Self {
+        self.with(|row| row.access = access)
+    }
+
     pub(super) fn known(self, known: Known) -> Self {
         self.with(|row| row.known = known)
     }

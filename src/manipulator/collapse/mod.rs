@@ -50,13 +50,14 @@ impl Collapse {
     ///
     /// Other shapes cost nothing. Where a loaded scene has no shape, the unloaded device is solved first. The search for a remedy ends
     /// after one more time budget of the scene, and with it the last solve that it began. Devices in a vessel, whose wall may hold
-    /// them, or in whose way a magnet or coil stands, and methods other than the potential method are not judged.
+    /// them, or in whose way a magnet or coil stands, devices whose segments differ in hardness or rings in remanence, and methods other than the potential method are not judged.
     ///
     /// # Errors
     /// As [`Scene::manipulator`] and [`super::Manipulator::solve`].
     pub fn of(file: &SceneFile, scene: &Scene, outputs: &Outputs) -> Result<Option<Self>, Error> {
         let level = richest(scene.settings.interaction);
-        let judged = scene.method == POTENTIAL && scene.vessel.is_none();
+        let judged =
+            scene.method == POTENTIAL && scene.vessel.is_none() && remedy::has_keys(&scene.specification);
         if !judged || !rings_attract(&scene.specification, level) {
             return Ok(None);
         }
@@ -103,7 +104,7 @@ impl fmt::Display for Collapse {
 #[must_use]
 pub fn rings_attract(specification: &Specification, level: Interaction) -> bool {
     let Specification::Segmented(chain) = specification else { return false };
-    chain.ring.remanence > 0.0 && level != Interaction::None
+    level != Interaction::None && chain.ring_magnets().any(|(ring, _)| ring.remanence != 0.0)
 }
 
 /// The level that decides whether a device stands.

@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::bracket::Bracket;
 use super::{Outputs, Scene, SceneFile, Status, stands};
+use crate::design::{Specification, ValueList};
 use crate::equilibrium::{Deadline, Outcome};
 use crate::error::Error;
 use crate::manipulator::way::Way;
@@ -22,6 +23,12 @@ const KEYS: [Key; 2] = [
     Key { name: "design.helix.shore_a", limit: 95.0, per_unit: 10.0 },
     Key { name: "design.ring.remanence_t", limit: 0.1, per_unit: 100.0 },
 ];
+
+/// Whether a device has the numbers that are tried, each the same for all of its segments.
+pub(super) fn has_keys(specification: &Specification) -> bool {
+    let tried = |list: &ValueList| KEYS.iter().any(|key| key.name == list.quantity.key);
+    matches!(specification, Specification::Segmented(chain) if !chain.lists.iter().any(tried))
+}
 
 /// A number of the design that makes a device stand.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -33,6 +33,8 @@ const VECTOR: &[&str] = &["x, world frame", "y, world frame", "z, world frame"];
 /// A quaternion that turns vectors of a body into those of the world.
 const ROTATION: &[&str] =
     &["w (scalar), body to world", "x, body to world", "y, body to world", "z, body to world"];
+/// A vector in the material frame.
+const MATERIAL: &[&str] = &["along d1", "along d2", "along d3"];
 /// Curvature and twist in the material frame.
 const STRAIN: &[&str] = &["u1, about d1", "u2, about d2", "u3, twist about d3"];
 /// The gradient of a field without sources: symmetric and without trace, so five elements tell all nine.
@@ -61,6 +63,12 @@ pub const UNITS: &[Unit] = &[
     Unit { name: "A", base: &[("A", 1)], display: None },
     Unit { name: "kg/m3", base: &[("kg", 1), ("m", -3)], display: None },
     Unit { name: "1/m", base: &[("m", -1)], display: None },
+    Unit { name: "N.m2", base: &[("kg", 1), ("m", 3), ("s", -2)], display: Some(("N.mm2", 1e6)) },
+    Unit {
+        name: "rad/m",
+        base: &[("rad", 1), ("m", -1)],
+        display: Some(("deg/mm", DEGREES_PER_RADIAN * 1e-3)),
+    },
 ];
 
 const fn quantity(
@@ -132,6 +140,16 @@ pub const CURRENT: Quantity = quantity("Current", "A", 1.0, "Electric current");
 pub const CURVATURE: Quantity =
     quantity("Curvature", "1/m", 100.0, "Rotation of the directors per arc length, material frame")
         .with(STRAIN);
+/// Component of a unit vector in the material frame, 1.
+pub const MATERIAL_DIRECTION: Quantity =
+    quantity("MaterialDirection", "1", 1.0, "Component of a unit vector, material frame").with(MATERIAL);
+/// Turn of a direction along the axis, rad/m.
+pub const TURN: Quantity = quantity("Turn", "rad/m", 100.0, "Turn about the axis per arc length");
+/// Bending or torsional stiffness, N m2.
+pub const ROTATIONAL_STIFFNESS: Quantity =
+    quantity("RotationalStiffness", "N.m2", 1e-6, "Bending or torsional stiffness");
+/// Axial or shear stiffness, N.
+pub const LINE_STIFFNESS: Quantity = quantity("LineStiffness", "N", 10.0, "Axial or shear stiffness");
 /// Energy, J; no variable of the FMU is one.
 pub const ENERGY: Quantity = quantity("Energy", "J", 1e-6, "Energy");
 /// Processor time, s.
@@ -157,4 +175,8 @@ pub const QUANTITIES: &[Quantity] = &[
     CURRENT,
     TIME,
     CURVATURE,
+    MATERIAL_DIRECTION,
+    TURN,
+    ROTATIONAL_STIFFNESS,
+    LINE_STIFFNESS,
 ];

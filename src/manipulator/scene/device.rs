@@ -3,11 +3,12 @@
 use toml::Value;
 
 use super::SceneFile;
-use super::file::{DesignEntries, DesignKind, HelixEntries, RingEntries, SpiralName};
-use super::spiral_start::SpiralStartEntry;
+use super::file::{DesignEntries, DesignKind, SpiralName};
+use super::numbers::Numbers;
 use super::units::{MM_PER_M, PA_PER_MPA};
+use super::{sections, spiral_start};
 use crate::design::{
-    Cylinder, CylinderMaterial, Helix, RingMagnet, Segmented, Specification, SpiralKind, SpiralStart,
+    Cylinder, CylinderMaterial, Design, Helix, Segmented, Specification, SpiralKind, SpiralStart,
 };
 use crate::error::Error;
 
@@ -17,6 +18,7 @@ impl SceneFile {
         let own = match Value::from(kind).try_into().unwrap_or_default() {
             DesignKind::Segments => &DesignEntries::OF_SEGMENTS[..],
             DesignKind::Cylinder => &DesignEntries::OF_CYLINDER[..],
+            DesignKind::Sections => &DesignEntries::OF_SECTIONS[..],
         };
         std::iter::once("kind").chain(own.iter().map(|(key, _)| *key)).collect()
     }
@@ -30,42 +32,45 @@ impl DesignEntries {
 
     /// Fills in the defaults that do not depend on other entries.
     pub(super) fn complete(&mut self) {
-        if self.kind == DesignKind::Segments {
-            self.segments.get_or_insert(Self::SEGMENTS);
-            self.base_magnet.get_or_insert(true);
-            self.tip_magnet.get_or_insert(true);
-            self.spiral.get_or_insert(SpiralName::Helical);
-            self.spiral_start_deg.get_or_insert(SpiralStartEntry::Same(0.0));
-            self.helix.get_or_insert_default();
-            self.ring.get_or_insert_default();
-        } else {
-            self.inner_radius_mm.get_or_insert(0.0);
+        match self.kind {
+            DesignKind::Segments => self.complete_segments(),
+            DesignKind::Cylinder => {
+                self.inner_radius_mm.get_or_insert(0.0);
+            }
+            DesignKind::Sections => {}
         }
+    }
+
+    fn complete_segments(&mut self) {
+        self.segments.get_or_insert(Self::SEGMENTS);
+        self.base_magnet.get_or_insert(true);
+        self.tip_magnet.get_or_insert(true);
+        self.spiral.get_or_insert(SpiralName::Helical);
+        self.spiral_start_deg.get_or_insert(Numbers::Same(0.0));
+        self.helix.get_or_insert_default();
+        self.ring.get_or_insert_default();
+    }
+
+    /// The device with its specification.
+    pub(super) fn design(&self) -> Result<(Specification, Design), Error> {
+        let specification = self.specification()?;
+        let design = Design::new(specification.clone()).map_err(|error| {
+            // The tables of the file come before what is repeated.
+            match sections::listed(&self.section, &self.group) {
+                Ok((_, order)) if self.kind == DesignKind::Sections => {
+                    error.renumbered(|number| order.get(number - 1).copied().unwrap_or(number))
+                }
+                _ => error,
+            }
+        })?;
+        Ok((specification, design))
     }
 
     pub(super) fn specification(&self) -> Result<Specification, Error> {
         self.refuse_keys_of_other_kind()?;
 
-        let segments = self.segments.unwrap_or(Self::SEGMENTS);
         Ok(match self.kind {
-            DesignKind::Segments => Specification::Segmented(Segmented {
-                segments,
-                base_magnet: self.base_magnet.unwrap_or(true),
-                tip_magnet: self.tip_magnet.unwrap_or(true),
-                spiral: match self.spiral {
-                    Some(SpiralName::Axisymmetric) => SpiralKind::Axisymmetric,
-                    Some(SpiralName::Alternating) => SpiralKind::Alternating,
-                    Some(SpiralName::Helical) | None => SpiralKind::Helical,
-                },
-                spiral_start: match &self.spiral_start_deg {
-                    Some(start) => start.si(segments)?,
-                    None => SpiralStart::Same(0.0),
-                },
-                helix: self.helix.unwrap_or_default().si(),
-                ring: self.ring.unwrap_or_default().si(),
-                backbone: self.backbone.map(|entries| entries.si("design.backbone")).transpose()?,
-            }),
-
+            DesignKind::Segments => Specification::Segmented(self.segmented()?),
             DesignKind::Cylinder => Specification::Cylinder(Cylinder {
                 length: required("design.length_mm", self.length_mm)? / MM_PER_M,
                 radius: required("design.radius_mm", self.radius_mm)? / MM_PER_M,
@@ -73,19 +78,46 @@ impl DesignEntries {
                 material: self.cylinder_material()?,
                 density: self.density_kg_m3,
             }),
+            DesignKind::Sections => Specification::Sections(sections::listed(&self.section, &self.group)?.0),
+        })
+    }
+
+    fn segmented(&self) -> Result<Segmented, Error> {
+        let segments = self.segments.unwrap_or(Self::SEGMENTS);
+        let (helix, mut lists) = self.helix.clone().unwrap_or_default().si();
+        let (ring, of_rings, ring_directions) = self.ring.clone().unwrap_or_default().si();
+        lists.extend(of_rings);
+        Ok(Segmented {
+            segments,
+            base_magnet: self.base_magnet.unwrap_or(true),
+            tip_magnet: self.tip_magnet.unwrap_or(true),
+            spiral: match self.spiral {
+                Some(SpiralName::Axisymmetric) => SpiralKind::Axisymmetric,
+                Some(SpiralName::Alternating) => SpiralKind::Alternating,
+                Some(SpiralName::Helical) | None => SpiralKind::Helical,
+            },
+            spiral_start: match &self.spiral_start_deg {
+                Some(start) => spiral_start::si(start, segments)?,
+                None => SpiralStart::Same(0.0),
+            },
+            helix,
+            ring,
+            lists,
+            ring_directions,
+            backbone: self.backbone.map(|entries| entries.si("design.backbone")).transpose()?,
         })
     }
 
     /// A composite as in Table 1 by default, or a bulk material when its modulus or remanence is given directly.
     fn cylinder_material(&self) -> Result<CylinderMaterial, Error> {
-        let table_1 = HelixEntries::default();
+        let table_1 = Helix::paper();
         let poisson = self.poisson.unwrap_or(table_1.poisson);
         if self.elastic_modulus_mpa.is_none() && self.remanence_t.is_none() {
             return Ok(CylinderMaterial::Composite {
                 shore_a: self.shore_a.unwrap_or(table_1.shore_a),
                 poisson,
                 volume_fraction: self.volume_fraction.unwrap_or(table_1.volume_fraction),
-                particle_remanence: self.particle_remanence_t.unwrap_or(table_1.particle_remanence_t),
+                particle_remanence: self.particle_remanence_t.unwrap_or(table_1.particle_remanence),
             });
         }
         self.refuse(
@@ -125,6 +157,10 @@ impl DesignEntries {
         ("density_kg_m3", |design| design.density_kg_m3.is_some()),
     ];
 
+    /// Keys of a device made of sections.
+    pub(super) const OF_SECTIONS: [DesignKey; 2] =
+        [("section", |design| !design.section.is_empty()), ("group", |design| !design.group.is_empty())];
+
     /// Keys of a rod of rubber with particles, which have no meaning where modulus and remanence are given.
     pub(super) const OF_COMPOSITE: [DesignKey; 3] = [
         ("shore_a", |design| design.shore_a.is_some()),
@@ -133,12 +169,27 @@ impl DesignEntries {
     ];
 
     fn refuse_keys_of_other_kind(&self) -> Result<(), Error> {
+        let of_segments = "belongs to kind = \"segments\"";
+        let of_sections = "belongs to kind = \"sections\"";
         match self.kind {
-            DesignKind::Segments => self.refuse(
-                &Self::OF_CYLINDER,
-                "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
-            ),
-            DesignKind::Cylinder => self.refuse(&Self::OF_SEGMENTS, "belongs to kind = \"segments\""),
+            DesignKind::Segments => {
+                self.refuse(
+                    &Self::OF_CYLINDER,
+                    "belongs to kind = \"cylinder\"; the segments' dimensions are in design.helix and design.ring",
+                )?;
+                self.refuse(&Self::OF_SECTIONS, of_sections)
+            }
+            DesignKind::Cylinder => {
+                self.refuse(&Self::OF_SEGMENTS, of_segments)?;
+                self.refuse(&Self::OF_SECTIONS, of_sections)
+            }
+            DesignKind::Sections => {
+                self.refuse(&Self::OF_SEGMENTS, of_segments)?;
+                self.refuse(
+                    &Self::OF_CYLINDER,
+                    "belongs to kind = \"cylinder\"; what a section is made of is in its table [[design.section]]",
+                )
+            }
         }
     }
 
@@ -153,33 +204,4 @@ impl DesignEntries {
 
 fn required(key: &str, value: Option<f64>) -> Result<f64, Error> {
     value.ok_or_else(|| Error::Unsupported(format!("{key} is missing")))
-}
-
-impl HelixEntries {
-    fn si(self) -> Helix {
-        Helix {
-            length: self.length_mm / MM_PER_M,
-            boundary_angle: self.boundary_angle_deg.to_radians(),
-            radius: self.radius_mm / MM_PER_M,
-            windings: self.windings,
-            core_outer_radius: self.core_outer_radius_mm / MM_PER_M,
-            core_inner_radius: self.core_inner_radius_mm / MM_PER_M,
-            shore_a: self.shore_a,
-            poisson: self.poisson,
-            volume_fraction: self.volume_fraction,
-            particle_remanence: self.particle_remanence_t,
-            density: self.density_kg_m3,
-        }
-    }
-}
-
-impl RingEntries {
-    fn si(self) -> RingMagnet {
-        RingMagnet {
-            length: self.length_mm / MM_PER_M,
-            remanence: self.remanence_t,
-            recoil_permeability: self.recoil_permeability,
-            density: self.density_kg_m3,
-        }
-    }
 }

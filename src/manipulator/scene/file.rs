@@ -5,9 +5,11 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::choices;
+use super::numbers::Numbers;
 use super::pose::TURN_AXIS;
+use super::sections::{GroupEntries, SectionEntries};
+use super::segments::{HelixEntries, RingEntries};
 use super::sources::{CoilEntries, Magnets};
-use super::spiral_start::SpiralStartEntry;
 use super::tube::{BackboneEntries, GuidewireEntries};
 use super::units::MM_PER_M;
 use super::vessel::{FeedEntries, VesselEntries};
@@ -24,7 +26,7 @@ use crate::vessel::Lumen;
 pub struct SceneFile {
     /// The device: what is built.
     ///
-    /// A chain of segments, each a soft magnetic helix and the ring magnet at its end, or a plain magnetised rod.
+    /// A chain of segments, each a soft magnetic helix and the ring magnet at its end, a plain magnetised rod, or any sections in a row.
     pub(super) design: DesignEntries,
     /// A background field: uniform, and changing linearly about the origin.
     pub(super) field: FieldEntries,
@@ -108,6 +110,8 @@ pub(super) enum DesignKind {
     Segments,
     /// A plain magnetised rod.
     Cylinder,
+    /// Any tubes, rods, magnets and balls in a row.
+    Sections,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -143,7 +147,7 @@ pub(super) struct DesignEntries {
     pub(super) spiral: Option<SpiralName>,
     /// Turns the spirals about the axis: one number, or a list with one for each segment.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) spiral_start_deg: Option<SpiralStartEntry>,
+    pub(super) spiral_start_deg: Option<Numbers>,
     /// Length of the rod; no default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) length_mm: Option<f64>,
@@ -187,75 +191,12 @@ pub(super) struct DesignEntries {
     /// Its stiffness is either `shore_a` or `elastic_modulus_mpa`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) backbone: Option<BackboneEntries>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct HelixEntries {
-    /// Length of the helix.
-    pub(super) length_mm: f64,
-    /// Bending of a segment at which adjacent windings touch.
-    pub(super) boundary_angle_deg: f64,
-    /// Outer radius, of the rings too.
-    pub(super) radius_mm: f64,
-    /// Number of windings.
-    pub(super) windings: f64,
-    /// Outer radius of the tube about which the spiral is wound.
-    pub(super) core_outer_radius_mm: f64,
-    /// Radius of that tube's bore, and of the rings'.
-    pub(super) core_inner_radius_mm: f64,
-    /// Shore A hardness of the rubber without particles.
-    pub(super) shore_a: f64,
-    /// Poisson's ratio.
-    pub(super) poisson: f64,
-    /// Volume fraction of magnetic particles; at 1/1.35 the stiffness of the mixture diverges.
-    pub(super) volume_fraction: f64,
-    /// Remanence of the particles.
-    pub(super) particle_remanence_t: f64,
-    /// Density; left out: that of the mixture.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) density_kg_m3: Option<f64>,
-}
-
-impl Default for HelixEntries {
-    /// Table 1 of Richter et al.
-    fn default() -> Self {
-        Self {
-            length_mm: 4.0,
-            boundary_angle_deg: 40.0,
-            radius_mm: 2.0,
-            windings: 2.0,
-            core_outer_radius_mm: 0.95,
-            core_inner_radius_mm: 0.75,
-            shore_a: 33.0,
-            poisson: 0.4,
-            volume_fraction: 0.25,
-            particle_remanence_t: 1.0,
-            density_kg_m3: None,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, default)]
-pub(super) struct RingEntries {
-    /// Length along the axis.
-    pub(super) length_mm: f64,
-    /// Remanence along the axis.
-    pub(super) remanence_t: f64,
-    /// Relative recoil permeability: 1.05 for sintered `NdFeB`, which its own field weakens.
-    pub(super) recoil_permeability: f64,
-    /// Density.
-    pub(super) density_kg_m3: f64,
-}
-
-impl Default for RingEntries {
-    /// Table 1 of Richter et al.; the density is that of `NdFeB`, rounded.
-    fn default() -> Self {
-        Self { length_mm: 1.0, remanence_t: 1.35, recoil_permeability: 1.0, density_kg_m3: 7000.0 }
-    }
+    /// A section of a device of kind `"sections"`, proximal to distal: one table for each.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) section: Vec<SectionEntries>,
+    /// Sections that are repeated together. One table for each group.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) group: Vec<GroupEntries>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -9,12 +9,15 @@ mod mesh;
 mod moved;
 mod multipoles;
 mod names;
+mod numbers;
 mod path;
 mod pose;
 mod ranges;
 mod resolve;
 #[cfg(test)]
 mod schema;
+mod sections;
+mod segments;
 mod shaped_magnets;
 mod sources;
 mod spiral_start;

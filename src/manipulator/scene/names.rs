@@ -17,12 +17,16 @@ pub(super) enum Unit {
     Same,
     Millimetre,
     Degree,
+    DegreePerMillimetre,
     Megapascal,
 }
 
 impl Unit {
     /// That of a key, which its name ends with.
     pub(super) fn of(key: &str) -> Self {
+        if without_index(key).ends_with("_deg_per_mm") {
+            return Self::DegreePerMillimetre;
+        }
         match without_index(key).rsplit('_').next() {
             Some("mm") => Self::Millimetre,
             Some("deg") => Self::Degree,
@@ -37,7 +41,19 @@ impl Unit {
             Self::Same => 1.0,
             Self::Millimetre => MM_PER_M,
             Self::Degree => 180.0 / PI,
+            Self::DegreePerMillimetre => 180.0 / PI / MM_PER_M,
             Self::Megapascal => 1.0 / PA_PER_MPA,
+        }
+    }
+
+    /// A number of it in the unit of the library.
+    pub(super) fn in_si(self, number: f64) -> f64 {
+        match self {
+            Self::Same => number,
+            Self::Millimetre => number / MM_PER_M,
+            Self::Degree => number.to_radians(),
+            Self::DegreePerMillimetre => number.to_radians() * MM_PER_M,
+            Self::Megapascal => number * PA_PER_MPA,
         }
     }
 

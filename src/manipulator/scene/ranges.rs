@@ -1,5 +1,6 @@
 //! The allowed range of the numbers of a scene that no other part of the library checks, in the units of the scene.
 
+use crate::design::MOST_SECTIONS;
 use crate::equilibrium::{LONGEST_INSERTION, LONGEST_REACH};
 use crate::error::Interval;
 
@@ -16,6 +17,9 @@ pub(super) const INSERTION: Interval = Interval::at_least(0.0).at_most(1e3 * LON
 /// Reach of the guidewire from the port, mm.
 pub(super) const GUIDEWIRE_INSERTION: Interval = Interval::at_least(0.0).at_most(1e3 * LONGEST_REACH);
 
+/// How many sections, or groups of sections, follow one another.
+pub(super) const REPEAT: Interval = Interval::at_least(1.0).at_most(MOST_SECTIONS as f64);
+
 /// Standard deviations of any number.
 pub(super) const DEVIATION: Interval = Interval::above(0.0);
 
@@ -24,7 +28,9 @@ pub(super) const CORRELATION: Interval = Interval::within(1.0);
 
 /// The keys that these ranges are of.
 #[cfg(test)]
-pub(super) const KEYS: [(&str, Interval); 8] = [
+pub(super) const KEYS: [(&str, Interval); 10] = [
+    ("design.section.repeat", REPEAT),
+    ("design.group.repeat", REPEAT),
     ("field.turn_deg", TURN),
     ("magnet.turn_deg", TURN),
     ("base.turn_deg", TURN),

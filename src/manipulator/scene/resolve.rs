@@ -4,9 +4,9 @@ use nalgebra::Vector3;
 use toml::Value;
 
 use super::file::{FieldEntries, ModelEntries, SceneFile};
+use super::names::without_index;
 use super::pose::{in_metres, pose, turn, turned};
 use super::ranges::{GUIDEWIRE_INSERTION, INSERTION, TURN};
-use super::spiral_start::SpiralStartEntry;
 use super::tube::GuidewireEntries;
 use super::units::{MM_PER_M, MT_PER_T};
 use super::vessel::{FeedMode, VesselEntries};
@@ -56,8 +56,7 @@ impl SceneFile {
         &self,
         vessel_of: impl FnOnce(&VesselEntries) -> Result<Option<Vessel>, Error>,
     ) -> Result<Scene, Error> {
-        let specification = self.design.specification()?;
-        let design = Design::new(specification.clone())?;
+        let (specification, design) = self.design.design()?;
         let inputs = self.inputs(&design)?;
         let sources = self.sources()?;
 
@@ -114,18 +113,17 @@ impl SceneFile {
 
     /// Fills in the entry that `key` names if it was omitted because it follows from the design.
     pub(super) fn complete_for(&mut self, key: &str) -> Result<(), Error> {
-        let design = || Design::new(self.design.specification()?);
+        let design = || Ok::<_, Error>(self.design.design()?.1);
         if key.starts_with("load.ring_force_n") && self.load.ring_force_n.is_none() {
             self.load.ring_force_n = Some(vec![[0.0; 3]; design()?.rings().count()]);
         } else if let Some(magnet) = self.magnet.0.first_mut().filter(|m| m.position_mm.is_none())
             && ["magnet.position_mm", "magnet[1].position_mm"].iter().any(|start| key.starts_with(start))
         {
             magnet.position_mm = Some(beside(&design()?).map(|x| x * MM_PER_M));
-        } else if let Some(SpiralStartEntry::Same(degrees)) = self.design.spiral_start_deg
-            && key.starts_with("design.spiral_start_deg[")
-        {
-            let segments = design()?.segments().len();
-            self.design.spiral_start_deg = Some(SpiralStartEntry::Each(vec![degrees; segments]));
+        } else if key.ends_with(']') && key.starts_with("design.") && !key.starts_with("design.section") {
+            let design = design()?;
+            let counts = [design.segments().len(), design.rings().count()];
+            self.design.spread(without_index(key), counts);
         }
         Ok(())
     }

@@ -11,9 +11,10 @@ use serde_json::{Value, json};
 
 use super::device::DesignKey;
 use super::file::DesignEntries;
+use super::numbers::Numbers;
 use super::sources::{MagnetEntries, Magnets};
-use super::spiral_start::SpiralStartEntry;
 use super::{SceneFile, magnet_shape, names, ranges};
+use crate::design::MOST_SECTIONS;
 use crate::error::Interval;
 use crate::magnetics::{Cylinders, MultipoleTable, Sources};
 
@@ -28,9 +29,9 @@ impl JsonSchema for Magnets {
     }
 }
 
-impl JsonSchema for SpiralStartEntry {
+impl JsonSchema for Numbers {
     fn schema_name() -> Cow<'static, str> {
-        "SpiralStart".into()
+        "Numbers".into()
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
@@ -39,7 +40,9 @@ impl JsonSchema for SpiralStartEntry {
 }
 
 /// Keys whose list has a smallest and a largest number of entries.
-const COUNTS: [(&str, usize, Option<usize>); 5] = [
+const COUNTS: [(&str, usize, Option<usize>); 7] = [
+    ("design.section", 0, Some(MOST_SECTIONS)),
+    ("design.group.sections", 1, None),
     ("magnet", 0, Some(Sources::MOST)),
     ("magnet.cylinders", 1, Some(Cylinders::MOST)),
     ("coil", 0, Some(Sources::MOST - 1)),
@@ -107,8 +110,17 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
             json!([
                 {
                     "if": has("kind", json!({ "const": "cylinder" })),
-                    "then": { "required": ["length_mm", "radius_mm"], "properties": none_of(&DesignEntries::OF_SEGMENTS) },
+                    "then": { "required": ["length_mm", "radius_mm"] },
                     "else": { "properties": none_of(&DesignEntries::OF_CYLINDER) },
+                },
+                {
+                    "if": has("kind", json!({ "const": "sections" })),
+                    "then": { "required": ["section"] },
+                    "else": { "properties": none_of(&DesignEntries::OF_SECTIONS) },
+                },
+                {
+                    "if": has("kind", json!({ "enum": ["cylinder", "sections"] })),
+                    "then": { "properties": none_of(&DesignEntries::OF_SEGMENTS) },
                 },
                 {
                     "if": { "anyOf": bulk.map(|key| json!({ "required": [key] })) },
@@ -116,6 +128,7 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
                 },
             ]),
         ),
+        ("design.section", "object", of_section()),
         ("design.backbone", "object", one_stiffness.clone()),
         ("feed.shaft", "object", one_stiffness),
         ("magnet", "object", json!(magnet_shape::conditions())),
@@ -149,6 +162,30 @@ fn conditions() -> Vec<(&'static str, &'static str, Value)> {
             }]),
         ),
     ]
+}
+
+/// Which keys of a section exclude or need one another.
+fn of_section() -> Value {
+    let required = |key: &&str| json!({ "required": [key] });
+    let none_of = |keys: &[&str]| keys.iter().map(|key| ((*key).to_owned(), json!(false))).collect::<Value>();
+    let stiffness = ["shore_a", "elastic_modulus_mpa", "bending_stiffness_n_m2"];
+    let measured = ["torsional_stiffness_n_m2", "axial_stiffness_n", "shear_stiffness_n"];
+    let has =
+        |key: &str, value: Value| json!({ "properties": { key: { "const": value } }, "required": [key] });
+    let rigid = json!({ "anyOf": [has("rigid", json!(true)), has("shape", json!("ball"))] });
+    let elastic: Vec<Value> = stiffness.iter().map(required).collect();
+    let all = [&stiffness[..], &measured[..], &["poisson"]].concat();
+    json!([
+        { "if": rigid, "then": { "properties": none_of(&all) }, "else": { "oneOf": elastic } },
+        {
+            "if": { "required": ["bending_stiffness_n_m2"] },
+            "then": { "required": measured[..2], "properties": none_of(&["poisson"]) },
+            "else": { "properties": none_of(&measured) },
+        },
+        { "if": { "required": ["particle_remanence_t"] }, "then": { "required": ["volume_fraction"] } },
+        { "not": { "required": ["remanence_t", "volume_fraction"] } },
+        { "if": has("shape", json!("ball")), "else": { "required": ["length_mm"] } },
+    ])
 }
 
 fn parts(key: &str) -> Vec<String> {

@@ -60,13 +60,13 @@ impl<'a> StrainRod<'a> {
         if let Some(span) = design.shaft() {
             pieces.extend(pieces_of(&Span { length: shaft, ..span.clone() }, 2 * count, true));
         }
-        pieces.extend(design.base_ring().map(ring));
+        pieces.extend(design.base_rings().iter().map(ring));
         for segment in design.segments() {
             for span in &segment.spans {
                 let count = if span.kind == SpanKind::Disc { IN_DISC } else { count };
                 pieces.extend(pieces_of(span, count, false));
             }
-            pieces.extend(segment.ring.as_ref().map(ring));
+            pieces.extend(segment.rings.iter().map(ring));
         }
         Self { pieces, field, tip_force: Vector3::zeros() }
     }

@@ -254,10 +254,10 @@ impl<'a> Body<'a> {
         let design: Design = scene.design().unwrap();
         let tube = scene.shaft.as_ref().expect("a shaft");
         let mut parts: Vec<(f64, Option<f64>)> = Vec::new();
-        parts.extend(design.base_ring().map(|ring| (ring.length, None)));
+        parts.extend(design.base_rings().iter().map(|ring| (ring.length, None)));
         for segment in design.segments() {
             parts.extend(segment.spans.iter().map(|span| (span.length, Some(span.widest_radius()))));
-            parts.extend(segment.ring.as_ref().map(|ring| (ring.length, None)));
+            parts.extend(segment.rings.iter().map(|ring| (ring.length, None)));
         }
         let section = std::f64::consts::PI * (tube.outer_radius.powi(2) - tube.inner_radius.powi(2));
         Self {

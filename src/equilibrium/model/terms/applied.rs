@@ -21,7 +21,7 @@ impl<'a> Applied<'a> {
     fn force(self, frame: &Frame<'_>, pose: &Pose) -> Option<(Input, Vector3<f64>, Vector3<f64>)> {
         let (input, force, distance) = match frame {
             Frame::Ring(number, body) => {
-                (Input::RingForce(*number), self.0.ring_forces.get(*number)?, body.half_length())
+                (Input::RingForce(*number), self.0.ring_forces.get(*number)?, body.to_centre())
             }
             Frame::Tip(offset) => (Input::TipForce, &self.0.tip_force, *offset),
             Frame::Station(..) | Frame::Section(_) => return None,

@@ -50,10 +50,10 @@ impl Background {
         })
     }
 
-    /// Magnetic moment (A m2) of the body in a frame; zero for the tip.
+    /// Magnetic moment (A m2) of the body in a frame along its direction; zero for the tip.
     fn moment(frame: &Frame<'_>) -> f64 {
         match frame {
-            Frame::Ring(_, body) => body.source.moment(),
+            Frame::Ring(_, body) => body.moment,
             _ => frame.material().map_or(0.0, |material| material.magnetisation * material.moments.volume),
         }
     }
@@ -61,7 +61,7 @@ impl Background {
     /// Arm from the frame's origin to the centre of that moment, m, world axes.
     fn arm(frame: &Frame<'_>, pose: &Pose) -> Vector3<f64> {
         if let Frame::Ring(_, body) = frame {
-            return pose.axis() * body.half_length();
+            return pose.axis() * body.to_centre();
         }
         let centroid = frame.material().map_or(Vector2::zeros(), |material| material.moments.centroid());
         pose.rotation * Vector3::new(centroid.x, centroid.y, 0.0)
@@ -88,7 +88,7 @@ impl Term for Background {
         if moment == 0.0 {
             return Some(load);
         }
-        let axis = axes.tr_mul(&pose.axis());
+        let axis = axes.tr_mul(&frame.direction().seen_in(&pose.rotation));
         if self.uniform {
             let field = axes.tr_mul(&self.at(&pose.position));
             load.energy = -moment * axis.dot(&field);
@@ -105,7 +105,7 @@ impl Term for Background {
 
     fn add_input_derivatives(&self, frame: &Frame<'_>, pose: &Pose, out: &mut LoadDerivatives) -> Option<()> {
         let (first, arm) = (Input::UniformField.columns().start, Self::arm(frame, pose));
-        let moment = pose.axis() * Self::moment(frame);
+        let moment = frame.direction().seen_in(&pose.rotation) * Self::moment(frame);
         out.add_dipole(first, &moment, &arm, &Self::rates(&(pose.position + arm)));
         Some(())
     }

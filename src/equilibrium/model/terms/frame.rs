@@ -3,6 +3,7 @@
 use super::super::chain::Chain;
 use super::super::ring_body::RingBody;
 use super::super::source_field::{Near, StationFields};
+use crate::design::Direction;
 use crate::rod::{SectionMaterial, Station};
 
 /// Fields of the sources at the points of a station, as far as they were evaluated already.
@@ -36,7 +37,7 @@ pub(crate) enum Frame<'a> {
         expect(dead_code, reason = "of methods that integrate along the rod")
     )]
     Section(&'a SectionMaterial),
-    /// A ring by its number; the pose is that of its node, on its proximal face.
+    /// A ring or another rigid body by its number; the pose is that of its node.
     Ring(usize, &'a RingBody),
     /// The tip at this distance (m) beyond the frame, which is that of the last node.
     Tip(f64),
@@ -48,6 +49,14 @@ impl<'a> Frame<'a> {
         let rings =
             chain.rings.iter().enumerate().map(|(number, body)| (body.node, Self::Ring(number, body)));
         rings.chain([(chain.elements.len(), Self::Tip(chain.tip_offset))])
+    }
+
+    /// Direction in which the body is magnetised, in its directors.
+    pub(crate) fn direction(&self) -> Direction {
+        match self {
+            Self::Ring(_, body) => body.direction,
+            _ => self.material().map_or(Direction::Axial, |material| material.direction),
+        }
     }
 
     /// The material, if the body is that of a section.

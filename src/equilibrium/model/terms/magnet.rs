@@ -128,7 +128,7 @@ impl Term for Magnet<'_> {
                 source.on_material(material, (&material.moments.points(), &[]), pose, order)
             }
             Frame::Ring(number, body) => {
-                let centre = pose.position + pose.axis() * body.half_length();
+                let centre = pose.position + pose.axis() * body.to_centre();
                 let rule = self.rules.external(*number, self.distance(&centre));
                 source.on_ring(body, pose, rule, order)
             }
@@ -143,7 +143,8 @@ impl Term for Magnet<'_> {
             Frame::Station(station, _) if station.material.magnetisation != 0.0 => {
                 let points =
                     self.source.as_ref().map_or(&station.points.1[..], |source| source.points(station));
-                let whole = pose.axis() * (station.material.magnetisation * station.material.moments.volume);
+                let direction = frame.direction().seen_in(&pose.rotation);
+                let whole = direction * (station.material.magnetisation * station.material.moments.volume);
                 let moment = whole / points.len() as f64;
                 for point in points {
                     let arm = pose.rotation * Vector3::new(point.x, point.y, 0.0);
@@ -151,11 +152,12 @@ impl Term for Magnet<'_> {
                 }
             }
             Frame::Ring(number, body) => {
-                let (axis, half) = (pose.axis(), body.half_length());
+                let (axis, half) = (pose.axis(), body.to_centre());
+                let direction = frame.direction().seen_in(&pose.rotation);
                 let reach = self.distance(&(pose.position + axis * half));
                 for (height, volume) in self.rules.external(*number, reach).points() {
                     let arm = axis * (half + height);
-                    let moment = axis * (body.magnetisation * volume);
+                    let moment = direction * (body.magnetisation * volume);
                     out.add_dipole(first, &moment, &arm, &self.rates(&(pose.position + arm))?);
                 }
             }

@@ -24,10 +24,12 @@ impl<'a> RingPairs<'a> {
         Self { chain, interaction, rules }
     }
 
-    /// The numbers of the two rings of each pair, the proximal one first.
+    /// The numbers of the two rings of each pair that is not welded together, the proximal one first.
     pub(crate) fn each(&self) -> impl Iterator<Item = [usize; 2]> + use<'a> {
-        let rings = if self.interaction == Interaction::None { 0 } else { self.chain.rings.len() };
-        (0..rings).flat_map(move |first| (first + 1..rings).map(move |second| [first, second]))
+        let chain = self.chain;
+        let rings = if self.interaction == Interaction::None { 0 } else { chain.rings.len() };
+        let pairs = (0..rings).flat_map(move |first| (first + 1..rings).map(move |second| [first, second]));
+        pairs.filter(|[first, second]| chain.rings[*first].node != chain.rings[*second].node)
     }
 
     /// Whether the distal ring acts back on the proximal one.

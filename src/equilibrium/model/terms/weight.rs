@@ -21,7 +21,7 @@ impl Weight {
     fn mass(frame: &Frame<'_>, pose: &Pose) -> Option<(f64, Vector3<f64>)> {
         if let Frame::Ring(_, body) = frame {
             let mass = body.ring.mass;
-            return Some((mass, pose.axis() * (body.half_length() * mass)));
+            return Some((mass, pose.axis() * (body.to_centre() * mass)));
         }
         let material = frame.material()?;
         let first = material.moments.first * material.density;

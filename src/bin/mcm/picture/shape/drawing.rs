@@ -119,9 +119,10 @@ impl Picture {
             out = out.add(area("shaft", &[shaft], SHAFT, GREY));
         }
 
-        let [body, core] = &self.device;
-        out = out.add(area("device", &[body], BODY, DEVICE));
-        if !self.rings.is_empty() {
+        for body in &self.device {
+            out = out.add(area("device", &[body], BODY, DEVICE));
+        }
+        for core in &self.cores {
             out = out.add(area("core", &[core], CORE, DEVICE));
         }
         for ring in &self.rings {
@@ -153,11 +154,12 @@ impl Picture {
     }
 
     fn draw_legend(&self, per_newton: f64) -> Group {
-        let segmented = !self.rings.is_empty();
+        let segmented = !self.cores.is_empty();
+        let rigid = if segmented { "rings" } else { "rigid" };
         let entries = [
             (if segmented { "spirals" } else { "rod" }, BODY, true),
             ("core", CORE, segmented),
-            ("rings", RING, segmented),
+            (rigid, RING, !self.rings.is_empty()),
             ("shaft", SHAFT, !self.shaft.is_empty()),
             ("vessel", LUMEN, !self.vessel.is_empty()),
             ("magnet", NORTH, !self.magnet.is_empty()),

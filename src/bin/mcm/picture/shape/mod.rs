@@ -3,9 +3,9 @@
 mod contour;
 mod drawing;
 mod outline;
+mod sections;
 mod view;
 
-use mcm::design::Specification;
 use mcm::error::Error;
 use mcm::geometry::Pose;
 use mcm::magnetics::{Drive, Part, Source};
@@ -79,8 +79,10 @@ struct Picture {
     /// The coils that carry a current.
     coils: Vec<Outline>,
     shaft: Vec<Outline>,
-    /// Spirals or body, and core.
-    device: [Outline; 2],
+    /// Spirals, or elastic parts.
+    device: Vec<Outline>,
+    /// Cores in spirals.
+    cores: Vec<Outline>,
     rings: Vec<Outline>,
     /// Places of contacts and forces (N).
     forces: Vec<[(f64, f64); 2]>,
@@ -108,17 +110,15 @@ impl Picture {
         // Points up to the inserted length lie on the shaft, those behind it on the device.
         let inserted = outputs.feed_length.unwrap_or(0.0);
         let first = outputs.shape_arc_length.iter().position(|s| *s >= inserted).unwrap_or(0);
-        let (pushed, device) = (&outputs.shape[..=first], &outputs.shape[first..]);
+        let pushed = &outputs.shape[..=first];
         let shaft = scene.shaft.as_ref().map_or_else(Vec::new, |shaft| {
             let outside = [inputs.base.advanced(-OUTSIDE).position, inputs.base.position];
-            [&outside[..], pushed].map(|points| outline::of_rod(&view, points, shaft.outer_radius)).into()
+            [&outside[..], pushed]
+                .map(|points| outline::of_rod(&view, points, [shaft.outer_radius; 2]))
+                .into()
         });
 
-        let (radius, core, ring) = match &scene.specification {
-            Specification::Segmented(own) => (own.helix.radius, own.helix.core_outer_radius, own.ring.length),
-            Specification::Cylinder(own) => (own.radius, 0.0, 0.0),
-        };
-
+        let (device, cores) = sections::of_elastic(&view, &design, outputs, inserted);
         let driven = |drive| {
             let own = on.iter().filter(move |(source, _)| source.drive() == drive);
             own.flat_map(|(source, placed)| source.parts().iter().map(move |part| (part, placed)))
@@ -132,7 +132,6 @@ impl Picture {
             on.iter().filter_map(|(source, placed)| Remark::of(&view, &middle, source, &placed.pose));
         let coils = driven(Drive::Current).map(|(part, placed)| outline::of_part(&view, &placed.pose, part));
 
-        let body = |pose: &Pose| outline::of_cylinder(&view, pose, [-0.5 * ring, 0.5 * ring], radius);
         let walls = outputs.wall.iter().flat_map(|wall| &wall.places);
         let flat = |force: &Vector3<f64>| {
             let (x, y) = view.at(force);
@@ -147,8 +146,9 @@ impl Picture {
             remarks: remarks.collect(),
             coils: coils.collect(),
             shaft,
-            device: [radius, core].map(|radius| outline::of_rod(&view, device, radius)),
-            rings: outputs.rings.iter().map(body).collect(),
+            device,
+            cores,
+            rings: sections::of_rigid(&view, &design, &outputs.rings),
             forces: walls.map(|[at, force]| [view.at(at), flat(force)]).collect(),
             full_force: 0.0,
             field: (field != Vector3::zeros()).then(|| (view.at(&field), 1e3 * field.norm())),
@@ -179,6 +179,7 @@ impl Picture {
             .shaft
             .iter()
             .chain(&self.device)
+            .chain(&self.cores)
             .chain(&self.rings)
             .chain(&self.coils)
             .flatten()

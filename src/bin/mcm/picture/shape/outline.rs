@@ -152,14 +152,15 @@ pub(super) fn of_cylinder(view: &View, pose: &Pose, heights: [f64; 2], radius: f
     hull(heights.into_iter().flat_map(rim).collect())
 }
 
-/// Outline of a rod of this radius (m) along these points.
-pub(super) fn of_rod(view: &View, points: &[Vector3<f64>], radius: f64) -> Outline {
+/// Outline of a rod along these points, with these radii at its start and its end, m.
+pub(super) fn of_rod(view: &View, points: &[Vector3<f64>], [start, end]: [f64; 2]) -> Outline {
     let places: Vec<(f64, f64)> = points.iter().map(|point| view.at(point)).collect();
     let side = |sign: f64| {
         let places = &places;
         (0..places.len()).map(move |i| {
             let (before, after) = (places[i.saturating_sub(1)], places[(i + 1).min(places.len() - 1)]);
             let (x, y) = (after.0 - before.0, after.1 - before.1);
+            let radius = start + (end - start) * i as f64 / (places.len() - 1).max(1) as f64;
             let factor = sign * 1e3 * radius / x.hypot(y).max(f64::MIN_POSITIVE);
             (places[i].0 - factor * y, places[i].1 + factor * x)
         })
