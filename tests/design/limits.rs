@@ -9,7 +9,7 @@ use mcm::error::Error;
 fn paper() -> Segmented {
     match Specification::paper(2) {
         Specification::Segmented(chain) => chain,
-        Specification::Cylinder(_) => panic!("the paper's manipulator is segmented"),
+        _ => panic!("the paper's manipulator is segmented"),
     }
 }
 

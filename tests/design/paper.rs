@@ -14,7 +14,7 @@ use crate::tolerance::{PRINTED, ROUNDING, assert_close};
 fn paper(segments: usize) -> Segmented {
     match Specification::paper(segments) {
         Specification::Segmented(chain) => chain,
-        Specification::Cylinder(_) => panic!("the paper's manipulator is segmented"),
+        _ => panic!("the paper's manipulator is segmented"),
     }
 }
 

@@ -7,7 +7,7 @@ use mcm::equilibrium::{
     Body, Contact, Equilibrium, Inputs, Interaction, Outcome, PlacedSource, Settings, Solution,
 };
 use mcm::geometry::Pose;
-use mcm::magnetics::{AxialMagnet, Cylinders, Part, Source};
+use mcm::magnetics::{AxialMagnet, Cylinders, Outline, Part, Source};
 use mcm::manipulator::{Followed, Manipulator, Scene, Status};
 use mcm::methods::{self, Compared, Device, Method};
 use nalgebra::{Rotation3, Vector3};
@@ -27,7 +27,8 @@ fn circle_in(parts: &[Part], at: &Pose, centre: &Pose) -> f64 {
         let local = at.rotation.transpose() * (point - at.position);
         let rho = local.x.hypot(local.y);
         let in_one = |part: &Part| {
-            let (outline, inner) = (&part.outline, part.outline.inner_radius());
+            let Outline::Cylinder(outline) = &part.outline else { panic!("a cylinder") };
+            let inner = outline.inner_radius();
             let bore = if inner > 0.0 { rho - inner } else { f64::INFINITY };
             let along = 0.5 * outline.length() - (local.z - part.centre.z).abs();
             (outline.outer_radius() - rho).min(along).min(bore)

@@ -3,7 +3,7 @@
 use mcm::design::{Backbone, Design, Modulus, Segmented, Specification, gent_modulus};
 use mcm::equilibrium::{Equilibrium, Inputs, Interaction, PlacedSource, Report, Settings, Solution};
 use mcm::geometry::Pose;
-use mcm::magnetics::{AxialMagnet, Cylinders, Source};
+use mcm::magnetics::{AxialMagnet, Cylinders, Outline, Source};
 use nalgebra::Vector3;
 
 use crate::given::pair;
@@ -46,7 +46,7 @@ impl Scene {
 /// The magnet with its cylinders changed.
 fn changed(magnet: &Source, change: impl Fn(AxialMagnet) -> AxialMagnet) -> Source {
     let cylinders = magnet.parts().iter().map(|part| {
-        let outline = &part.outline;
+        let Outline::Cylinder(outline) = &part.outline else { panic!("a cylinder") };
         change(AxialMagnet {
             radius: outline.outer_radius(),
             inner_radius: outline.inner_radius(),

@@ -7,7 +7,7 @@ use mcm::geometry::{Pose, RotationVector};
 use mcm::magnetics::{AxialMagnet, Cuboid, Cylinders, Jet, ObliqueCylinder, Source, Sphere, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
-use crate::tolerance::magnetics::{MAGNET_FIELD, MAGNET_GRADIENT, MAGNET_HESSIAN, NEAR_MAGNET_EDGE};
+use crate::tolerance::{MAGNET_FIELD, MAGNET_GRADIENT, MAGNET_HESSIAN, NEAR_MAGNET_EDGE};
 
 /// Rows of a table of fields: the magnet, where the point is, its coordinates, and the numbers there.
 fn rows(text: &str) -> Vec<(String, String, Vector3<f64>, Vec<f64>)> {

@@ -5,7 +5,7 @@ use core::f64::consts::PI;
 use mcm::error::Error;
 use mcm::geometry::Pose;
 use mcm::magnetics::{Dipole, Drive, FieldSource, Jet, Part, Source, Sources, Wrench};
-use mcm::manipulator::{Outputs, Scene, SceneFile};
+use mcm::manipulator::{Followed, Outputs, Scene, SceneFile};
 use mcm::numerics::quadrature::gauss_legendre;
 use nalgebra::{Matrix3, Vector3};
 
@@ -133,7 +133,7 @@ fn scene(level: &str, magnet: &str) -> Scene {
 
 fn solve(scene: &Scene) -> Outputs {
     let mut manipulator = scene.manipulator(5).unwrap();
-    manipulator.solve(&scene.inputs).unwrap()
+    manipulator.solve(&scene.inputs).unwrap().clone()
 }
 
 #[test]

@@ -34,7 +34,7 @@ pub(crate) const SECTIONS_WRENCH: f64 = 1e-6;
 pub(crate) const SECTIONS_MARGIN: f64 = 1e-5;
 
 /// A device and its mirror image, or the same device elsewhere, over the length.
-pub(crate) const SYMMETRY: f64 = 1e-9;
+pub(crate) const MIRRORED: f64 = 1e-9;
 
 /// Closed forms of bent rods, over the length, and their angles in rad.
 pub(crate) const CLOSED_FORM: f64 = 1e-7;

@@ -10,7 +10,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::devices::Device;
 use crate::given::direction;
-use crate::tolerance::{CLOSED_FORM, SAME_DEVICE, SYMMETRY};
+use crate::tolerance::{CLOSED_FORM, MIRRORED, SAME_DEVICE};
 
 /// Number of random devices at each level.
 const DEVICES: u64 = 6;
@@ -37,9 +37,9 @@ fn compare(what: &str, change: impl Fn(&Device, &mut StdRng) -> (Device, Pose, b
                 Pose { position: mirror * own.tip.position, rotation: mirror * own.tip.rotation * mirror };
             let tip = moved.compose(&tip);
             let apart = (other.tip.position - tip.position).norm() / device.length();
-            assert!(apart <= SYMMETRY, "{what}, level {level}, seed {seed}: {apart:e} of the length");
+            assert!(apart <= MIRRORED, "{what}, level {level}, seed {seed}: {apart:e} of the length");
             let turned = (other.tip.rotation - tip.rotation).norm();
-            assert!(turned <= 10.0 * SYMMETRY, "{what}, level {level}, seed {seed}: turned by {turned:e}");
+            assert!(turned <= 10.0 * MIRRORED, "{what}, level {level}, seed {seed}: turned by {turned:e}");
         }
     }
 }
