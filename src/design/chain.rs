@@ -2,22 +2,14 @@
 
 use nalgebra::Vector2;
 
-use super::helix::annulus_area;
 use super::material::{ELASTOMER_DENSITY, Moduli, composite_density};
 use super::section::{Ring, SectorKind, Span, SpanKind, Stiffness};
+use super::segment::Segment;
 use super::specification::{Backbone, Cylinder, CylinderMaterial, Guidewire, Specification};
-use super::{limits, sectioned, segmented};
+use super::tube::Tube;
+use super::{checks, sectioned, segmented};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
-
-/// The deformable spans between two rigid parts (or between base and tip), and the rigid part at their distal end.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Segment {
-    /// The deformable spans, base to tip.
-    pub spans: Vec<Span>,
-    /// The rigid bodies at the distal end, welded to one another, base to tip: one ring, none, or rigid sections in a row.
-    pub rings: Vec<Ring>,
-}
 
 /// A validated design: all quantities are within their ranges, and the bodies are derived from them.
 #[derive(Debug, Clone, PartialEq)]
@@ -57,7 +49,7 @@ impl Design {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn with_shaft(self, tube: &Backbone) -> Result<Self, Error> {
-        limits::shaft(tube)?;
+        checks::shaft(tube)?;
         let Tube { stiffness, line_density } = Tube::of(tube);
         let span = Span {
             kind: SpanKind::Rod,
@@ -91,7 +83,7 @@ impl Design {
             }
         };
         let shaft = self.shaft.iter().map(|span| ("shaft", span.inner_radius));
-        limits::guidewire(wire, &shaft.chain([device]).collect::<Vec<_>>())?;
+        checks::guidewire(wire, &shaft.chain([device]).collect::<Vec<_>>())?;
         Ok(Self { guidewire: Some(*wire), ..self })
     }
 
@@ -191,7 +183,7 @@ impl Design {
 
 /// The one segment of a plain cylinder.
 fn plain(rod: &Cylinder) -> Result<Segment, Error> {
-    limits::cylinder(rod)?;
+    checks::cylinder(rod)?;
     let (moduli, remanence, bulk_density) = match rod.material {
         CylinderMaterial::Composite { shore_a, poisson, volume_fraction, particle_remanence } => (
             Moduli::composite(shore_a, poisson, volume_fraction),
@@ -214,27 +206,4 @@ fn plain(rod: &Cylinder) -> Result<Segment, Error> {
         ..Span::plain()
     };
     Ok(Segment { spans: vec![span], rings: Vec::new() })
-}
-
-/// Contribution of a backbone to every section.
-pub(super) struct Tube {
-    pub(super) stiffness: Stiffness,
-    pub(super) line_density: f64,
-}
-
-impl Tube {
-    pub(super) fn of(backbone: &Backbone) -> Self {
-        let moduli = Moduli::bulk(backbone.modulus.elastic(), backbone.poisson);
-        Self {
-            stiffness: Stiffness::annulus(backbone.inner_radius, backbone.outer_radius, moduli),
-            line_density: backbone.density * annulus_area(backbone.inner_radius, backbone.outer_radius),
-        }
-    }
-}
-
-impl Default for Tube {
-    /// No backbone.
-    fn default() -> Self {
-        Self { stiffness: Span::plain().stiffness, line_density: 0.0 }
-    }
 }

@@ -4,8 +4,8 @@ use core::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use super::area::annulus_area;
 use super::direction::Direction;
-use super::helix::annulus_area;
 use super::specification::{Helix, RingMagnet, Segmented};
 use crate::numerics::quadrature::gauss_legendre;
 

@@ -2,7 +2,8 @@
 
 use core::f64::consts::PI;
 
-use super::limits;
+use super::area::annulus_area;
+use super::checks;
 use super::quantities::HELIX_WINDING_HEIGHT;
 use super::specification::Helix;
 use crate::error::{Error, check};
@@ -73,7 +74,7 @@ impl Helix {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range; the height `h` must be positive.
     pub fn geometry(&self) -> Result<HelixGeometry, Error> {
-        limits::helix_dimensions(self)?;
+        checks::helix_dimensions(self)?;
         let winding_angle = self.boundary_angle / self.windings;
         let pitch = self.radius * winding_angle;
         let height = check(
@@ -112,9 +113,4 @@ impl Helix {
             spiral,
         })
     }
-}
-
-/// Area of an annulus, m2.
-pub(super) fn annulus_area(inner_radius: f64, outer_radius: f64) -> f64 {
-    PI * (outer_radius - inner_radius) * (outer_radius + inner_radius)
 }

@@ -1,6 +1,6 @@
 //! Elastic moduli and densities of the elastomer and of the magnetic polymer composite (MPC).
 
-use super::specification::Modulus;
+use super::modulus::Modulus;
 
 /// Density of the magnetic particles and of the rings, kg/m3.
 ///

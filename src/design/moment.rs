@@ -1,9 +1,10 @@
 //! Relative magnetic moment of a manipulator, compared with a solid magnet of its size.
 
+use super::area::annulus_area;
+use super::checks;
 use super::demagnetisation::polarisation;
 use super::direction::Direction;
-use super::helix::{SpiralVolume, annulus_area};
-use super::limits;
+use super::helix::SpiralVolume;
 use super::specification::{Helix, RingMagnet, Segmented};
 use crate::error::Error;
 
@@ -42,7 +43,7 @@ impl Segmented {
     /// # Errors
     /// [`Error::Range`] naming the first quantity out of range.
     pub fn relative_moment(&self, spiral: SpiralVolume) -> Result<RelativeMoment, Error> {
-        limits::segmented(self)?;
+        checks::segmented(self)?;
         let volume_of = |ring: &RingMagnet, helix: &Helix| {
             annulus_area(helix.core_inner_radius, helix.radius) * ring.length
         };

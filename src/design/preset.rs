@@ -1,9 +1,8 @@
 //! The devices of Richter et al. as specifications.
 
 use super::material::PARTICLE_DENSITY;
-use super::specification::{
-    Backbone, Helix, Modulus, RingMagnet, Segmented, Specification, SpiralKind, SpiralStart,
-};
+use super::modulus::Modulus;
+use super::specification::{Backbone, Helix, RingMagnet, Segmented, Specification, SpiralKind, SpiralStart};
 
 impl Helix {
     /// The helix of Table 1.

@@ -5,8 +5,8 @@ use core::ops::Add;
 
 use nalgebra::Vector3;
 
+use super::area::annulus_area;
 use super::direction::Direction;
-use super::helix::annulus_area;
 use super::material::Moduli;
 use crate::constants::VACUUM_PERMEABILITY;
 

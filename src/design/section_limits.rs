@@ -6,9 +6,9 @@ use nalgebra::Vector3;
 
 use super::direction::Direction;
 use super::limits::MOST_SECTIONS;
+use super::modulus::Modulus;
 use super::quantities as of;
 use super::sections::{MeasuredStiffness, Section, SectionBody, SectionMagnet, Sections};
-use super::specification::Modulus;
 use crate::error::{Error, Quantity};
 
 /// Largest angle by which a section is bent and twisted without loads, or the direction of its magnetisation turns, rad: sixteen
@@ -103,7 +103,7 @@ fn magnet(section: &Section) -> Result<(), Error> {
 
     let turn = of::SECTION_TURN.check(section.turn)?;
     let most = MOST_TURNED / section.length;
-    let allowed = || format!("at most {most:.6} of either sign: 16 turns in the section");
+    let allowed = || format!("at most {most} of either sign: sixteen turns in the section");
     refuse_unless(turn.abs() <= most, &of::SECTION_TURN, turn, allowed)?;
     let still = !section.is_rigid() || turn == 0.0;
     refuse_unless(still, &of::SECTION_TURN, turn, || "0: a rigid section is magnetised uniformly".into())
@@ -121,7 +121,7 @@ fn at_rest(section: &Section) -> Result<(), Error> {
     refuse(!section.is_rigid() || whole == 0.0, whole, "0: a rigid section is straight".into())?;
 
     let most = MOST_TURNED / section.length;
-    refuse(whole <= most, whole, format!("at most {most:.6} as a whole: 16 turns in the section"))?;
+    refuse(whole <= most, whole, format!("at most {most} as a whole: sixteen turns in the section"))?;
 
     // On the inner side of a bend the material is compressed to nothing.
     let radius = section.outer_radius.into_iter().fold(0.0, f64::max);

@@ -2,19 +2,19 @@
 
 use nalgebra::Vector3;
 
-use super::chain::Segment;
+use super::checks;
 use super::direction::Direction;
-use super::limits;
 use super::material::Moduli;
+use super::modulus::Modulus;
 use super::section::{RigidShape, Ring, Span, SpanKind, Stiffness, Taper};
 use super::sections::{Section, SectionBody, Sections};
-use super::specification::Modulus;
+use super::segment::Segment;
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
 /// The rigid bodies at the base, and the segments: elastic sections in a row and the rigid ones behind them.
 pub(super) fn bodies(device: &Sections) -> Result<(Vec<Ring>, Vec<Segment>), Error> {
-    limits::sections(device)?;
+    checks::sections(device)?;
     let (mut base, mut segments) = (Vec::new(), Vec::<Segment>::new());
     for (number, section) in (1..).zip(&device.sections) {
         let direction = Direction::new(section.direction).map_err(|error| error.of_item(number))?;

@@ -3,9 +3,9 @@
 use core::ptr;
 
 use super::material::{ELASTOMER_DENSITY, PARTICLE_DENSITY, composite_density};
+use super::modulus::Modulus;
 use super::quantities as of;
 use super::section::Stiffness;
-use super::specification::Modulus;
 use crate::error::Quantity;
 
 /// A device made of sections, proximal to distal.

@@ -2,21 +2,22 @@
 
 use core::f64::consts::PI;
 
-use super::chain::{Segment, Tube};
+use super::area::annulus_area;
+use super::checks;
 use super::demagnetisation::polarisation;
 use super::direction::Direction;
-use super::helix::annulus_area;
-use super::limits;
 use super::material::{Moduli, composite_density};
 use super::quantities::RING_DIRECTION;
 use super::section::{RigidShape, Ring, SectorKind, Span, SpanKind, Spiral, Stiffness};
+use super::segment::Segment;
 use super::specification::{Helix, RingMagnet, Segmented, SpiralKind};
+use super::tube::Tube;
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::error::Error;
 
 /// The rings at the base and the segments of a chain of rings and helices.
 pub(super) fn bodies(chain: &Segmented) -> Result<(Vec<Ring>, Vec<Segment>), Error> {
-    limits::segmented(chain)?;
+    checks::segmented(chain)?;
     let tube = chain.backbone.as_ref().map(Tube::of).unwrap_or_default();
     let listed = !chain.ring_directions.is_empty();
     let rings = (1..).zip(chain.ring_magnets()).map(|(number, (magnet, helix))| {

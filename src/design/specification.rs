@@ -2,17 +2,9 @@
 
 use core::f64::consts::PI;
 
+use super::modulus::Modulus;
 use super::sections::Sections;
 use super::value_list::ValueList;
-
-/// An elastic modulus, given directly or by the Shore hardness.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Modulus {
-    /// Shore A hardness, converted to Young's modulus by Gent's relation (Eq. 14).
-    ShoreA(f64),
-    /// Young's modulus, Pa.
-    Elastic(f64),
-}
 
 /// Arrangement of the spirals along the chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -78,17 +78,27 @@ impl UnitRule {
     /// ```
     #[must_use]
     pub fn mistake(&self, name: &str, written: f64, per_unit: f64) -> Option<UnitMistake> {
-        let size = (written / per_unit).abs();
-        let [low, high] = self.usual;
-        let usual = size == 0.0 || size.is_nan() || (low..=high).contains(&size);
+        if self.is_usual(written / per_unit) {
+            return None;
+        }
         let Self { words, help, .. } = self;
         let guess = self.guess(written, per_unit).map_or_else(String::new, |guess| format!("; {guess}"));
-        (!usual).then(|| UnitMistake(format!("{name} = {written}: {words}{guess}{help}")))
+        Some(UnitMistake(format!("{name} = {written}: {words}{guess}{help}")))
     }
 
-    /// The unit in which the number would be likely, in words.
+    /// Whether a number in the unit of the library is what such quantities usually are, or none.
+    fn is_usual(&self, value: f64) -> bool {
+        let [low, high] = self.usual;
+        let size = value.abs();
+        size == 0.0 || size.is_nan() || (low..=high).contains(&size)
+    }
+
+    /// The unit in which the number would be likely, in words; `None` for one that is usual as it is written.
     #[must_use]
     pub fn guess(&self, written: f64, per_unit: f64) -> Option<String> {
+        if self.is_usual(written / per_unit) {
+            return None;
+        }
         let [low, high] = self.likely;
         let others = self.units.iter().filter(|(_, per)| per.total_cmp(&per_unit).is_ne());
         let (unit, per) = others.copied().find(|(_, per)| (low..=high).contains(&(written / per).abs()))?;

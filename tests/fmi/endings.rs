@@ -101,7 +101,10 @@ fn a_first_pose_inside_the_magnet_names_what_touches() {
     instance.enter_initialization();
     assert_eq!(instance.exit_initialization(), Ending::Error);
     let said = last(&told);
-    assert!(said.contains("bodies touch: ring") && said.contains("mm deep in cylinder"), "{said}");
+    assert!(
+        said.contains("bodies touch: ring") && said.contains("mm deep in part 2 of the external magnet"),
+        "{said}"
+    );
     assert_eq!(whole(&mut instance, package.table(), "solver.outcome"), 3);
 }
 

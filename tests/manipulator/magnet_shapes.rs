@@ -125,7 +125,7 @@ const DIRECTION: &str = "direction = [0.6, 0.0, 0.8]";
 /// A device with a magnet of this kind beside it.
 fn scene(level: &str, magnet: &str) -> Scene {
     let text = format!(
-        "[design]\nsegments = 2\n[field]\nuniform_mt = [3.0, 2.0, 0.0]\n[model]\ninteraction = \"{level}\"\n\
+        "[design]\nsegments = 2\n[field]\nuniform_mt = [3.0, 2.0, 0.0]\n[model]\ninteraction = \"{level}\"\ntime_budget_s = 300.0\n\
          [magnet]\nposition_mm = [5.0, -45.0, 12.0]\norientation_wxyz = [0.8, 0.36, 0.48, 0.0]\n{magnet}"
     );
     Scene::parse(&text, "test").unwrap()

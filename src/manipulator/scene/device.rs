@@ -51,6 +51,19 @@ impl DesignEntries {
         self.ring.get_or_insert_default();
     }
 
+    /// Makes a number for all, under this key, a list with one for each of so many segments or rings.
+    pub(super) fn spread(&mut self, key: &str, [segments, rings]: [usize; 2]) {
+        if let Some(start) = self.spiral_start_deg.as_mut().filter(|_| key == "design.spiral_start_deg") {
+            start.spread(segments);
+        }
+        if let Some(helix) = &mut self.helix {
+            helix.spread(key, segments);
+        }
+        if let Some(ring) = &mut self.ring {
+            ring.spread(key, rings);
+        }
+    }
+
     /// The device with its specification.
     pub(super) fn design(&self) -> Result<(Specification, Design), Error> {
         let specification = self.specification()?;

@@ -30,7 +30,7 @@ pub struct SceneFile {
     pub(super) design: DesignEntries,
     /// A background field: uniform, and changing linearly about the origin.
     pub(super) field: FieldEntries,
-    /// A magnet outside: coaxial cylinders, magnetised along the `z` of its frame, or one piece of a `shape`. Left out: no magnet.
+    /// A magnet outside: coaxial cylinders along `z`, or one piece of a `shape`. Left out: no magnet.
     ///
     /// An empty table is the pair of the paper, 120 mm below the middle of the device. Several magnets are several tables `[[magnet]]`.
     #[serde(skip_serializing_if = "Magnets::are_none")]

@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::file::DesignEntries;
 use super::names::Unit;
 use super::numbers::{self, Numbers};
 use crate::design::{Helix, RingMagnet, ValueList};
@@ -119,6 +118,13 @@ impl HelixEntries {
         ]
     }
 
+    /// Makes the number under this key a list with one for each of so many segments.
+    pub(super) fn spread(&mut self, key: &str, segments: usize) {
+        let own = Helix::QUANTITIES.into_iter().zip(self.numbers_mut());
+        let own = own.filter(|(quantity, _)| quantity.key == key).filter_map(|(_, numbers)| numbers);
+        own.for_each(|numbers| numbers.spread(segments));
+    }
+
     /// The helix of all segments, and what is not the same for all.
     pub(super) fn si(mut self) -> (Helix, Vec<ValueList>) {
         let mut helix = Helix::paper();
@@ -141,6 +147,12 @@ impl RingEntries {
         [&mut self.length_mm, &mut self.remanence_t, &mut self.recoil_permeability, &mut self.density_kg_m3]
     }
 
+    /// Makes the number under this key a list with one for each of so many rings.
+    pub(super) fn spread(&mut self, key: &str, rings: usize) {
+        let own = RingMagnet::QUANTITIES.into_iter().zip(self.numbers_mut());
+        own.filter(|(quantity, _)| quantity.key == key).for_each(|(_, numbers)| numbers.spread(rings));
+    }
+
     /// The rings, what is not the same for all, and the directions, where they are not the same for all.
     pub(super) fn si(mut self) -> (RingMagnet, Vec<ValueList>, Vec<[f64; 3]>) {
         let mut ring = RingMagnet::paper();
@@ -161,25 +173,6 @@ impl RingEntries {
             Some(Directions::Each(list)) => list,
         };
         (ring, lists, directions)
-    }
-}
-
-impl DesignEntries {
-    /// Makes a number for all, under this key, a list with one for each of so many segments or rings.
-    pub(super) fn spread(&mut self, key: &str, [segments, rings]: [usize; 2]) {
-        if let Some(start) = self.spiral_start_deg.as_mut().filter(|_| key == "design.spiral_start_deg") {
-            start.spread(segments);
-        }
-        if let Some(helix) = &mut self.helix {
-            let of_helix = Helix::QUANTITIES.into_iter().zip(helix.numbers_mut());
-            of_helix.filter(|(own, _)| own.key == key).for_each(|(_, own)| {
-                own.into_iter().for_each(|numbers| numbers.spread(segments));
-            });
-        }
-        if let Some(ring) = &mut self.ring {
-            let of_rings = RingMagnet::QUANTITIES.into_iter().zip(ring.numbers_mut());
-            of_rings.filter(|(own, _)| own.key == key).for_each(|(_, own)| own.spread(rings));
-        }
     }
 }
 

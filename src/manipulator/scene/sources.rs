@@ -116,7 +116,7 @@ pub(super) struct MagnetEntries {
     /// Remanence along that direction; negative: against it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) remanence_t: Option<f64>,
-    /// Grade of sintered `NdFeB` instead of `remanence_t`: the middle of its range, whose width is four standard deviations.
+    /// Grade of sintered `NdFeB` instead of `remanence_t`: the middle of its range, four standard deviations wide.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, schemars(schema_with = "magnet_shape::grades"))]
     pub(super) grade: Option<String>,

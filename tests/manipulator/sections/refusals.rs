@@ -80,7 +80,7 @@ fn refusals_name_section_value_and_range() {
         (
             &["direction_turn_deg_per_mm = 1e4"],
             format!(
-                "{two}.direction_turn_deg_per_mm = 10000 is not allowed: it must be at most 192 of either sign: 16 turns in the section"
+                "{two}.direction_turn_deg_per_mm = 10000 is not allowed: it must be at most 192 of either sign: sixteen turns in the section"
             ),
         ),
         (&["rigid = true"], format!("{two}.elastic_modulus_mpa has no meaning in a rigid section")),
