@@ -115,7 +115,7 @@ fn turned(point: &Vector2<f64>, by: &Vector2<f64>) -> Vector2<f64> {
 
 /// Number of nodes, at least `least`, that reduces an error of `excess` times the tolerance to the tolerance, if each
 /// node reduces it by the factor `exp(-rate)`.
-fn count(excess: f64, rate: f64, least: usize) -> usize {
+pub(super) fn count(excess: f64, rate: f64, least: usize) -> usize {
     (least..MOST_NODES).find(|nodes| *nodes as f64 * rate >= excess.ln()).unwrap_or(MOST_NODES)
 }
 

@@ -8,6 +8,7 @@ use nalgebra::{Rotation3, Vector3};
 use super::axial_rule::AxialRule;
 use super::axial_source::AxialSource;
 use super::face_rule::FaceRule;
+use super::wall_rule::WallRule;
 use super::wrench::{Wrench, relative_difference};
 use crate::constants::VACUUM_PERMEABILITY;
 use crate::geometry::Pose;
@@ -51,6 +52,8 @@ pub enum PairRule<'a> {
     Axis(&'a AxialRule, f64),
     /// Charges at nodes on its two faces: where its magnetisation enters, then where it leaves.
     Faces([&'a FaceRule; 2]),
+    /// Charges at nodes on its two faces and on its walls: of a magnet that is not magnetised along its axis.
+    Surface([&'a FaceRule; 2], &'a WallRule),
 }
 
 /// All quadrature rules of one magnet.
@@ -65,6 +68,9 @@ pub struct PairTable {
     /// Face rules, fewest nodes first, each with the distance (m) of the other magnet's edges from which on it is
     /// accurate enough.
     faces: Vec<(f64, FaceRule)>,
+    /// Wall rules, fewest nodes first, with the distance (m) of the other magnet's edges from which on each is accurate enough; empty for
+    /// a magnet magnetised along its axis.
+    walls: Vec<(f64, WallRule)>,
 }
 
 impl PairTable {
@@ -96,7 +102,19 @@ impl PairTable {
             (distance, FaceRule::new(inner, outer, distance, tolerance))
         });
         let axis = axis_rules(inner, outer, length, accuracy);
-        Self { inner, outer, length, axis, faces: faces.collect() }
+        Self { inner, outer, length, axis, faces: faces.collect(), walls: Vec::new() }
+    }
+
+    /// The rules of an annular cylinder that is magnetised in any direction; see [`PairTable::new`].
+    #[must_use]
+    pub fn of_any_direction(inner: f64, outer: f64, length: f64, accuracy: f64) -> Self {
+        let tolerance = SHARE * accuracy;
+        let own = Self::new(inner, outer, length, accuracy);
+        let walls = own
+            .faces
+            .iter()
+            .map(|(distance, _)| (*distance, WallRule::new(inner, outer, length, *distance, tolerance)));
+        Self { walls: walls.collect(), ..own }
     }
 
     /// The table of a ball of this radius, m: outside, a uniformly magnetised ball is a dipole at its centre, so that one node is exact.
@@ -104,20 +122,27 @@ impl PairTable {
     pub fn of_ball(radius: f64) -> Self {
         // A cylinder of the same radius and volume has the same node.
         let rule = AxialRule::new(0.0, radius, 4.0 / 3.0 * radius, 1);
-        let axis = vec![(0.0, 0.0, rule)];
-        Self { inner: 0.0, outer: radius, length: 2.0 * radius, axis, faces: Vec::new() }
+        Self {
+            inner: 0.0,
+            outer: radius,
+            length: 2.0 * radius,
+            axis: vec![(0.0, 0.0, rule)],
+            faces: Vec::new(),
+            walls: Vec::new(),
+        }
     }
 
-    /// Whether the table was made for a magnet of these radii and this length, m, that is not a ball.
+    /// Whether the table was made for a magnet of these radii and this length, m, that is not a ball, magnetised along its axis or not.
     #[must_use]
-    pub fn is_of(&self, inner: f64, outer: f64, length: f64) -> bool {
-        (self.inner, self.outer, self.length) == (inner, outer, length) && !self.faces.is_empty()
+    pub fn is_of(&self, inner: f64, outer: f64, length: f64, axial: bool) -> bool {
+        let tube = !self.faces.is_empty() && self.walls.is_empty() == axial;
+        (self.inner, self.outer, self.length) == (inner, outer, length) && tube
     }
 
     /// Number of rules for a pair.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.axis.len() + self.faces.len() * self.faces.len()
+        self.axis.len() + self.faces.len() * self.faces.len() * self.walls.len().max(1)
     }
 
     /// Whether the table has no rules: always false.
@@ -141,7 +166,14 @@ impl PairTable {
             self.faces.iter().position(|(least, _)| *least <= distance).unwrap_or(self.faces.len() - 1)
         };
         let half = 0.5 * self.length;
-        self.axis.len() + level(-half) * self.faces.len() + level(half)
+        let levels = level(-half) * self.faces.len() + level(half);
+        if self.walls.is_empty() {
+            return self.axis.len() + levels;
+        }
+        let distance = source.edge_distance_to(pose, [self.inner, self.outer], self.length);
+        let wall =
+            self.walls.iter().position(|(least, _)| *least <= distance).unwrap_or(self.walls.len() - 1);
+        self.axis.len() + levels * self.walls.len() + wall
     }
 
     /// The rule of that number; beyond the last number, the last rule.
@@ -150,8 +182,13 @@ impl PairTable {
         match number.min(self.len() - 1).checked_sub(self.axis.len()) {
             None => PairRule::Axis(&self.axis[number].2, self.axis[number].1),
             Some(levels) => {
-                let count = self.faces.len();
-                PairRule::Faces([&self.faces[levels / count].1, &self.faces[levels % count].1])
+                let (count, walls) = (self.faces.len(), self.walls.len().max(1));
+                let [first, second] = [levels / walls / count, levels / walls % count];
+                let faces = [&self.faces[first].1, &self.faces[second].1];
+                match self.walls.get(levels % walls) {
+                    Some((_, wall)) => PairRule::Surface(faces, wall),
+                    None => PairRule::Faces(faces),
+                }
             }
         }
     }

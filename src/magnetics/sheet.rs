@@ -81,7 +81,10 @@ impl DipoleSheet {
     }
 
     /// The dipoles of a sheet at `pose`: positions in its plane and in space (m), moments (A m2).
-    fn placed<'a>(&'a self, pose: &'a Pose) -> impl Iterator<Item = (Vector2<f64>, Vector3<f64>, f64)> + 'a {
+    pub(crate) fn placed<'a>(
+        &'a self,
+        pose: &'a Pose,
+    ) -> impl Iterator<Item = (Vector2<f64>, Vector3<f64>, f64)> + 'a {
         let each = self
             .octets
             .iter()

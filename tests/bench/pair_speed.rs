@@ -45,7 +45,7 @@ fn by_rule(source: &AxialSource, pose: &Pose, rule: PairRule<'_>, stiff: bool) -
                 }
             }
         }
-        PairRule::Faces(rules) => {
+        PairRule::Faces(rules) | PairRule::Surface(rules, _) => {
             for (rule, side) in rules.iter().zip([-1.0, 1.0]) {
                 let height = side * 0.5 * source.length();
                 let mut charges = Charges::new(stiff);
@@ -102,7 +102,9 @@ fn main() {
         let rule = table.rule(table.choose(&source, &pose));
         let (name, nodes) = match rule {
             PairRule::Axis(rule, _) => ("axis", rule.points().len()),
-            PairRule::Faces(rules) => ("faces", rules.iter().map(|rule| rule.len()).sum()),
+            PairRule::Faces(rules) | PairRule::Surface(rules, _) => {
+                ("faces", rules.iter().map(|rule| rule.len()).sum())
+            }
         };
         let [gradient, hessian] = [false, true].map(|stiff| time(|| by_rule(&source, &pose, rule, stiff)));
         let beside =

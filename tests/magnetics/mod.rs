@@ -4,6 +4,7 @@ mod axial_rule;
 mod batch;
 mod coil;
 mod consistency;
+mod directed;
 pub(crate) mod face_integral;
 mod field;
 mod magnets;

@@ -47,7 +47,7 @@ fn by_rule(source: &AxialSource, pose: &Pose, rule: PairRule<'_>) -> (f64, Wrenc
                 wrench.torque += arm.cross(&force) + moment.cross(&field);
             }
         }
-        PairRule::Faces(rules) => {
+        PairRule::Faces(rules) | PairRule::Surface(rules, _) => {
             for (rule, side) in rules.iter().zip([-1.0, 1.0]) {
                 for (position, area) in rule.points() {
                     let height = side * 0.5 * source.length();

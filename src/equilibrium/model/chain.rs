@@ -142,7 +142,6 @@ impl Chain {
                 offset += ring.length;
             }
         }
-        only_axial_rings(&rings, settings.interaction)?;
         let mut first = vec![0];
         for element in &elements {
             first.push(first[first.len() - 1] + element.freedoms());
@@ -249,21 +248,6 @@ fn tip_at_rest(elements: &[Element], tip_offset: f64) -> Option<Vector3<f64>> {
     Some(ends.fold(Pose::identity(), |node, end| node.compose(&end)).advanced(tip_offset).position)
 }
 
-/// Refuses rigid magnets whose interaction is not known: those that are not rings magnetised along their axis, each on a node of its own.
-fn only_axial_rings(rings: &[RingBody], level: Interaction) -> Result<(), Error> {
-    let known = |body: &RingBody| {
-        body.magnetisation == 0.0
-            || (body.direction.is_axial() && body.ring.shape == RigidShape::Tube && body.start == 0.0)
-    };
-    if level == Interaction::None || rings.len() < 2 || rings.iter().all(known) {
-        return Ok(());
-    }
-    let level = level.name();
-    Err(Error::Unsupported(format!(
-        "model.interaction = \"{level}\" needs magnets along their axis, none of them a ball or welded to another: choose \"none\""
-    )))
-}
-
 /// Rules for pairs of `rings` to a relative accuracy, one table for each; those that `others` have are not made again.
 fn pair_tables(rings: &[RingBody], accuracy: f64, others: &[Arc<Chain>]) -> Vec<Arc<PairTable>> {
     let alike = |chain: &&Arc<Chain>| chain.made_from.1.3.to_bits() == accuracy.to_bits();
@@ -275,9 +259,11 @@ fn pair_tables(rings: &[RingBody], accuracy: f64, others: &[Arc<Chain>]) -> Vec<
             tables.push(Arc::new(PairTable::of_ball(outer)));
             continue;
         }
-        let equal = |table: &&Arc<PairTable>| table.is_of(inner, outer, length);
+        let axial = body.direction.is_axial();
+        let equal = |table: &&Arc<PairTable>| table.is_of(inner, outer, length, axial);
         let equal = tables.iter().find(equal).or_else(|| known.iter().copied().find(equal)).cloned();
-        tables.push(equal.unwrap_or_else(|| Arc::new(PairTable::new(inner, outer, length, accuracy))));
+        let new = if axial { PairTable::new } else { PairTable::of_any_direction };
+        tables.push(equal.unwrap_or_else(|| Arc::new(new(inner, outer, length, accuracy))));
     }
     tables
 }

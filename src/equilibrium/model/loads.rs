@@ -204,7 +204,7 @@ impl Potential<'_> {
         let source = spans.source(ring, &work.nodes[body.node]);
         let element = (&work.nodes[k], &work.configurations[k].stations[..]);
         let stations = &mut work.pair_loads.stations[k];
-        let (energy, force, moment) = source.add_on_samples(body, samples, near, element, stations)?;
+        let (energy, force, moment) = source.add_on_samples(samples, near, element, stations)?;
         if spans.are_mutual() {
             let load = &mut work.pair_loads.nodes[body.node];
             load.force += force;

@@ -4,7 +4,7 @@ use crate::constants::VACUUM_PERMEABILITY;
 use crate::design::{Direction, RigidShape, Ring};
 use crate::error::Error;
 use crate::geometry::Pose;
-use crate::magnetics::{AxialSource, Outline};
+use crate::magnetics::{AxialSource, DirectedMagnet, Outline};
 
 /// A rigid ring, or another rigid body, on a node.
 #[derive(Debug, Clone)]
@@ -15,8 +15,10 @@ pub(crate) struct RingBody {
     pub(crate) node: usize,
     /// Distance of its proximal face from its node, m: the length of the bodies that it is welded to.
     pub(crate) start: f64,
-    /// Its field, in its own frame.
+    /// Its outline and, where it is magnetised along its axis, its field, in its own frame.
     pub(crate) source: AxialSource,
+    /// Its field, where it is not.
+    pub(crate) directed: Option<DirectedMagnet>,
     /// Magnetisation, A/m.
     pub(crate) magnetisation: f64,
     /// Direction of the magnetisation, in the directors.
@@ -32,11 +34,22 @@ impl RingBody {
             RigidShape::Tube => source.moment(),
             RigidShape::Ball => ring.moment(),
         };
+        let remanence = ring.direction.vector() * ring.remanence;
+        let directed = match ring.shape {
+            _ if ring.remanence == 0.0 => None,
+            RigidShape::Ball => Some(DirectedMagnet::ball(ring.outer_radius, remanence)?),
+            RigidShape::Tube if ring.direction.is_axial() => None,
+            RigidShape::Tube => {
+                let radii = [ring.inner_radius, ring.outer_radius];
+                Some(DirectedMagnet::cylinder(radii, ring.length, remanence)?)
+            }
+        };
         Ok(Self {
             ring: *ring,
             node,
             start,
             source,
+            directed,
             magnetisation: ring.remanence / VACUUM_PERMEABILITY,
             direction: ring.direction,
             moment,
@@ -68,7 +81,10 @@ impl RingBody {
 
     /// Its outline without the bore: no part of the manipulator or of a magnet is assumed to fit into it.
     pub(crate) fn outline(&self) -> Outline {
-        Outline::cylinder(0.0, self.ring.outer_radius, self.ring.length)
+        match self.ring.shape {
+            RigidShape::Tube => Outline::cylinder(0.0, self.ring.outer_radius, self.ring.length),
+            RigidShape::Ball => Outline::Sphere(self.ring.outer_radius),
+        }
     }
 
     /// Pose of its centre for a node at the pose `node`.

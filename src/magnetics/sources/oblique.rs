@@ -89,6 +89,22 @@ impl ObliqueCylinder {
         })
     }
 
+    /// The scalar potential `psi` (T m) at a point (m) outside the material: `B` is minus its gradient.
+    ///
+    /// With the Newtonian potential `V` of the volume it is `-b_i d_i V`, of which [`AxialSource`] has the part along the axis, and
+    /// `V_rho / rho` follows from the shear, see [`crate::magnetics::transverse`].
+    ///
+    /// # Errors
+    /// As the field.
+    pub(in crate::magnetics) fn potential(&self, point: &Vector3<f64>) -> Result<f64, Error> {
+        let (along, _) = self.unit.potential_field(point)?;
+        let (at, shear, axial) = self.unit.with_shear::<FIELD>(point)?;
+        let slope = 0.5 * (at.rho * at.rho * shear - axial.axial);
+
+        let b = &self.remanence;
+        Ok(b.z * along - (b.x * at.x + b.y * at.y) * slope)
+    }
+
     /// Nodes on the surface with the magnetic charge of each, A m: `M . n dA`.
     fn charges(&self, (along, turns): (usize, usize), mut put: impl FnMut(Vector3<f64>, f64)) {
         let (inner, outer, half) =

@@ -76,6 +76,12 @@ impl Sphere {
         Ok(())
     }
 
+    /// The scalar potential (T m) at a point (m) outside: `B` is minus its gradient.
+    pub(in crate::magnetics) fn potential(&self, point: &Vector3<f64>) -> f64 {
+        VACUUM_PERMEABILITY / (4.0 * core::f64::consts::PI) * self.dipole.moment().dot(point)
+            / point.norm().powi(3)
+    }
+
     fn contains(&self, point: &Vector3<f64>) -> bool {
         point.norm_squared() < self.radius * self.radius
     }

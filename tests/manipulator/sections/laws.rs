@@ -24,7 +24,7 @@ fn solved(text: &str) -> Outputs {
 
 /// Solves random devices and what `change` makes of them, and compares the tips with what `expected` says.
 fn compare(what: &str, change: impl Fn(&Device, &mut StdRng) -> (Device, Pose, bool)) {
-    for level in ["none"] {
+    for level in ["none", "rings"] {
         for seed in 0..DEVICES {
             println!("{what}, level {level}, seed {seed}");
             let mut random = StdRng::seed_from_u64(seed);

@@ -12,9 +12,6 @@ use crate::tolerance::{SECTIONS_ANGLE, SECTIONS_LENGTH, SECTIONS_MARGIN, SECTION
 /// Number of cases in the table.
 const CASES: usize = 17;
 
-/// Those whose external magnets, or whose mutual interaction, are not known yet.
-const LATER: [&str; 3] = ["across_mutual", "ball_tip_sphere", "two_magnets_cuboid"];
-
 /// As finely resolved as the default settings allow.
 const FINE: &str = "[model]\ntolerance_position_mm = 1e-6\ntolerance_angle_deg = 1e-6\ntolerance_relative = 0.0\n\
                     time_budget_s = 60.0\n";
@@ -72,9 +69,6 @@ fn every_equilibrium_of_sections_is_met() {
     let cases = cases();
     for case in &cases {
         let name = case["id"].as_str().expect("a name");
-        if LATER.contains(&name) {
-            continue;
-        }
         let text = case["toml"].as_str().expect("a scene").replace("[model]\n", FINE);
         let scene = Scene::parse(&text, name).expect("the scene is allowed");
         let mut manipulator = scene.manipulator(2).expect("the device can be made");

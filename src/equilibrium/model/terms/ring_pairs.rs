@@ -9,7 +9,7 @@ use super::super::span_quadrature::MULTIPOLE_SHARE;
 use super::pair::PairLoad;
 use crate::geometry::Pose;
 use crate::magnetics::{FieldAccuracy, PairRule, depth};
-use crate::rod::Order;
+use crate::rod::{Load, Order};
 
 /// All pairs of interacting rings.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +50,10 @@ impl<'a> RingPairs<'a> {
         if overlap(first, nodes[0], second, nodes[1]) > 0.0 {
             return None;
         }
+        let between = nodes[1].position - nodes[0].position;
+        if first.magnetisation == 0.0 || second.magnetisation == 0.0 {
+            return Some(PairLoad::reciprocal(&Load::zero(), between));
+        }
         let source = RingField::new(first, nodes[0]);
         let load = match self.rules.between(pair[0], pair[1]) {
             PairRule::Axis(rule, distance) => {
@@ -58,11 +62,14 @@ impl<'a> RingPairs<'a> {
                 let accuracy = FieldAccuracy::far(ratio * ratio, allowed).unwrap_or(FieldAccuracy::Exact);
                 source.on_axis(second, nodes[1], rule, accuracy, order)?
             }
-            PairRule::Faces(rules) => source.on_faces(second, nodes[1], rules, order)?,
+            PairRule::Faces(faces) => source.on_surface(second, nodes[1], (faces, None), order)?,
+            PairRule::Surface(faces, wall) => {
+                source.on_surface(second, nodes[1], (faces, Some(wall)), order)?
+            }
         };
         // The energy depends on the relative pose alone, so that forces and torques of the pair balance up to rounding.
         let load = load.in_axes(&source.axes().transpose());
-        Some(PairLoad::reciprocal(&load, nodes[1].position - nodes[0].position))
+        Some(PairLoad::reciprocal(&load, between))
     }
 }
 
