@@ -86,3 +86,22 @@ fn every_equilibrium_of_sections_is_met() {
     println!("tips over the length, worst first: {worst:?}");
     assert_eq!(cases.len(), CASES);
 }
+
+/// Random devices with magnets in all directions against `tests/bench/section_devices.py`, by shooting and surface charges.
+#[test]
+fn random_devices_bend_as_shooting_says() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bench/section_devices.json");
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let file: Value = serde_json::from_str(&text).expect("the table is JSON");
+    let devices = file.as_array().expect("a list");
+    assert!(devices.len() > 5, "only {} devices", devices.len());
+    for device in devices {
+        let scene = device["toml"].as_str().expect("a scene").replace("[model]\n", FINE);
+        let scene = Scene::parse(&scene, "random").expect("the scene is allowed");
+        let mut manipulator = scene.manipulator(2).expect("the device can be made");
+        let outputs = manipulator.solve(&scene.inputs).expect("finite inputs");
+        let length = device["length_m"].as_f64().expect("a length");
+        let apart = (outputs.tip.position - vector(&device["tip_position_m"])).norm() / length;
+        assert!(apart <= SECTIONS_LENGTH, "{}: {apart:e} of the length", device["id"]);
+    }
+}
