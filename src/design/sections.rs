@@ -8,6 +8,9 @@ use super::quantities as of;
 use super::section::Stiffness;
 use crate::error::Quantity;
 
+/// Most components of a quantity of a section: those of a vector.
+const MOST_COMPONENTS: usize = 3;
+
 /// A device made of sections, proximal to distal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sections {
@@ -203,7 +206,7 @@ impl Section {
     /// The quantities that this section has, and in how many numbers.
     pub fn quantities(mut self) -> impl Iterator<Item = (&'static Quantity, usize)> {
         let count = move |(quantity, entry): Entry| {
-            (quantity, (0..).take_while(|n| entry(&mut self, *n).is_some()).count())
+            (quantity, (0..MOST_COMPONENTS).take_while(|n| entry(&mut self, *n).is_some()).count())
         };
         Self::ENTRIES.into_iter().map(count).filter(|(_, count)| *count > 0)
     }

@@ -206,6 +206,7 @@ pub struct Cylinder {
 
 /// Specification of any type of device.
 #[derive(Debug, Clone, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one of a device")]
 pub enum Specification {
     /// Rings and helices.
     Segmented(Segmented),

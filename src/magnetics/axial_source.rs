@@ -333,7 +333,8 @@ impl AxialSource {
         if z.abs() >= self.half || rho > self.outer || rho < self.inner {
             return 0.0;
         }
-        if rho == self.outer || (rho == self.inner && self.inner > 0.0) { 0.5 } else { 1.0 }
+        let is_on = |radius: f64| rho.to_bits() == radius.to_bits();
+        if is_on(self.outer) || (self.inner > 0.0 && is_on(self.inner)) { 0.5 } else { 1.0 }
     }
 
     #[inline]

@@ -135,12 +135,12 @@ impl Corners {
         numbers: impl Fn(&Edge, f64, f64) -> [f64; COUNT],
     ) -> [f64; COUNT] {
         let mut sums = [0.0; COUNT];
-        for i in 0..2 {
-            for j in 0..2 {
+        for (i, first) in SIGN.iter().enumerate() {
+            for (j, second) in SIGN.iter().enumerate() {
                 let [x, y] = [self.from[OTHERS[axis][0]][i], self.from[OTHERS[axis][1]][j]];
                 let each = numbers(&self.edge(axis, [i, j]), x, y);
                 for (sum, number) in sums.iter_mut().zip(each) {
-                    *sum += SIGN[i] * SIGN[j] * number;
+                    *sum += first * second * number;
                 }
             }
         }
@@ -149,7 +149,7 @@ impl Corners {
 
     /// Sum over the corners of their signs times a number of the corner, by its bits.
     #[inline]
-    fn of_corners(&self, number: impl Fn(usize) -> f64) -> f64 {
+    fn of_corners(number: impl Fn(usize) -> f64) -> f64 {
         let sign = |corner: usize| SIGN[corner & 1] * SIGN[corner >> 1 & 1] * SIGN[corner >> 2];
         (0..8).map(|corner| sign(corner) * number(corner)).sum::<f64>() / (4.0 * PI)
     }
@@ -158,9 +158,9 @@ impl Corners {
     pub(super) fn second(&self) -> Second {
         let face = |axis: usize| {
             let mut sum = 0.0;
-            for side in 0..2 {
-                for beside in 0..2 {
-                    sum -= SIGN[side] * SIGN[beside] * self.angle(axis, side, beside);
+            for (side, first) in SIGN.iter().enumerate() {
+                for (beside, second) in SIGN.iter().enumerate() {
+                    sum -= first * second * self.angle(axis, side, beside);
                 }
             }
             sum / (4.0 * PI)
@@ -174,7 +174,7 @@ impl Corners {
         // Of the edges along each axis, the derivatives along the two others.
         let pairs = [0, 1, 2].map(|axis| self.of_edges(axis, |edge, x, y| [x * edge.slope, y * edge.slope]));
         let [[yyz, yzz], [xzz, xxz], [xxy, xyy]] = pairs;
-        let xyz = -self.of_corners(|corner| 1.0 / self.distance[corner]);
+        let xyz = -Self::of_corners(|corner| 1.0 / self.distance[corner]);
         [-xyy - xzz, xxy, xxz, xyy, xyz, xzz, -xxy - yzz, yyz, yzz, -xxz - yyz]
     }
 
@@ -189,7 +189,7 @@ impl Corners {
         });
         let [[yyyz, yyzz, yzzz], [xzzz, xxzz, xxxz], [xxxy, xxyy, xyyy]] = triples;
         let of_corners = |axis: usize| {
-            self.of_corners(|corner| self.from[axis][corner >> axis & 1] / self.distance[corner].powi(3))
+            Self::of_corners(|corner| self.from[axis][corner >> axis & 1] / self.distance[corner].powi(3))
         };
         let [xxyz, xyyz, xyzz] = [0, 1, 2].map(of_corners);
         [

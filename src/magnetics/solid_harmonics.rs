@@ -165,14 +165,12 @@ impl Harmonics {
     /// The harmonic of degree `n` and order `m + shift - back`, which may be negative.
     #[inline]
     fn shifted(&self, n: usize, m: usize, shift: usize, back: usize) -> Complex<f64> {
-        match (m + shift).checked_sub(back) {
-            Some(order) => self.0[number(n, order)],
-            None => {
-                let order = back - m - shift;
-                let mirrored = self.0[number(n, order)].conj();
-                if order.is_multiple_of(2) { mirrored } else { -mirrored }
-            }
+        if let Some(order) = (m + shift).checked_sub(back) {
+            return self.0[number(n, order)];
         }
+        let order = back - m - shift;
+        let mirrored = self.0[number(n, order)].conj();
+        if order.is_multiple_of(2) { mirrored } else { -mirrored }
     }
 }
 

@@ -4,8 +4,8 @@ use mcm::constants::VACUUM_PERMEABILITY;
 use mcm::geometry::Pose;
 use mcm::magnetics::{DirectedMagnet, FaceRule, ObliqueCylinder, Source, WallRule};
 use nalgebra::Vector3;
+use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rand::{RngExt, SeedableRng};
 
 use crate::given::direction;
 use crate::tolerance::{SLOPE_DIFFERENCE, assert_close};

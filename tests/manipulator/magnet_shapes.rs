@@ -148,12 +148,11 @@ fn every_shape_at_every_level_is_a_lattice_of_dipoles() {
         for (text, half) in &shapes {
             let own = scene(level, &format!("{text}\n{DIRECTION}\nremanence_t = 1.3"));
             let whole = own.sources.list()[0].clone();
-            let replaced: Source = match half {
-                Some((half, round)) => lattice(*half, *round, remanence, whole).into(),
-                None => {
-                    let dipole = Dipole::new(remanence * (4.0 / 3.0 * PI * 12e-3_f64.powi(3) / (4e-7 * PI)));
-                    Lattice { dipoles: vec![(Vector3::zeros(), dipole.unwrap())], whole }.into()
-                }
+            let replaced: Source = if let Some((half, round)) = half {
+                lattice(*half, *round, remanence, whole).into()
+            } else {
+                let dipole = Dipole::new(remanence * (4.0 / 3.0 * PI * 12e-3_f64.powi(3) / (4e-7 * PI)));
+                Lattice { dipoles: vec![(Vector3::zeros(), dipole.unwrap())], whole }.into()
             };
             let other = Scene { sources: Sources::new(vec![replaced]).unwrap(), ..own.clone() };
             let (one, two) = (solve(&own), solve(&other));
@@ -232,13 +231,12 @@ fn a_grade_is_a_remanence_with_its_deviation() {
 
     // A deviation that the scene states itself holds, and what is written can be read again.
     let own = format!("{text}\n[uncertainty]\n\"magnet[1].remanence_t\" = 0.02");
-    assert!(SceneFile::parse(&own, "test").unwrap().uncertainty().unwrap().deviations[0] == 0.02);
+    let stated = SceneFile::parse(&own, "test").unwrap().uncertainty().unwrap().deviations[0];
+    assert!((stated - 0.02).abs() < 1e-15, "{stated}");
     let written = file.to_toml().unwrap();
     assert_eq!(SceneFile::parse(&written, "written").unwrap(), file);
-    assert!(
-        (file.with("magnet[2].size_mm[3]", 12.0).unwrap().number("magnet[2].size_mm[3]").unwrap() - 12.0)
-            == 0.0
-    );
+    let longer = file.with("magnet[2].size_mm[3]", 12.0).unwrap();
+    assert!((longer.number("magnet[2].size_mm[3]").unwrap() - 12.0).abs() < 1e-12);
 }
 
 #[test]

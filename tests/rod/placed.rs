@@ -19,7 +19,7 @@ const SECOND_STEP: f64 = 3e-4;
 fn element() -> Element {
     let design = Design::new(Specification::paper(1)).expect("the paper's design is allowed");
     let spans = &design.segments()[0].spans;
-    let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece::whole(span)).collect();
+    let pieces: Vec<Piece<'_>> = spans.iter().map(Piece::whole).collect();
     Element::new(0.002, &pieces, &Resolution { degree: 3, nearest: None, bending_stop: true, fine: false })
 }
 

@@ -51,7 +51,7 @@ fn by_cells(span: &Span, power: i32) -> (f64, Vector2<f64>, Matrix2<f64>) {
 #[test]
 fn the_stations_stand_for_all_of_the_material() {
     let spans = spans(SpiralKind::Helical);
-    let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece::whole(span)).collect();
+    let pieces: Vec<Piece<'_>> = spans.iter().map(Piece::whole).collect();
     let element = Element::new(0.0, &pieces, &PLAIN);
     let mut start = 0.0;
     for (number, span) in spans.iter().enumerate() {
@@ -85,7 +85,7 @@ fn the_stations_stand_for_all_of_the_material() {
 fn four_points_carry_the_moments() {
     for kind in [SpiralKind::Helical, SpiralKind::Axisymmetric] {
         let spans = spans(kind);
-        let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece::whole(span)).collect();
+        let pieces: Vec<Piece<'_>> = spans.iter().map(Piece::whole).collect();
         for station in &Element::new(0.0, &pieces, &PLAIN).stations {
             let (moments, points) = (&station.material.moments, station.material.moments.points());
             let quarter = moments.volume / 4.0;
@@ -129,7 +129,7 @@ fn an_even_spiral_has_the_volume_of_the_turning_one() {
 fn the_samples_for_a_ring_stand_for_all_of_the_material() {
     const RADIUS: f64 = 2e-3;
     let spans = spans(SpiralKind::Helical);
-    let pieces: Vec<Piece<'_>> = spans.iter().map(|span| Piece::whole(span)).collect();
+    let pieces: Vec<Piece<'_>> = spans.iter().map(Piece::whole).collect();
     let cells = spans.iter().map(|span| by_cells(span, 0));
     let (volume, first) = cells.fold((0.0, Vector2::zeros()), |sum, own| (sum.0 + own.0, sum.1 + own.1));
     let mut worst = 0.0_f64;

@@ -65,7 +65,7 @@ const OF_SEGMENTS: Access = Access::Real {
 const OF_RINGS: Access = Access::Real {
     get: |values, index| listed(values, RingMagnet::QUANTITIES[index.item], index.component),
     set: |values, index, value| {
-        set_listed(values, RingMagnet::QUANTITIES[index.item], index.component, value)
+        set_listed(values, RingMagnet::QUANTITIES[index.item], index.component, value);
     },
 };
 

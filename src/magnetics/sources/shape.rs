@@ -80,7 +80,7 @@ impl ShapedMagnet {
         }
         let direction = Vector3::from(self.direction);
         let length = direction.norm();
-        if !((length - 1.0).abs() <= UNIT) {
+        if length.is_nan() || (length - 1.0).abs() > UNIT {
             return Err(Error::range(
                 "length of the magnet's direction",
                 length,

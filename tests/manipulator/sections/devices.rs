@@ -13,7 +13,7 @@ pub(super) struct Section {
     pub(super) length: f64,
     pub(super) outer: [f64; 2],
     pub(super) inner: f64,
-    /// Young's modulus, MPa; `None`: rigid.
+    /// Young's modulus in megapascals; `None`: rigid.
     pub(super) modulus: Option<f64>,
     pub(super) remanence: f64,
     pub(super) direction: Vector3<f64>,
@@ -171,7 +171,11 @@ impl Section {
                 u.x, u.y, u.z
             )
         });
-        let outer = if start == end { format!("{start:e}") } else { format!("[{start:e}, {end:e}]") };
+        let outer = if start.to_bits() == end.to_bits() {
+            format!("{start:e}")
+        } else {
+            format!("[{start:e}, {end:e}]")
+        };
         format!(
             "[[design.section]]\nlength_mm = {length:e}\nouter_radius_mm = {outer}\ninner_radius_mm = {inner:e}\n{body}\
              remanence_t = {remanence:e}\ndirection = [{:e}, {:e}, {:e}]\n",

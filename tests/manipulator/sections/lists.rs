@@ -33,8 +33,9 @@ fn a_list_of_equal_numbers_is_that_number_bit_for_bit() {
         let number = |value: f64, count: usize| {
             if lists { format!("{:?}", vec![value; count]) } else { format!("{value:?}") }
         };
-        let rows = |keys: &[(&str, f64)], count: usize| -> String {
-            keys.iter().map(|(key, value)| format!("{key} = {}\n", number(*value, count))).collect()
+        let rows = |keys: &[(&str, f64)], count: usize| {
+            let rows = keys.iter().map(|(key, value)| format!("{key} = {}", number(*value, count)));
+            rows.collect::<Vec<_>>().join("\n") + "\n"
         };
         format!(
             "spiral_start_deg = {}\n[design.helix]\n{}[design.ring]\n{}",

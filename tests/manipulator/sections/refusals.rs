@@ -25,6 +25,7 @@ fn tube(lines: &[&str]) -> String {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn refusals_name_section_value_and_range() {
     let two = "design.section[2]";
     for (lines, expected) in [
