@@ -3,9 +3,10 @@
     fmu/venv tests/bench/requirements.txt
     .venv/bin/python tests/bench/magnet_field.py --out tests/magnetics/magnets.csv
 
-The field of a uniform remanence b is b_j d_i d_j V, and b more inside, with the Newtonian potential V of the body over 4 pi.
-The second derivatives of V are the textbook's: of a cuboid logarithms and arc tangents of its corners (Yang, Superconductor Science and
-Technology 3 (1990), 591), of a cylinder Legendre's integrals. Further derivatives are differences with 160 digits.
+The field of a uniform remanence b is b_j d_i d_j V, and b more inside, with the Newtonian potential V of the body over
+4 pi. The second derivatives of V are the textbook's: of a cuboid logarithms and arc tangents of its corners (Yang,
+Superconductor Science and Technology 3 (1990), 591), of a cylinder Legendre's integrals. Further derivatives are
+differences with 160 digits.
 """
 
 import argparse
@@ -126,14 +127,23 @@ def derivative(shape, size, at, indices):
     if shape == "cuboid":
         place = {(0, 0): 0, (0, 1): 1, (0, 2): 2, (1, 1): 3, (1, 2): 4, (2, 2): 5}[indices[-2:]]
         rest = indices[:-2]
-        function = lambda *c: of_cuboid(size, *c)[place]
+
+        def function(*c):
+            return of_cuboid(size, *c)[place]
+
     elif indices[-1] < 2:
         # V_x = x g and V_y = y g.
         rest, first = indices[:-1], indices[-1]
-        function = lambda *c: c[first] * of_cylinder(size, *c)[0]
+
+        def function(*c):
+            return c[first] * of_cylinder(size, *c)[0]
+
     else:
         rest, place = indices[:-2], indices[-2] + 1
-        function = lambda *c: of_cylinder(size, *c)[place]
+
+        def function(*c):
+            return of_cylinder(size, *c)[place]
+
     order = tuple(rest.count(axis) for axis in range(3))
     if not any(order):
         return function(*at)
@@ -171,6 +181,7 @@ def jet(shape, size, b, at):
 
 
 def is_inside(shape, size, at):
+    """Whether a point is inside a body of this shape."""
     if shape == "cuboid":
         return all(abs(c) < mpf(edge) / 2 for c, edge in zip(at, size, strict=True))
     return size[0] < mpmath.sqrt(at[0] ** 2 + at[1] ** 2) < size[1] and abs(at[2]) < mpf(size[2]) / 2
@@ -187,10 +198,17 @@ def of_magpylib(shape, size, b, at):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    """Write the table."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--out", type=Path, default=Path("tests/magnetics/magnets.csv"))
     out = parser.parse_args().out
-    names = ["".join("xyz"[i] for i in c) for r in (2, 3) for c in itertools.combinations_with_replacement(range(3), r)]
+    names = [
+        "".join("xyz"[i] for i in c)
+        for r in (2, 3)
+        for c in itertools.combinations_with_replacement(range(3), r)
+    ]
     rng, worst = random.Random(7), {}
     with out.open("w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")

@@ -75,7 +75,8 @@ BAD = {
     "a cuboid without size": '[magnet]\nshape = "cuboid"\nremanence_t = 1.2\n',
     "a cuboid in m": '[magnet]\nshape = "cuboid"\nsize_mm = [0.01, 0.02, 0.01]\nremanence_t = 1.2\n',
     "a cuboid with a radius": '[magnet]\nshape = "cuboid"\nsize_mm = [9, 9, 9]\nradius_mm = 3\nremanence_t = 1.2\n',
-    "a cuboid with cylinders": f'[magnet]\nshape = "cuboid"\nsize_mm = [9, 9, 9]\nremanence_t = 1\ncylinders = [{CYLINDER}]\n',
+    "a cuboid with cylinders": '[magnet]\nshape = "cuboid"\nsize_mm = [9, 9, 9]\nremanence_t = 1\n'
+    f"cylinders = [{CYLINDER}]\n",
     "a shape without remanence": '[magnet]\nshape = "sphere"\nradius_mm = 3\n',
     "a grade beside its remanence": '[magnet]\nshape = "sphere"\nradius_mm = 3\ngrade = "N52"\nremanence_t = 1.4\n',
     "an unknown grade": '[magnet]\nshape = "sphere"\nradius_mm = 3\ngrade = "N53"\n',
