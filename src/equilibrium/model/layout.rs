@@ -2,13 +2,13 @@
 
 use core::ops::Range;
 
-/// A continuous input: a group of columns of a [`super::Jacobian`].
+/// A continuous input: a group of columns of a [`crate::equilibrium::Jacobian`].
 ///
 /// Rotations are about the body's own origin (the magnet's centre, the base position), as rotation vectors in world axes,
 /// rad; see [`crate::geometry::Pose::rotation_rate`] for the components of a quaternion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Input {
-    /// Position of a magnet or coil (counted from 0, in the order of [`super::Inputs::sources`]), m.
+    /// Position of a magnet or coil (counted from 0, in the order of [`crate::equilibrium::Inputs::sources`]), m.
     SourcePosition(usize),
     /// Rotation of a magnet or coil, rad.
     SourceRotation(usize),

@@ -106,7 +106,7 @@ pub struct Settings {
     /// time instead.
     pub iterations: u32,
     /// Processor time that one solve may take, s; default 1. A solve that needs more ends as
-    /// [`super::Outcome::OutOfBudget`]; the last good shape is kept.
+    /// [`crate::equilibrium::Outcome::OutOfBudget`]; the last good shape is kept.
     pub time_budget: f64,
     /// Whether the wrench of magnets and coils on one another is an output; default no. It has no influence on the equilibrium.
     pub mutual_wrenches: bool,

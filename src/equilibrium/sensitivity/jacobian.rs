@@ -16,7 +16,7 @@ use super::output_derivatives::Output;
 /// dy/du = @y/@u + @y/@q dq/du      dq/du = -H^-1 @2U/@q@u      H = @2U/@q2
 /// ```
 ///
-/// with one factorisation of `H` for all inputs. The quadrature of rings (see [`super::Settings::pair_accuracy`]) is
+/// with one factorisation of `H` for all inputs. The quadrature of rings (see [`crate::equilibrium::Settings::pair_accuracy`]) is
 /// treated as fixed. Not included are the stability margin, which would need third derivatives, and the energy, whose
 /// derivative is the load conjugate to the input (for the base pose: its reaction).
 ///
