@@ -5,6 +5,7 @@
 
 use nalgebra::{Matrix3, Matrix3xX, Vector3};
 
+use super::curvature_stiffness::curvature_stiffness;
 use super::element::{Element, Station};
 use super::kinematics::{Configuration, StationState};
 use super::row::{ROTATIONS, Row};
@@ -91,11 +92,6 @@ impl Bending {
             rate_curve: right.tr_mul(&(weighted * right)),
         }
     }
-}
-
-/// Weighted section stiffness against curvature, as a diagonal.
-pub(super) fn curvature_stiffness(stiffness: &Stiffness, weight: f64) -> Vector3<f64> {
-    Vector3::new(stiffness.bending, stiffness.bending, stiffness.torsion) * weight
 }
 
 /// Derivatives of a station's bending and torsion energy with respect to rotation vector and rate, for these stiffnesses of what

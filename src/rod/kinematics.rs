@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bending::curvature_stiffness;
+use super::curvature_stiffness::curvature_stiffness;
 use super::element::Element;
 use super::row::{COMPONENTS, ROTATIONS, Row};
 use crate::geometry::{Pose, RotationVector};

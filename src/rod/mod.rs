@@ -5,6 +5,7 @@ mod bending;
 mod bending_stop;
 mod charges;
 mod cubature;
+mod curvature_stiffness;
 mod element;
 mod element_derivatives;
 mod fine_points;

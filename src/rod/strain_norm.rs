@@ -11,7 +11,8 @@
 
 use nalgebra::DMatrix;
 
-use super::bending::{CurvatureDerivatives, curvature_stiffness};
+use super::bending::CurvatureDerivatives;
+use super::curvature_stiffness::curvature_stiffness;
 use super::element::Element;
 use super::kinematics::Configuration;
 use super::row::ROTATIONS;

@@ -10,7 +10,7 @@ use mcm::manipulator::SceneFile;
 use mcm::{design, equilibrium, magnetics, vessel};
 
 /// Devices that together have every key. Several of their numbers are equal, such as the hardness of helix and shaft.
-const SCENES: [&str; 7] = [
+const SCENES: [&str; 9] = [
     "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0\n\
      [[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0\npoisson = 0.4\nremanence_t = 0.1\n\
      density_kg_m3 = 1000.0\n",
@@ -33,6 +33,12 @@ const SCENES: [&str; 7] = [
      [feed]\nmode = \"insertion\"\n[feed.shaft]\nouter_radius_mm = 0.5\ninner_radius_mm = 0.4\nelastic_modulus_mpa = 1.0\npoisson = 0.45\n",
     "[design]\nkind = \"cylinder\"\nlength_mm = 16.0\nradius_mm = 2.0\ninner_radius_mm = 0.5\nshore_a = 33.0\npoisson = 0.4\n\
      volume_fraction = 0.2\nparticle_remanence_t = 1.0\ndensity_kg_m3 = 1000.0\n",
+    "[[magnet]]\nposition_mm = [0.0, -120.0, 8.0]\nshape = \"cuboid\"\nsize_mm = [9.0, 9.0, 9.0]\ndirection = [0.0, 0.0, 1.0]\n\
+     remanence_t = 1.0\n[[magnet]]\nposition_mm = [0.0, 120.0, 8.0]\nshape = \"cuboid\"\nsize_mm = [9.0, 9.0, 9.0]\n\
+     direction = [0.0, 0.0, 1.0]\nremanence_t = 1.0\n",
+    "[[magnet]]\nposition_mm = [0.0, -120.0, 8.0]\nshape = \"sphere\"\nradius_mm = 9.0\nremanence_t = 1.0\n\
+     [[magnet]]\nposition_mm = [0.0, 120.0, 8.0]\nshape = \"cylinder\"\nradius_mm = 9.0\ninner_radius_mm = 1.0\n\
+     length_mm = 9.0\nremanence_t = 1.0\n",
     "[design]\nkind = \"cylinder\"\nlength_mm = 16.0\nradius_mm = 2.0\nelastic_modulus_mpa = 1.0\npoisson = 0.4\nremanence_t = 0.2\n",
 ];
 

@@ -10,7 +10,7 @@ use toml::{Table, Value};
 const JUST: f64 = 1e-6;
 
 /// Tables that are in the scene while a key of theirs, or of tables inside, is tried; the first that fits counts.
-const SURROUNDINGS: [(&str, &str); 19] = [
+const SURROUNDINGS: [(&str, &str); 25] = [
     ("design.section.shore_a", SOFT),
     ("design.section.bending_stiffness_n_m2", MEASURED),
     ("design.section.torsional_stiffness_n_m2", MEASURED),
@@ -40,6 +40,12 @@ const SURROUNDINGS: [(&str, &str); 19] = [
         "vessel.",
         "[vessel]\n[[vessel.branch]]\nname = \"tube\"\npoints_mm = [[0.0, 0.0, -30.0], [0.0, 0.0, 60.0]]\nradius_mm = 8.0",
     ),
+    ("magnet.size_mm", CUBOID),
+    ("magnet.direction", CUBOID),
+    ("magnet.remanence_t", CUBOID),
+    ("magnet.radius_mm", RING),
+    ("magnet.inner_radius_mm", RING),
+    ("magnet.length_mm", RING),
     (
         "magnet.",
         "[magnet]\n[[magnet.cylinders]]\nradius_mm = 20.0\ninner_radius_mm = 1.0\nlength_mm = 30.0\noffset_mm = 0.0\nremanence_t = 1.0",
@@ -58,6 +64,10 @@ const SURROUNDINGS: [(&str, &str); 19] = [
 const SOFT: &str = "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\nelastic_modulus_mpa = 2.0";
 const MEASURED: &str = "[design]\nkind = \"sections\"\n[[design.section]]\nlength_mm = 4.0\nouter_radius_mm = 0.5\n\
     bending_stiffness_n_m2 = 1e-7\ntorsional_stiffness_n_m2 = 1e-7\naxial_stiffness_n = 1.0";
+
+/// Magnets in one piece.
+const CUBOID: &str = "[magnet]\nshape = \"cuboid\"\nsize_mm = [9.0, 9.0, 9.0]\nremanence_t = 1.0";
+const RING: &str = "[magnet]\nshape = \"cylinder\"\nradius_mm = 9.0\ninner_radius_mm = 1.0\nlength_mm = 9.0\nremanence_t = 1.0";
 
 /// A number of a scene: its schema, and whether it is the entry of a list.
 struct Number<'a> {
@@ -101,7 +111,12 @@ fn scene(path: &str, number: &Number<'_>, value: f64) -> String {
     }
     let value =
         if number.node["type"] == "integer" { Value::Integer(value as i64) } else { Value::Float(value) };
-    let value = if number.in_list { Value::Array(vec![value]) } else { value };
+    let beside = match path {
+        "magnet.direction" => vec![Value::Float(0.0); 2],
+        "magnet.size_mm" => vec![Value::Float(9.0); 2],
+        _ => Vec::new(),
+    };
+    let value = if number.in_list { Value::Array([vec![value], beside].concat()) } else { value };
     match path {
         "design.elastic_modulus_mpa" => drop(here.insert("remanence_t".into(), Value::Float(0.1))),
         "design.remanence_t" => drop(here.insert("elastic_modulus_mpa".into(), Value::Float(1.0))),
