@@ -7,6 +7,7 @@ import csv
 import json
 import re
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions import interaction
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.remote.webdriver import WebDriver
 from selenium.webdriver.support.ui import Select, WebDriverWait
 from test_vessel import SCENE, tube
 
@@ -204,6 +206,17 @@ def test_a_pose_without_an_answer_keeps_the_shape_and_is_left_again(open_page: C
     assert "Load anew" not in page.text("banners")
 
 
+def settled_address(page: Page) -> str:
+    """The address with a state, once it has not changed for much longer than the page waits before it writes it."""
+
+    def settled(browser: WebDriver) -> str | bool:
+        address = browser.current_url
+        time.sleep(3.0)
+        return address if "#" in address and browser.current_url == address else False
+
+    return WebDriverWait(page.browser, PATIENCE).until(settled)
+
+
 def test_keys_move_the_magnet_and_the_link_brings_the_state_back(open_page: Callable[..., Page]) -> None:
     page = open_page()
     page.at_rest()
@@ -213,8 +226,8 @@ def test_keys_move_the_magnet_and_the_link_brings_the_state_back(open_page: Call
     end = page.until(
         "keys", lambda s: abs(s["inputs"]["magnet.position[2]"] + 0.117) < 1e-12 and not s["busy"]
     )
-    WebDriverWait(page.browser, PATIENCE).until(lambda browser: "#" in browser.current_url)
-    link = "#" + page.browser.current_url.partition("#")[2]
+    # The address may still be that of the state before the keys: it follows once nothing has changed for a while.
+    link = "#" + settled_address(page).partition("#")[2]
     again = open_page(more=link)
     state = again.at_rest()
     assert state["inputs"] == end["inputs"]
