@@ -19,7 +19,7 @@ const TAPERED: usize = 12;
 /// Strain per stress resultant along a part.
 #[derive(Debug, Clone)]
 pub(super) enum Compliance {
-    /// The same all along.
+    /// Constant along the part.
     Constant(f64),
     /// The inverse of a stiffness, a polynomial of the fourth degree through these values at five Gauss nodes.
     Tapered([f64; QUARTIC]),

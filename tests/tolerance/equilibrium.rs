@@ -39,7 +39,7 @@ pub(crate) const MIRRORED: f64 = 1e-9;
 /// Closed forms of bent rods, over the length, and their angles in rad.
 pub(crate) const CLOSED_FORM: f64 = 1e-7;
 
-/// The same device written in two ways, m.
+/// Tips of one device that is written in two ways, m.
 pub(crate) const SAME_DEVICE: f64 = 1e-12;
 
 /// Forces between adjacent rings at the default accuracy: the rule of most nodes on the axis leaves 5e-6 there.

@@ -98,5 +98,5 @@ pub(crate) const MAGNET_FIELD: f64 = 1e-12;
 pub(crate) const MAGNET_GRADIENT: f64 = 1e-12;
 pub(crate) const MAGNET_HESSIAN: f64 = 1e-12;
 
-/// The same beside faces and edges, where rounding of a coordinate alone moves them by as much.
+/// Fields of magnets by shape beside faces and edges, where rounding of a coordinate alone moves them by as much.
 pub(crate) const NEAR_MAGNET_EDGE: f64 = 1e-11;

@@ -56,7 +56,7 @@ fn make(dimensions: &[f64], remanence: Vector3<f64>) -> Result<Source, Error> {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ObliqueCylinder {
-    /// The same body with 1 T along its axis.
+    /// A body of these dimensions with 1 T along its axis.
     unit: AxialSource,
     remanence: Vector3<f64>,
     parts: [Part; 1],

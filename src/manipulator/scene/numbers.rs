@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Numbers {
-    /// The same for all.
+    /// One number for all.
     Same(f64),
     /// One for each.
     Each(Vec<f64>),
