@@ -15,8 +15,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Largest deviation of a given vector's length from one.
-    const SLACK: f64 = 1e-3;
+    /// Largest deviation of a given vector's length from one: components rounded to three decimals.
+    pub(crate) const SLACK: f64 = 1e-3;
 
     /// The direction of a vector whose length is one within 1e-3.
     ///

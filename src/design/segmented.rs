@@ -67,6 +67,7 @@ fn spans(chain: &Segmented, index: usize, helix: &Helix, tube: &Tube) -> Result<
         spiral,
         ..Span::plain()
     };
+
     let disc = body(SpanKind::Disc, geometry.height, helix.radius, None);
     let (kind, start) = sector(chain, index);
     let spiral = Spiral {
@@ -79,6 +80,7 @@ fn spans(chain: &Segmented, index: usize, helix: &Helix, tube: &Tube) -> Result<
         boundary_angle: helix.boundary_angle,
         closed_bending: disc.stiffness.bending,
     };
+
     let core = body(SpanKind::Core, geometry.core_length, helix.core_outer_radius, Some(spiral));
     Ok(vec![disc.clone(), core, disc])
 }

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::axisymmetric::{Components, Meridian};
-use super::edge::{Edges, FIELD, GRADIENT, HESSIAN};
+use super::edge::{Edges, FIELD, GRADIENT, HESSIAN, NOTHING, POTENTIAL, SHEAR};
 use super::jet::Jet;
 use super::multipole::{Multipole, TERMS};
 use super::overlap::Outline;
@@ -136,7 +136,7 @@ impl AxialSource {
     /// # Errors
     /// As [`AxialSource::field`].
     pub fn potential_field(&self, point: &Vector3<f64>) -> Result<(f64, Vector3<f64>), Error> {
-        let (at, potential, components) = self.with_potential::<FIELD>(point)?;
+        let (at, potential, components) = self.with_beside::<FIELD, POTENTIAL>(point)?;
         Ok((potential, components.field(&at)))
     }
 
@@ -148,7 +148,7 @@ impl AxialSource {
         &self,
         point: &Vector3<f64>,
     ) -> Result<(f64, Vector3<f64>, Matrix3<f64>), Error> {
-        let (at, potential, components) = self.with_potential::<GRADIENT>(point)?;
+        let (at, potential, components) = self.with_beside::<GRADIENT, POTENTIAL>(point)?;
         Ok((potential, components.field(&at), components.gradient(&at)))
     }
 
@@ -278,8 +278,9 @@ impl AxialSource {
         Ok((Meridian::of(point.x, point.y), self.multipole.sum::<ORDER>(point.z, r2, degree.div_ceil(2))))
     }
 
+    /// The components up to the order `ORDER`, after the number beside them that `BESIDE` names, see [`super::edge`].
     #[inline]
-    fn with_potential<const ORDER: u8>(
+    pub(super) fn with_beside<const ORDER: u8, const BESIDE: u8>(
         &self,
         point: &Vector3<f64>,
     ) -> Result<(Meridian, f64, Components), Error> {
@@ -289,40 +290,20 @@ impl AxialSource {
         let at = Meridian::of(point.x, point.y);
         let r2 = at.rho * at.rho + point.z * point.z;
         if r2 > self.far2 {
-            let potential = self.multipole.potential(point.z, r2);
-            return Ok((at, potential, self.multipole.components::<ORDER>(point.z, r2)));
+            let beside = match BESIDE {
+                POTENTIAL => self.multipole.potential(point.z, r2),
+                SHEAR => self.multipole.shear(point.z, r2),
+                _ => 0.0,
+            };
+            return Ok((at, beside, self.multipole.components::<ORDER>(point.z, r2)));
         }
-        let sum = match &self.edges {
-            SourceEdges::Cylinder(edges) => edges.with_potential::<ORDER>(at.rho, point.z),
-            SourceEdges::Ring(edges) => edges.with_potential::<ORDER>(at.rho, point.z),
-        };
-        match sum {
-            Some((potential, components)) => Ok((at, potential, components)),
-            None => Err(Error::OnEdge { x: point.x, y: point.y, z: point.z }),
-        }
-    }
 
-    /// The components, and the shear (T/m2) that magnetisation across the axis needs, see [`super::transverse`].
-    #[inline]
-    pub(super) fn with_shear<const ORDER: u8>(
-        &self,
-        point: &Vector3<f64>,
-    ) -> Result<(Meridian, f64, Components), Error> {
-        if !point.iter().all(|coordinate| coordinate.abs() <= FARTHEST) {
-            return Err(refused(point));
-        }
-        let at = Meridian::of(point.x, point.y);
-        let r2 = at.rho * at.rho + point.z * point.z;
-        if r2 > self.far2 {
-            let components = self.multipole.components::<ORDER>(point.z, r2);
-            return Ok((at, self.multipole.shear(point.z, r2), components));
-        }
         let sum = match &self.edges {
-            SourceEdges::Cylinder(edges) => edges.with_shear::<ORDER>(at.rho, point.z),
-            SourceEdges::Ring(edges) => edges.with_shear::<ORDER>(at.rho, point.z),
+            SourceEdges::Cylinder(edges) => edges.sum::<ORDER, BESIDE>(at.rho, point.z),
+            SourceEdges::Ring(edges) => edges.sum::<ORDER, BESIDE>(at.rho, point.z),
         };
         match sum {
-            Some((shear, components)) => Ok((at, shear, components)),
+            Some((beside, components)) => Ok((at, beside, components)),
             None => Err(Error::OnEdge { x: point.x, y: point.y, z: point.z }),
         }
     }
@@ -342,22 +323,8 @@ impl AxialSource {
         &self,
         point: &Vector3<f64>,
     ) -> Result<(Meridian, Components), Error> {
-        if !point.iter().all(|coordinate| coordinate.abs() <= FARTHEST) {
-            return Err(refused(point));
-        }
-        let at = Meridian::of(point.x, point.y);
-        let r2 = at.rho * at.rho + point.z * point.z;
-        if r2 > self.far2 {
-            return Ok((at, self.multipole.components::<ORDER>(point.z, r2)));
-        }
-        let sum = match &self.edges {
-            SourceEdges::Cylinder(edges) => edges.components::<ORDER>(at.rho, point.z),
-            SourceEdges::Ring(edges) => edges.components::<ORDER>(at.rho, point.z),
-        };
-        match sum {
-            Some(components) => Ok((at, components)),
-            None => Err(Error::OnEdge { x: point.x, y: point.y, z: point.z }),
-        }
+        let (at, _, components) = self.with_beside::<ORDER, NOTHING>(point)?;
+        Ok((at, components))
     }
 }
 

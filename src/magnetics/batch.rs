@@ -4,7 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::axial_source::AxialSource;
 use super::axisymmetric::{Components, Meridian};
-use super::edge::{FIELD, GRADIENT, HESSIAN};
+use super::edge::{FIELD, GRADIENT, HESSIAN, SHEAR};
 use super::jet::Jet;
 use super::multipole;
 use super::points::{self, COMPONENTS, Origin, Row, WIDTH};
@@ -132,7 +132,7 @@ impl AxialSource {
         point: &Vector3<f64>,
     ) -> Result<(Meridian, f64, Components), Error> {
         if ACROSS {
-            return self.with_shear::<ORDER>(point);
+            return self.with_beside::<ORDER, SHEAR>(point);
         }
         let (at, components) = self.components::<ORDER>(point)?;
         Ok((at, 0.0, components))

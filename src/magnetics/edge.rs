@@ -32,11 +32,11 @@ pub(super) const GRADIENT: u8 = 1;
 pub(super) const HESSIAN: u8 = 2;
 
 /// What is summed beside the components: nothing.
-const NOTHING: u8 = 0;
-/// What is summed beside the components: the scalar potential.
-const POTENTIAL: u8 = 1;
-/// What is summed beside the components: the shear, which magnetisation across the axis needs.
-const SHEAR: u8 = 2;
+pub(super) const NOTHING: u8 = 0;
+/// What is summed beside the components: the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
+pub(super) const POTENTIAL: u8 = 1;
+/// What is summed beside the components: the shear (T/m2), which magnetisation across the axis needs, see [`Place::shear`].
+pub(super) const SHEAR: u8 = 2;
 
 /// Coaxial circular edges.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,29 +55,16 @@ impl<const N: usize> Edges<N> {
         from_fn(|i| [self.radius[i], self.position[i], self.strength[i]])
     }
 
-    /// Components summed over the edges, at the distance `rho` from the axis and the height `z`; `None` on an edge.
+    /// Components summed over the edges, at the distance `rho` from the axis and the height `z`, after the number beside them that
+    /// `BESIDE` names, 0 for [`NOTHING`]; `None` on an edge.
     ///
     /// `ORDER` is the highest derivative; components of higher ones stay zero.
     #[inline]
-    pub(super) fn components<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<Components> {
-        self.sum::<ORDER, NOTHING>(rho, z).map(|(_, sum)| sum)
-    }
-
-    /// As [`Edges::components`], with the scalar potential `psi` (T m), of which `mu_0 H` is minus the gradient.
-    #[inline]
-    pub(super) fn with_potential<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
-        self.sum::<ORDER, POTENTIAL>(rho, z)
-    }
-
-    /// As [`Edges::components`], with the shear (T/m2), see [`Place::shear`].
-    #[inline]
-    pub(super) fn with_shear<const ORDER: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
-        self.sum::<ORDER, SHEAR>(rho, z)
-    }
-
-    /// The number that `BESIDE` names, and the components.
-    #[inline]
-    fn sum<const ORDER: u8, const BESIDE: u8>(&self, rho: f64, z: f64) -> Option<(f64, Components)> {
+    pub(super) fn sum<const ORDER: u8, const BESIDE: u8>(
+        &self,
+        rho: f64,
+        z: f64,
+    ) -> Option<(f64, Components)> {
         let place = Place::new(Lanes(self.radius), z - Lanes(self.position), Lanes::all(rho));
         if place.is_on_edge() {
             return None;

@@ -145,6 +145,7 @@ fn with_shear<const ORDER: u8>(
         }
         Origin::Edges { edges, .. } => {
             *out = [[0.0; WIDTH]; COMPONENTS];
+
             let (mut within, mut wall) = (Lanes::all(0.0), Lanes::all(0.0));
             let mut excess = Lanes::all(f64::MAX);
             for [radius, position, strength] in *edges {
@@ -155,6 +156,8 @@ fn with_shear<const ORDER: u8>(
                 wall = wall + *strength * place.wall();
                 accumulate::<ORDER>(&parts, &[*strength; WIDTH], out);
             }
+
+            // Over all edges the walls' part is exactly zero above and below the body: it is added up before it is divided.
             let rho4 = Lanes(*rho).squared().squared().max(Lanes::all(f64::MIN_POSITIVE));
             *shear = (within - wall / rho4).0;
             excess.0.iter().all(|excess| *excess >= 0.0)

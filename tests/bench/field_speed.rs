@@ -96,6 +96,7 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
         |p| dipole.field(p).expect("apart"),
         |p| dipole.field_gradient(p).expect("apart"),
     );
+
     for degree in [1, 3, 5, 9, 17] {
         model(
             [distance, &format!("multipoles to {degree}")],
@@ -104,6 +105,7 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
             |p| ring.multipole_field_gradient(p, degree).expect("apart"),
         );
     }
+
     let rows: Vec<reference::Row<12>> = reference::table("ring_field_dev.csv");
     let expected = |row: &reference::Row<12>| {
         (Vector3::from_row_slice(&row.values[..3]), Matrix3::from_row_slice(&row.values[3..]))
@@ -115,6 +117,7 @@ fn models(distance: &str, points: &[Vector3<f64>]) {
         let found = ring.field_gradient(&row.point).expect("no edge").1;
         (found - expected(row).1).norm() / expected(row).1.norm()
     }));
+
     let times = [fastest(points, |p| ring.field(p)), fastest(points, |p| ring.field_gradient(p))];
     row([distance, "exact"], times, [of_field(&|p| ring.field(p).expect("no edge")), gradient]);
     let times = [fastest(points, peer::ring), f64::NAN];

@@ -200,6 +200,7 @@ impl Inputs {
             widening,
             softening,
         } = self;
+
         let named = [
             ("uniform field (T)", uniform_field.as_slice()),
             ("field gradient (T/m)", field_gradient),
@@ -215,6 +216,8 @@ impl Inputs {
             ("widening of the lumen (m)", std::slice::from_ref(widening)),
             ("softening of the wall", std::slice::from_ref(softening)),
         ];
+
+        // Sources come first, in the order of their numbers.
         let sources = sources.iter().flat_map(|source| {
             [
                 ("magnet or coil position (m)", source.pose.position.as_slice()),

@@ -43,6 +43,7 @@ impl PairQuadrature {
         for (i, first) in chain.rings.iter().enumerate() {
             let from = first.centre(&nodes[first.node]);
             for (j, second) in chain.rings.iter().enumerate().skip(i + 1) {
+                // Bodies that are welded to one another do not act on each other; their slot stays.
                 if first.node == second.node {
                     chosen.next();
                     continue;
@@ -58,6 +59,7 @@ impl PairQuadrature {
                 }
             }
         }
+
         for (element, levels) in self.spans.chunks_exact_mut(chain.rings.len().max(1)).enumerate() {
             for (slot, body) in levels.iter_mut().zip(&chain.rings) {
                 let level = chain.span_quadratures.level(element, body, nodes);

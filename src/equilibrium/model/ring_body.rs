@@ -34,6 +34,8 @@ impl RingBody {
             RigidShape::Tube => source.moment(),
             RigidShape::Ball => ring.moment(),
         };
+
+        // A ring magnetised along its axis has the field of its source, which costs less.
         let remanence = ring.direction.vector() * ring.remanence;
         let directed = match ring.shape {
             _ if ring.remanence == 0.0 => None,
@@ -44,6 +46,7 @@ impl RingBody {
                 Some(DirectedMagnet::cylinder(radii, ring.length, remanence)?)
             }
         };
+
         Ok(Self {
             ring: *ring,
             node,

@@ -120,6 +120,8 @@ impl SpanQuadratures {
             if body.ring.remanence == 0.0 {
                 return None;
             }
+
+            // Elements that are alike, with rings at like places, share their samples.
             let geometry = source_geometry(elements, element, (body, rings), settings)?;
             let same =
                 |own: &SpanQuadrature| own.geometry == geometry && pieces[own.element] == pieces[element];
@@ -134,6 +136,7 @@ impl SpanQuadratures {
             }))
         };
         let places = (0..elements.len()).map(|k| rings.iter().map(|body| place(k, body)).collect()).collect();
+
         let mut arc_length = vec![0.0];
         for element in elements {
             arc_length.push(arc_length[arc_length.len() - 1] + element.offset + element.length);

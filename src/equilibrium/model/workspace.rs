@@ -86,6 +86,7 @@ impl Workspace {
         let count = chain.elements.len();
         let size = 6 * count;
         let columns = if settings.interaction.acts_on_spans() { size } else { 0 };
+
         Self {
             configurations: chain.elements.iter().map(Configuration::straight).collect(),
             nodes: vec![Pose::identity(); count + 1],

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::geometry::Pose;
 use crate::magnetics::axial_source::AxialSource;
 use crate::magnetics::axisymmetric::Meridian;
-use crate::magnetics::edge::{FIELD, GRADIENT, HESSIAN};
+use crate::magnetics::edge::{FIELD, GRADIENT, HESSIAN, SHEAR};
 use crate::magnetics::jet::Jet;
 use crate::magnetics::quantities::{BORE, DIRECTED_REMANENCE, HEIGHT, RADIUS};
 use crate::magnetics::shape_derivatives::AxisymmetricDerivatives;
@@ -98,7 +98,7 @@ impl ObliqueCylinder {
     /// As the field.
     pub(in crate::magnetics) fn potential(&self, point: &Vector3<f64>) -> Result<f64, Error> {
         let (along, _) = self.unit.potential_field(point)?;
-        let (at, shear, axial) = self.unit.with_shear::<FIELD>(point)?;
+        let (at, shear, axial) = self.unit.with_beside::<FIELD, SHEAR>(point)?;
         let slope = 0.5 * (at.rho * at.rho * shear - axial.axial);
 
         let b = &self.remanence;

@@ -5,11 +5,9 @@ use core::fmt;
 use nalgebra::Vector3;
 
 use super::source::Source;
+use crate::design::Direction;
 use crate::error::{Error, Quantity};
 use crate::magnetics::quantities::{DIRECTED_REMANENCE, DIRECTION};
-
-/// How far the length of a direction may be from 1: components rounded to three decimals.
-const UNIT: f64 = 1e-3;
 
 /// A shape that a magnet may have.
 pub struct Shape {
@@ -80,7 +78,7 @@ impl ShapedMagnet {
         }
         let direction = Vector3::from(self.direction);
         let length = direction.norm();
-        if length.is_nan() || (length - 1.0).abs() > UNIT {
+        if length.is_nan() || (length - 1.0).abs() > Direction::SLACK {
             return Err(Error::range(
                 "length of the magnet's direction",
                 length,

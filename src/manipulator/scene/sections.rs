@@ -232,16 +232,19 @@ impl SectionEntries {
             ("poisson", self.poisson),
             ("bending_stiffness_n_m2", bending_stiffness_n_m2),
         ];
+
         let refuse = |keys: &[(&str, Option<f64>)], why: &str| match keys.iter().find(|own| own.1.is_some()) {
             Some((name, _)) => Err(Error::Unsupported(format!("{} has no meaning {why}", key(name)))),
             None => Ok(()),
         };
+
         if self.rigid || self.shape == ShapeName::Ball {
             let why = if self.rigid { "in a rigid section" } else { "in a ball, which is rigid" };
             refuse(&elastic, why)?;
             refuse(&measured, why)?;
             return Ok(if self.shape == ShapeName::Ball { SectionBody::Ball } else { SectionBody::Rigid });
         }
+
         if let Some(bending) = bending_stiffness_n_m2 {
             refuse(&elastic[..3], "beside bending_stiffness_n_m2: give one or the other")?;
             let required = |(name, value): (&str, Option<f64>)| {
@@ -253,6 +256,7 @@ impl SectionEntries {
             let stiffness = MeasuredStiffness { bending, torsion, axial, shear: self.shear_stiffness_n };
             return Ok(SectionBody::Measured(stiffness));
         }
+
         refuse(&measured, "without bending_stiffness_n_m2")?;
         let modulus = match (shore_a, elastic_modulus_mpa) {
             (Some(hardness), None) => Modulus::ShoreA(hardness),

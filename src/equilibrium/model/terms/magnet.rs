@@ -143,6 +143,8 @@ impl Term for Magnet<'_> {
             Frame::Station(station, _) if station.material.magnetisation != 0.0 => {
                 let points =
                     self.source.as_ref().map_or(&station.points.1[..], |source| source.points(station));
+
+                // The points of a station have equal shares of its moment.
                 let direction = frame.direction().seen_in(&pose.rotation);
                 let whole = direction * (station.material.magnetisation * station.material.moments.volume);
                 let moment = whole / points.len() as f64;
